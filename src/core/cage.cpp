@@ -1,0 +1,171 @@
+// Cages by index arithmetic over segments; the curves themselves are curve.h's.
+#include "core/cage.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+Index Cage::control_count() const {
+  Index count = 0;
+  for (const Points& segment : segments) count += static_cast<Index>(segment.size());
+  return count;
+}
+
+Points Cage::controls(Index segment) const {
+  Points all = segments[segment];
+  all.push_back(vertex(segment + 1));
+  return all;
+}
+
+Index Cage::control_offset(Index segment) const {
+  Index offset = 0;
+  for (Index i = 0; i < segment; ++i) offset += degree(i);
+  return offset;
+}
+
+Cage polygon_cage(std::span<const Complex> vertices) {
+  Cage cage;
+  for (const Complex& z : vertices) cage.segments.push_back({z});
+  return cage;
+}
+
+Points vertices_of(const Cage& cage) {
+  Points vertices;
+  for (const Points& segment : cage.segments) vertices.push_back(segment[0]);
+  return vertices;
+}
+
+VectorXc controls_of(const Cage& cage) {
+  VectorXc all(cage.control_count());
+  Index i = 0;
+  for (const Points& segment : cage.segments)
+    for (const Complex& z : segment) all[i++] = z;
+  return all;
+}
+
+Cage elevated_to(const Cage& cage, const Cage& other) {
+  if (cage.size() != other.size())
+    throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
+                                          " segments and the posed one " +
+                                          std::to_string(other.size()) + "; they must agree");
+  Cage raised;
+  for (Index i = 0; i < cage.size(); ++i) {
+    Points curve = elevated(cage.controls(i), std::max(cage.degree(i), other.degree(i)));
+    curve.pop_back();
+    raised.segments.push_back(std::move(curve));
+  }
+  return raised;
+}
+
+Points outline_of(const Cage& cage, int per_curve) {
+  Points outline;
+  for (Index i = 0; i < cage.size(); ++i) {
+    outline.push_back(cage.vertex(i));
+    if (cage.degree(i) == 1) continue;
+    const Points controls = cage.controls(i);
+    for (int k = 1; k < per_curve; ++k)
+      outline.push_back(bezier_point(controls, static_cast<double>(k) / per_curve));
+  }
+  return outline;
+}
+
+Cage reversed(const Cage& cage) {
+  Cage backwards;
+  for (Index i = cage.size() - 1; i >= 0; --i) {
+    Points controls = cage.controls(i);
+    std::reverse(controls.begin(), controls.end());
+    controls.pop_back();
+    backwards.segments.push_back(std::move(controls));
+  }
+  return backwards;
+}
+
+void insert_vertex(Cage& cage, Index segment, double t) {
+  check(segment >= 0 && segment < cage.size() && t > 0 && t < 1, "insert_vertex: on a segment");
+  SplitCurve halves = split(cage.controls(segment), t);
+  halves.before.pop_back();
+  halves.after.pop_back();
+  cage.segments[segment] = std::move(halves.before);
+  cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
+}
+
+void erase_vertex(Cage& cage, Index vertex) {
+  check(cage.size() > 3 && vertex >= 0 && vertex < cage.size(), "erase_vertex: more than three");
+  const Index before = (vertex + cage.size() - 1) % cage.size();
+  const int degree = std::max(cage.degree(before), cage.degree(vertex));
+  if (degree > 1) {
+    // Parameters in proportion to the two chords, so that a cut made by insert_vertex heals.
+    const Points left = cage.controls(before), right = cage.controls(vertex);
+    const double a = std::abs(left.back() - left.front()), b = std::abs(right.back() - right.front());
+    const double share = a + b > 0 ? std::clamp(a / (a + b), 0.05, 0.95) : 0.5;
+    constexpr int kSamples = 24;
+    Points samples;
+    std::vector<double> parameters;
+    for (int k = 0; k <= 2 * kSamples; ++k) {
+      const bool first = k < kSamples;
+      const double t = static_cast<double>(first ? k : k - kSamples) / kSamples;
+      samples.push_back(bezier_point(first ? left : right, t));
+      parameters.push_back(first ? share * t : share + (1 - share) * t);
+    }
+    Points curve = fitted(samples, parameters, degree);
+    curve.pop_back();
+    cage.segments[before] = std::move(curve);
+  }
+  cage.segments.erase(cage.segments.begin() + vertex);
+}
+
+bool is_straight(const Cage& cage) {
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    const int degree = cage.degree(i);
+    const double tolerance = 1e-12 * (std::abs(controls.front()) + std::abs(controls.back()));
+    for (int m = 1; m < degree; ++m) {
+      const double t = static_cast<double>(m) / degree;
+      const Complex even = (1 - t) * controls.front() + t * controls.back();
+      if (!(std::abs(controls[m] - even) <= tolerance)) return false;
+    }
+  }
+  return true;
+}
+
+std::string point_text(Complex z) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g)", z.real(), z.imag());
+  return text;
+}
+
+void check_rest_cage(const Cage& cage) {
+  if (cage.size() < 3)
+    throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
+                                          " segments; a cage needs at least three");
+  for (Index i = 0; i < cage.size(); ++i)
+    for (const Complex& z : cage.segments[i])
+      if (!is_finite(z))
+        throw Error(ErrorKind::bad_input,
+                    "rest cage segment " + std::to_string(i) + " has a coordinate that is no number");
+  for (Index i = 0; i < cage.size(); ++i)
+    if (cage.vertex(i) == cage.vertex(i + 1))
+      throw Error(ErrorKind::bad_input,
+                  "rest cage edge " + std::to_string(i) + " at " + point_text(cage.vertex(i)) +
+                      " has no length; delete one of its two points",
+                  cage.vertex(i));
+  if (!is_straight(cage))
+    throw Error(ErrorKind::bad_input,
+                "the rest cage has a curved segment; this version bends straight rest cages only "
+                "(the posed cage may be curved)");
+  const Points vertices = vertices_of(cage);
+  if (const auto crossing = self_crossing(vertices))
+    throw Error(ErrorKind::bad_input,
+                "the rest cage crosses itself: edges " + std::to_string(crossing->first) + " and " +
+                    std::to_string(crossing->second) + " meet near " + point_text(crossing->point) +
+                    "; move one of their points",
+                crossing->point);
+  const Box box = box_of(vertices);
+  if (!(std::abs(signed_area(vertices)) > 1e-14 * box.diagonal() * box.diagonal()))
+    throw Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+}
+
+}  // namespace holomorph

@@ -1,0 +1,69 @@
+// The cage: a closed loop of Bezier segments, each with a degree of its own.
+//
+// A polygon is a cage of degree 1 everywhere; there is no second cage type.
+#pragma once
+
+#include <string>
+
+#include "core/curve.h"
+
+namespace holomorph {
+
+/// A closed loop of Bezier segments. Segment i holds its control points without the last one, which
+/// is the first of segment i + 1, so its degree is its length. Value type.
+struct Cage {
+  std::vector<Points> segments;
+
+  bool operator==(const Cage&) const = default;
+
+  Index size() const { return static_cast<Index>(segments.size()); }
+  int degree(Index segment) const { return static_cast<int>(segments[segment].size()); }
+  /// Number of control points, a vertex that two segments share counted once.
+  Index control_count() const;
+  /// The vertex that segment i starts at; i is taken modulo size().
+  Complex vertex(Index i) const { return segments[(i % size() + size()) % size()][0]; }
+  /// All degree(i) + 1 control points of segment i.
+  Points controls(Index segment) const;
+  /// Position of the first control point of segment i in the list of all control points.
+  Index control_offset(Index segment) const;
+};
+
+/// A cage with straight edges.
+Cage polygon_cage(std::span<const Complex> vertices);
+
+/// The segments' end points: the polygon that a cage of degree 1 is.
+Points vertices_of(const Cage& cage);
+
+/// All control points in file order: segment by segment, shared vertices once.
+VectorXc controls_of(const Cage& cage);
+
+/// `cage` with each segment's degree raised to at least that of the same segment of `other`.
+/// Throws Error when the two have different numbers of segments.
+Cage elevated_to(const Cage& cage, const Cage& other);
+
+/// The loop as a polyline: each segment sampled at `per_curve` parameters when curved, at its start
+/// alone when straight.
+Points outline_of(const Cage& cage, int per_curve = 16);
+
+/// The same loop run through backwards, from the same first vertex.
+Cage reversed(const Cage& cage);
+
+/// Cuts segment `segment` at parameter t in (0, 1) by de Casteljau: the curve stays as it is.
+void insert_vertex(Cage& cage, Index segment, double t);
+
+/// Removes vertex `vertex`. Two straight segments become one; curved neighbours are refitted by
+/// least squares with the larger degree. The cage must have more than three segments.
+void erase_vertex(Cage& cage, Index vertex);
+
+/// Whether every segment runs along its chord at constant speed (degree-raised edges do).
+bool is_straight(const Cage& cage);
+
+/// Throws Error unless the cage can be a rest cage: at least three segments, finite, straight,
+/// no edge of zero length, an area, and no crossing with itself. The message names the edges and
+/// the error's `where` is the place.
+void check_rest_cage(const Cage& cage);
+
+/// "(12, 30.5)": how messages write a point.
+std::string point_text(Complex z);
+
+}  // namespace holomorph

@@ -1,0 +1,46 @@
+// Degree-1 Cauchy coordinates of many points at once, and products with them: the array path.
+//
+// Same values as cauchy.h to 1e-14. Away from an edge the coordinates are a power series in
+// Y = 1 / (2w)^2, w the offset from the edge's midpoint in edge lengths, summed without branches
+// over blocks of points so that the compiler vectorises it; points near the edge take cauchy.h's way.
+#pragma once
+
+#include <span>
+
+#include "core/cage.h"
+
+namespace holomorph {
+
+/// A complex matrix as two real ones. Column-major; planar storage is what vectorises.
+template <class T>
+struct PlanarMatrix {
+  using Real = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  Real re, im;
+
+  PlanarMatrix() = default;
+  PlanarMatrix(Index rows, Index cols) : re(rows, cols), im(rows, cols) {}
+  Index rows() const { return re.rows(); }
+  Index cols() const { return re.cols(); }
+  std::complex<T> operator()(Index i, Index j) const { return {re(i, j), im(i, j)}; }
+};
+
+/// Which machine code runs: `automatic` takes AVX2 with FMA when the processor has it.
+enum class Kernel { automatic, portable, avx2 };
+/// Whether this processor can run Kernel::avx2.
+bool has_avx2();
+
+/// Cauchy coordinates (order 0 or 1) of a polygon's vertices at points: points x vertices.
+/// Orientation, boundary limits and identities as in cauchy_coordinates.
+/// Points that are near each other should be neighbours in the list. Cost: about 2 ns per point and
+/// edge with AVX2.
+template <class T>
+PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
+                                    int order = 0, Kernel kernel = Kernel::automatic);
+
+/// out = matrix * factors; out must be matrix.rows() x factors.cols(), factors.rows() the number of
+/// columns. Cost: 8 flops per entry and factor column, one pass over the matrix.
+template <class T>
+void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, PlanarMatrix<T>& out,
+              Kernel kernel = Kernel::automatic);
+
+}  // namespace holomorph

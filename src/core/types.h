@@ -1,0 +1,61 @@
+// The scalar and array types of the whole program.
+//
+// A point of the plane is one Complex: image pixels, origin at the image's lower left, y up.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+namespace holomorph {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using VectorXc = Eigen::VectorXcd;
+using MatrixXc = Eigen::MatrixXcd;
+using Points = std::vector<Complex>;
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr Complex kI{0.0, 1.0};
+
+/// Scalar product of two plane vectors.
+inline double dot(Complex a, Complex b) {
+  return a.real() * b.real() + a.imag() * b.imag();
+}
+/// Signed area of the parallelogram (a, b): positive when b lies counter-clockwise of a.
+inline double cross(Complex a, Complex b) {
+  return a.real() * b.imag() - a.imag() * b.real();
+}
+inline bool is_finite(Complex z) {
+  return std::isfinite(z.real()) && std::isfinite(z.imag());
+}
+
+/// An axis-parallel box; empty until something is included.
+struct Box {
+  double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
+
+  void include(Complex z) {
+    left = std::min(left, z.real());
+    right = std::max(right, z.real());
+    bottom = std::min(bottom, z.imag());
+    top = std::max(top, z.imag());
+  }
+  bool empty() const { return right < left; }
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  Complex center() const { return {0.5 * (left + right), 0.5 * (bottom + top)}; }
+  double diagonal() const { return std::hypot(width(), height()); }
+  bool contains(Complex z) const {
+    return z.real() >= left && z.real() <= right && z.imag() >= bottom && z.imag() <= top;
+  }
+};
+
+/// The smallest box around points.
+template <class Range>
+Box box_of(const Range& points) {
+  Box box;
+  for (const Complex& z : points) box.include(z);
+  return box;
+}
+
+}  // namespace holomorph
