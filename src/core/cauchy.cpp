@@ -135,13 +135,6 @@ double near_limit(int degree) {
   return degree == 1 ? 2.0 : degree <= 3 ? 1.6 : degree <= 6 ? 1.35 : 1.25;
 }
 
-/// Interior angle at a vertex of a counter-clockwise polygon, in (0, 2 pi).
-double interior_angle(Complex before, Complex vertex, Complex after) {
-  const Complex out = after - vertex, in = before - vertex;
-  const double angle = std::atan2(cross(out, in), dot(out, in));
-  return angle > 0 ? angle : angle + 2 * kPi;
-}
-
 double harmonic_number(int n) {
   double sum = 0;
   for (int k = 1; k <= n; ++k) sum += 1.0 / k;
@@ -193,10 +186,8 @@ class RowBuilder {
     for (int m = 0; m < degree_before; ++m)
       row[column(before, m)] -= 1.0 / (turn * static_cast<double>(degree_before - m));
     for (int m = 1; m <= degree; ++m) row[column(vertex, m)] += 1.0 / (turn * static_cast<double>(m));
-    const double ratio = std::norm(cage_.vertex(vertex + 1) - z) / std::norm(cage_.vertex(vertex - 1) - z);
-    const double angle = interior_angle(cage_.vertex(vertex - 1), z, cage_.vertex(vertex + 1));
-    row[column(vertex, 0)] += Complex(harmonic_number(degree_before) - harmonic_number(degree) +
-                                          0.5 * std::log(ratio), 2 * kPi - angle) / turn;
+    row[column(vertex, 0)] += vertex_limit(cage_.vertex(vertex - 1), z, cage_.vertex(vertex + 1)) +
+                              (harmonic_number(degree_before) - harmonic_number(degree)) / turn;
     return row;
   }
 
@@ -263,6 +254,13 @@ VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order
   for (int n = 1; n <= order; ++n) factor = times(factor, static_cast<double>(n) * inverse(b - a));
   for (Complex& moment : moments) moment = times(moment, factor);
   return moments;
+}
+
+Complex vertex_limit(Complex before, Complex vertex, Complex after) {
+  const Complex out = after - vertex, in = before - vertex;
+  double angle = std::atan2(cross(out, in), dot(out, in));
+  if (angle <= 0) angle += 2 * kPi;
+  return Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - angle) / (2 * kPi * kI);
 }
 
 std::array<Complex, 2> linear_edge_coordinates(Complex a, Complex b, Complex z, int order) {

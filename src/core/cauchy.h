@@ -48,4 +48,8 @@ VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order
 /// edge_coordinates of degree 1 and order 0 or 1, without allocation: the start's and the end's.
 std::array<Complex, 2> linear_edge_coordinates(Complex a, Complex b, Complex z, int order);
 
+/// The coordinate of a vertex between two straight edges at that vertex, as the limit from inside a
+/// counter-clockwise cage: (ln|A_{j+1} / A_j| + i (2 pi - alpha_j)) / (2 pi i).
+Complex vertex_limit(Complex before, Complex vertex, Complex after);
+
 }  // namespace holomorph

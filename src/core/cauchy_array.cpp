@@ -1,5 +1,9 @@
-// Blocks of points times edges: the series for the block, the stable formula for what is near.
+// Blocks of points times edges by the kernels; the stable formula for points on the edge itself.
 #include "core/cauchy_array.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
 
 #include "core/cauchy.h"
 #include "core/cauchy_kernel.h"
@@ -10,6 +14,9 @@ namespace {
 
 const kernel::Table& table_of(Kernel choice) {
 #ifdef HOLOMORPH_HAS_AVX2
+  static const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                             __builtin_cpu_supports("avx512vl");
+  if (choice == Kernel::automatic && avx512 && has_avx2()) return kernel::kAvx512;
   if (choice == Kernel::avx2 || (choice == Kernel::automatic && has_avx2())) return kernel::kAvx2;
 #endif
   return kernel::kPortable;
@@ -22,69 +29,87 @@ const auto product_of(const kernel::Table& table, double) { return table.product
 template <class T>
 class BlockFiller {
  public:
-  BlockFiller(std::span<const Complex> polygon, int order, const kernel::Table& table,
+  BlockFiller(std::span<const Complex> polygon, double farthest, int order, const kernel::Table& table,
               PlanarMatrix<T>& out)
-      : polygon_(polygon), order_(order), table_(table), out_(out), sums_re_(kernel::kBlock, polygon.size()),
-        sums_im_(kernel::kBlock, polygon.size()) {
+      : polygon_(polygon), order_(order), table_(table), out_(out) {
     for (size_t e = 0; e < polygon.size(); ++e) {
       const Complex a = polygon[e], side = polygon[(e + 1) % polygon.size()] - a;
       const Complex unit = std::conj(side) / std::norm(side);
-      edges_.push_back({a.real(), a.imag(), unit.real(), unit.imag()});
+      const double rounding = 16 * std::numeric_limits<double>::epsilon() *
+                              (std::abs(a) + std::abs(a + side) + farthest) / std::abs(side);
+      const Complex b = polygon[(e + 1) % polygon.size()];
+      edges_.push_back({a.real(), a.imag(), b.real(), b.imag(), unit.real(), unit.imag(), rounding});
     }
   }
 
   void fill(std::span<const Complex> points, Index first) {
     const Index count = std::min<Index>(kernel::kBlock, static_cast<Index>(points.size()) - first);
+    const auto here = points.subspan(first, count);
+    const Complex center = box_of(here).center();
+    points_.center_x = center.real();
+    points_.center_y = center.imag();
+    points_.radius = 0;
     for (Index i = 0; i < kernel::kBlock; ++i) {
-      const Complex z = points[first + std::min(i, count - 1)];
-      x_[i] = z.real();
-      y_[i] = z.imag();
+      const Complex z = here[std::min(i, count - 1)];
+      points_.x[i] = z.real();
+      points_.y[i] = z.imag();
+      points_.radius = std::max(points_.radius, std::norm(z - center));
     }
-    sums_re_.setZero();
-    sums_im_.setZero();
+    points_.radius = std::sqrt(points_.radius);
+    at_vertex_.fill(false);
+    // A vertex's column is the end half of the edge before it and the start half of the edge after.
     const Index n = static_cast<Index>(polygon_.size());
+    halves_of_edge(n - 1, here, halves_[1]);
     for (Index e = 0; e < n; ++e) {
-      table_.edge_series(edges_[e], x_, y_, order_, halves_);
-      for (Index i = 0; i < count; ++i)
-        if (halves_.w2[i] < kernel::kNear2) set_near(points[first + i], e, i);
-      add(halves_.start_re, halves_.start_im, e);
-      add(halves_.end_re, halves_.end_im, e + 1 == n ? 0 : e + 1);
+      kernel::Halves& current = halves_[e % 2];
+      const kernel::Halves& before = halves_[(e + 1) % 2];
+      halves_of_edge(e, here, current);
+      out_.re.col(e).segment(first, count) = (block(before.end_re, count) + block(current.start_re, count)).template cast<T>();
+      out_.im.col(e).segment(first, count) = (block(before.end_im, count) + block(current.start_im, count)).template cast<T>();
     }
-    for (Index i = 0; i < count; ++i) replace_vertex_row(points[first + i], i);
-    out_.re.middleRows(first, count) = sums_re_.topRows(count).template cast<T>();
-    out_.im.middleRows(first, count) = sums_im_.topRows(count).template cast<T>();
+    for (Index i = 0; i < count; ++i)
+      if (at_vertex_[i]) finish_vertex_row(here[i], first + i);
   }
 
  private:
-  using Sums = Eigen::Matrix<double, kernel::kBlock, Eigen::Dynamic>;
-
-  void add(const double* re, const double* im, Index column) {
-    using Block = Eigen::Map<const Eigen::Matrix<double, kernel::kBlock, 1>>;
-    sums_re_.col(column) += Block(re);
-    sums_im_.col(column) += Block(im);
+  static Eigen::Map<const Eigen::VectorXd> block(const double* values, Index count) {
+    return {values, count};
   }
 
-  void set_near(Complex z, Index e, Index i) {
+  void halves_of_edge(Index e, std::span<const Complex> points, kernel::Halves& halves) {
+    if (!table_.edge_series(edges_[e], points_, order_, halves)) return;
+    for (size_t i = 0; i < points.size(); ++i)
+      if (halves.on_edge[i] != 0) set_on_edge(points[i], e, i, halves);
+  }
+
+  void set_on_edge(Complex z, Index e, size_t i, kernel::Halves& halves) {
     const Complex a = polygon_[e], b = polygon_[(e + 1) % polygon_.size()];
-    if (z == a || z == b) {  // replace_vertex_row has the limit
-      halves_.start_re[i] = halves_.start_im[i] = halves_.end_re[i] = halves_.end_im[i] = 0;
+    std::array<Complex, 2> values{};
+    if (z == a || z == b)
+      at_vertex_[i] = true;  // finish_vertex_row adds the limit of both its edges
+    else
+      values = linear_edge_coordinates(a, b, z, order_);
+    halves.start_re[i] = values[0].real();
+    halves.start_im[i] = values[0].imag();
+    halves.end_re[i] = values[1].real();
+    halves.end_im[i] = values[1].imag();
+  }
+
+  /// The limit at a vertex: its two edges, left out so far, contribute to three columns.
+  void finish_vertex_row(Complex z, Index row) {
+    const Index n = static_cast<Index>(polygon_.size());
+    const Index vertex = std::find(polygon_.begin(), polygon_.end(), z) - polygon_.begin();
+    if (order_ > 0) {
+      out_.re.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
+      out_.im.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
       return;
     }
-    const std::array<Complex, 2> values = linear_edge_coordinates(a, b, z, order_);
-    halves_.start_re[i] = values[0].real();
-    halves_.start_im[i] = values[0].imag();
-    halves_.end_re[i] = values[1].real();
-    halves_.end_im[i] = values[1].imag();
-  }
-
-  void replace_vertex_row(Complex z, Index i) {
-    for (const Complex& vertex : polygon_)
-      if (vertex == z) {
-        const MatrixXc row = cauchy_coordinates(polygon_cage(polygon_), std::span(&z, 1), order_);
-        sums_re_.row(i) = row.real();
-        sums_im_.row(i) = row.imag();
-        return;
-      }
+    const Index before = (vertex + n - 1) % n, after = (vertex + 1) % n;
+    const Complex own = vertex_limit(polygon_[before], z, polygon_[after]);
+    out_.re(row, vertex) += static_cast<T>(own.real());
+    out_.im(row, vertex) += static_cast<T>(own.imag());
+    out_.im(row, before) += static_cast<T>(1 / (2 * kPi));
+    out_.im(row, after) -= static_cast<T>(1 / (2 * kPi));
   }
 
   std::span<const Complex> polygon_;
@@ -92,9 +117,9 @@ class BlockFiller {
   const kernel::Table& table_;
   PlanarMatrix<T>& out_;
   std::vector<kernel::Edge> edges_;
-  kernel::Halves halves_{};
-  double x_[kernel::kBlock], y_[kernel::kBlock];
-  Sums sums_re_, sums_im_;
+  kernel::Halves halves_[2]{};
+  kernel::Block points_{};
+  std::array<bool, kernel::kBlock> at_vertex_{};
 };
 
 }  // namespace
@@ -110,20 +135,29 @@ bool has_avx2() {
 template <class T>
 PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
                                     int order, Kernel choice) {
+  PlanarMatrix<T> result;
+  polygon_coordinates(polygon, points, order, choice, result);
+  return result;
+}
+
+template <class T>
+void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points, int order,
+                         Kernel choice, PlanarMatrix<T>& out) {
   check(order == 0 || order == 1, "polygon_coordinates: order 0 or 1");
   if (signed_area(polygon) < 0) {  // the same first vertex, the others backwards
     Points turned(polygon.begin(), polygon.end());
     std::reverse(turned.begin() + 1, turned.end());
-    PlanarMatrix<T> result = polygon_coordinates<T>(turned, points, order, choice);
-    const Index others = result.cols() - 1;
-    result.re.rightCols(others) = result.re.rightCols(others).rowwise().reverse().eval();
-    result.im.rightCols(others) = result.im.rightCols(others).rowwise().reverse().eval();
-    return result;
+    polygon_coordinates<T>(turned, points, order, choice, out);
+    const Index others = out.cols() - 1;
+    out.re.rightCols(others) = out.re.rightCols(others).rowwise().reverse().eval();
+    out.im.rightCols(others) = out.im.rightCols(others).rowwise().reverse().eval();
+    return;
   }
-  PlanarMatrix<T> result(static_cast<Index>(points.size()), static_cast<Index>(polygon.size()));
-  BlockFiller<T> filler(polygon, order, table_of(choice), result);
-  for (Index first = 0; first < result.rows(); first += kernel::kBlock) filler.fill(points, first);
-  return result;
+  out.resize(static_cast<Index>(points.size()), static_cast<Index>(polygon.size()));
+  double farthest = 0;
+  for (const Complex& z : points) farthest = std::max(farthest, std::abs(z));
+  BlockFiller<T> filler(polygon, farthest, order, table_of(choice), out);
+  for (Index first = 0; first < out.rows(); first += kernel::kBlock) filler.fill(points, first);
 }
 
 template <class T>
@@ -148,6 +182,10 @@ template PlanarMatrix<float> polygon_coordinates<float>(std::span<const Complex>
                                                         std::span<const Complex>, int, Kernel);
 template PlanarMatrix<double> polygon_coordinates<double>(std::span<const Complex>,
                                                           std::span<const Complex>, int, Kernel);
+template void polygon_coordinates<float>(std::span<const Complex>, std::span<const Complex>, int,
+                                         Kernel, PlanarMatrix<float>&);
+template void polygon_coordinates<double>(std::span<const Complex>, std::span<const Complex>, int,
+                                          Kernel, PlanarMatrix<double>&);
 template void multiply<float>(const PlanarMatrix<float>&, const PlanarMatrix<float>&,
                               PlanarMatrix<float>&, Kernel);
 template void multiply<double>(const PlanarMatrix<double>&, const PlanarMatrix<double>&,

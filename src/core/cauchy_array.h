@@ -1,8 +1,8 @@
 // Degree-1 Cauchy coordinates of many points at once, and products with them: the array path.
 //
 // Same values as cauchy.h to 1e-14. Away from an edge the coordinates are a power series in
-// Y = 1 / (2w)^2, w the offset from the edge's midpoint in edge lengths, summed without branches
-// over blocks of points so that the compiler vectorises it; points near the edge take cauchy.h's way.
+// Y = 1 / (2w)^2, w the offset from the edge's midpoint in edge lengths; near it one logarithm. Both
+// run without branches over blocks of points, so that the compiler vectorises them.
 #pragma once
 
 #include <span>
@@ -19,23 +19,33 @@ struct PlanarMatrix {
 
   PlanarMatrix() = default;
   PlanarMatrix(Index rows, Index cols) : re(rows, cols), im(rows, cols) {}
+  void resize(Index rows, Index cols) {
+    re.resize(rows, cols);
+    im.resize(rows, cols);
+  }
   Index rows() const { return re.rows(); }
   Index cols() const { return re.cols(); }
   std::complex<T> operator()(Index i, Index j) const { return {re(i, j), im(i, j)}; }
 };
 
-/// Which machine code runs: `automatic` takes AVX2 with FMA when the processor has it.
+/// Which machine code runs: `automatic` takes the widest of AVX-512, AVX2 and portable that the
+/// processor has.
 enum class Kernel { automatic, portable, avx2 };
 /// Whether this processor can run Kernel::avx2.
 bool has_avx2();
 
 /// Cauchy coordinates (order 0 or 1) of a polygon's vertices at points: points x vertices.
 /// Orientation, boundary limits and identities as in cauchy_coordinates.
-/// Points that are near each other should be neighbours in the list. Cost: about 2 ns per point and
+/// Points that are near each other should be neighbours in the list. Cost: 2 to 6 ns per point and
 /// edge with AVX2.
 template <class T>
 PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
                                     int order = 0, Kernel kernel = Kernel::automatic);
+
+/// The same into a matrix whose storage is used again: fresh memory costs as much as the coordinates.
+template <class T>
+void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points, int order,
+                         Kernel kernel, PlanarMatrix<T>& out);
 
 /// out = matrix * factors; out must be matrix.rows() x factors.cols(), factors.rows() the number of
 /// columns. Cost: 8 flops per entry and factor column, one pass over the matrix.

@@ -5,23 +5,28 @@
 
 namespace holomorph::kernel {
 
-inline constexpr int kBlock = 32;          ///< points per call of edge_series
-inline constexpr double kNear2 = 2.25;     ///< |w|^2 below which the series is not used
+/// Points per call of an EdgeSeries.
+inline constexpr int kBlock = 32;
 
-/// One edge for one block of points: s = -(a - z) / A with A = b - a and (ux, uy) = 1 / A.
+/// One edge from (ax, ay) to (bx, by), (ux, uy) = 1 / (b - a); a point whose offset from the edge
+/// is at most `rounding` edge lengths may be on it.
 struct Edge {
-  double ax, ay, ux, uy;
+  double ax, ay, bx, by, ux, uy, rounding;
 };
 
-/// The start and end halves of an edge's coordinates at kBlock points; w2 is |w|^2 for each.
+/// kBlock points and a disc around them.
+struct Block {
+  double x[kBlock], y[kBlock], center_x, center_y, radius;
+};
+
+/// The start and end halves of an edge's coordinates at kBlock points.
 struct Halves {
-  double start_re[kBlock], start_im[kBlock], end_re[kBlock], end_im[kBlock], w2[kBlock];
+  double start_re[kBlock], start_im[kBlock], end_re[kBlock], end_im[kBlock], on_edge[kBlock];
 };
 
-/// Fills `out` for points x, y (kBlock of each) by the series; entries with w2 < kNear2 are not
-/// meaningful. `order` is 0 or 1.
-using EdgeSeries = void (*)(const Edge& edge, const double* x, const double* y, int order,
-                            Halves& out);
+/// Fills `out` for the points of a block, order 0 or 1. Returns whether some points may be on
+/// the edge or its end points; then on_edge marks them with 1 and their halves are not meaningful.
+using EdgeSeries = bool (*)(const Edge& edge, const Block& block, int order, Halves& out);
 
 /// out += matrix * factors for a block of rows: matrix is column-major with leading dimension
 /// `stride`, `rows` x `inner`; factors are inner complex numbers.
@@ -37,5 +42,6 @@ struct Table {
 
 extern const Table kPortable;
 extern const Table kAvx2;
+extern const Table kAvx512;
 
 }  // namespace holomorph::kernel

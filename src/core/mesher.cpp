@@ -1,0 +1,253 @@
+// The domain mesh by CGAL's Delaunay refinement; nothing else includes the mesher.
+//
+// Most vertices are laid out first, a graded triangular lattice inserted in one go, which is several
+// times faster than refining; refinement then finishes the seam between lattice and boundary.
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/mesh.h"
+
+namespace holomorph {
+namespace {
+
+using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Geometry, CGAL::Delaunay_mesh_vertex_base_2<Geometry>>;
+using Face = CGAL::Delaunay_mesh_face_base_2<Geometry>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>, CGAL::Exact_predicates_tag>;
+using Point = Geometry::Point_2;
+
+Point point_of(Complex z) { return {z.real(), z.imag()}; }
+Complex complex_of(const Point& p) { return {p.x(), p.y()}; }
+
+/// The wanted edge length at each place: `finest` at the boundary, growing to four times that inside.
+/// Distances to the boundary come from a grid, exact at its nodes and interpolated between.
+class Sizing {
+ public:
+  Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
+    cell_ = std::max(box_.width(), box_.height()) / kNodes;
+    columns_ = static_cast<int>(box_.width() / cell_) + 2;
+    rows_ = static_cast<int>(box_.height() / cell_) + 2;
+    distance_.resize(static_cast<size_t>(columns_) * rows_);
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c)
+        distance_[static_cast<size_t>(r) * columns_ + c] = static_cast<float>(
+            nearest_on_polygon(polygon, Complex(box_.left + c * cell_, box_.bottom + r * cell_)).distance);
+    set_scale(scale);
+  }
+
+  void set_scale(double finest) { finest_ = finest; }
+  double finest() const { return finest_; }
+
+  double distance(Complex z) const {
+    const double x = std::clamp((z.real() - box_.left) / cell_, 0.0, columns_ - 1.001);
+    const double y = std::clamp((z.imag() - box_.bottom) / cell_, 0.0, rows_ - 1.001);
+    const int c = static_cast<int>(x), r = static_cast<int>(y);
+    const double u = x - c, v = y - r;
+    const float* at = &distance_[static_cast<size_t>(r) * columns_ + c];
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
+  }
+  double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
+  /// The lattice's step at z in units of the finest: the power of two below size.
+  int level(Complex z) const {
+    const double h = size(z) / finest_;
+    return h >= 4 ? 4 : h >= 2 ? 2 : 1;
+  }
+
+  /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex).
+  double expected_vertices(std::span<const Complex> polygon) const {
+    double sum = 0;
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c) {
+        const Complex z(box_.left + (c + 0.5) * cell_, box_.bottom + (r + 0.5) * cell_);
+        if (winding_number(polygon, z) == 0) continue;
+        const double h = level(z) * finest_;
+        sum += cell_ * cell_ / (0.866 * h * h);
+      }
+    return sum + 0.5 * perimeter(polygon) / finest_;
+  }
+
+  const Box& box() const { return box_; }
+
+ private:
+  static constexpr int kNodes = 48;
+  static constexpr double kGrading = 0.08;
+  Box box_;
+  double cell_ = 1, finest_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> distance_;
+};
+
+/// Refinement criteria: CGAL's angle bound, and the sizing at each triangle's centre.
+class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
+  using Base = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
+
+ public:
+  explicit Criteria(const Sizing& sizing) : Base(0.125, 0.0), sizing_(&sizing) {}
+
+  class Is_bad : public Base::Is_bad {
+   public:
+    Is_bad(double aspect, const Sizing& sizing)
+        : Base::Is_bad(aspect, 0.0, Geometry()), sizing_(&sizing) {}
+
+    CGAL::Mesh_2::Face_badness operator()(const Quality q) const {
+      if (q.size() > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
+      return q.sine() < this->B ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
+    }
+    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face, Quality& q) const {
+      const Complex a = complex_of(face->vertex(0)->point()), b = complex_of(face->vertex(1)->point()),
+                    c = complex_of(face->vertex(2)->point());
+      double ab = std::norm(b - a), bc = std::norm(c - b), ca = std::norm(a - c);
+      const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
+      const double middle = ab + bc + ca - longest - shortest;
+      const double h = kSlack * sizing_->size((a + b + c) / 3.0);
+      q.second = longest / (h * h);  // Quality's size: above 1 is too large
+      const double area = cross(b - a, c - a);
+      q.first = area * area / (longest * middle);  // squared sine of the smallest angle
+      return operator()(q);
+    }
+
+   private:
+    static constexpr double kSlack = 1.6;  // the lattice's own triangles must pass
+    const Sizing* sizing_;
+  };
+  Is_bad is_bad_object() const { return Is_bad(this->bound(), *sizing_); }
+
+ private:
+  const Sizing* sizing_;
+};
+
+/// Points of a triangular lattice, thinned by powers of two where the sizing allows, that keep their
+/// distance from the boundary.
+std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
+  std::vector<Point> points;
+  const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
+  const Box& box = sizing.box();
+  const int rows = static_cast<int>(box.height() / row_height), columns = static_cast<int>(box.width() / step) + 1;
+  std::vector<double> crossings;
+  for (int r = 1; r <= rows; ++r) {
+    const double y = box.bottom + r * row_height;
+    crossings.clear();
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      if ((a.imag() <= y) != (b.imag() <= y))
+        crossings.push_back(a.real() + (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    size_t passed = 0;
+    for (int c = 0; c <= columns; ++c) {
+      const Complex z(box.left + (c + 0.5 * (r % 2)) * step, y);
+      while (passed < crossings.size() && crossings[passed] < z.real()) ++passed;
+      if (passed % 2 == 0) continue;
+      const int level = sizing.level(z);
+      // A sub-lattice of even rows and columns is again a triangular lattice.
+      if (level > 1 && (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0)) continue;
+      if (sizing.distance(z) < 0.7 * step) continue;
+      points.push_back(point_of(z));
+    }
+  }
+  return points;
+}
+
+/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: near numbers are near places.
+unsigned hilbert_key(unsigned x, unsigned y) {
+  unsigned key = 0;
+  for (unsigned s = 1u << 15; s > 0; s >>= 1) {
+    const unsigned rx = (x & s) ? 1 : 0, ry = (y & s) ? 1 : 0;
+    key += s * s * ((3 * rx) ^ ry);
+    if (ry == 0) {
+      if (rx == 1) x = 65535 - x, y = 65535 - y;
+      std::swap(x, y);
+    }
+  }
+  return key;
+}
+
+/// Copies the inside of the triangulation, vertices in Hilbert order.
+Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners) {
+  std::vector<Triangulation::Vertex_handle> used;
+  for (const auto& v : cdt.finite_vertex_handles()) v->info() = -1;
+  for (const auto& face : cdt.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    for (int k = 0; k < 3; ++k)
+      if (face->vertex(k)->info() == -1) {
+        face->vertex(k)->info() = 0;
+        used.push_back(face->vertex(k));
+      }
+  }
+  Box box;
+  for (const auto& v : used) box.include(complex_of(v->point()));
+  const double scale = 65535 / std::max({box.width(), box.height(), 1e-300});
+  std::vector<std::pair<unsigned, size_t>> order;
+  for (size_t i = 0; i < used.size(); ++i) {
+    const Complex z = complex_of(used[i]->point());
+    order.push_back({hilbert_key(static_cast<unsigned>((z.real() - box.left) * scale),
+                                 static_cast<unsigned>((z.imag() - box.bottom) * scale)), i});
+  }
+  std::sort(order.begin(), order.end());
+  Mesh mesh;
+  for (const auto& [key, i] : order) {
+    used[i]->info() = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.push_back(complex_of(used[i]->point()));
+  }
+  std::vector<int> next(mesh.vertices.size(), -1);
+  for (const auto& face : cdt.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    for (int k = 0; k < 3; ++k)
+      if (!face->neighbor(k)->is_in_domain() || cdt.is_infinite(face->neighbor(k)))
+        next[face->vertex((k + 1) % 3)->info()] = face->vertex((k + 2) % 3)->info();
+  }
+  std::sort(mesh.triangles.begin(), mesh.triangles.end(),
+            [](const Triangle& a, const Triangle& b) { return *std::ranges::min_element(a) < *std::ranges::min_element(b); });
+  for (const auto& corner : corners) mesh.cage_vertices.push_back(corner->info());
+  int v = mesh.cage_vertices[0];
+  do {
+    mesh.boundary.push_back(v);
+    v = next[v];
+  } while (v >= 0 && v != mesh.cage_vertices[0] && mesh.boundary.size() <= mesh.vertices.size());
+  check(v == mesh.cage_vertices[0], "the domain mesh has one closed boundary");
+  return mesh;
+}
+
+}  // namespace
+
+Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  check_rest_cage(polygon_cage(polygon));
+  Sizing sizing(polygon, 1.0);
+  const double wanted = std::max(options.vertices, 16);
+  double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
+  for (int step = 0; step < 6; ++step) {
+    sizing.set_scale(finest);
+    finest *= std::clamp(std::sqrt(sizing.expected_vertices(polygon) / wanted), 0.3, 3.0);
+  }
+  sizing.set_scale(finest);
+
+  Triangulation cdt;
+  std::vector<Triangulation::Vertex_handle> corners;
+  for (const Complex& z : polygon) corners.push_back(cdt.insert(point_of(z)));
+  for (size_t i = 0; i < corners.size(); ++i) {
+    check(corners[i] != corners[(i + 1) % corners.size()], "cage vertices are distinct");
+    cdt.insert_constraint(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  const std::vector<Point> inner = lattice(polygon, sizing);
+  cdt.insert(inner.begin(), inner.end());
+
+  CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(cdt, Criteria(sizing));
+  mesher.init();
+  const size_t limit = static_cast<size_t>(3 * wanted) + 4 * polygon.size();
+  while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit)
+    mesher.step_by_step_refine_mesh();
+  return extract(cdt, corners);
+}
+
+}  // namespace holomorph
