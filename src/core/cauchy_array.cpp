@@ -22,8 +22,10 @@ const kernel::Table& table_of(Kernel choice) {
   return kernel::kPortable;
 }
 
-const auto product_of(const kernel::Table& table, float) { return table.product_float; }
-const auto product_of(const kernel::Table& table, double) { return table.product_double; }
+auto join_of(const kernel::Table& table, float) { return table.join_float; }
+auto join_of(const kernel::Table& table, double) { return table.join_double; }
+auto product_of(const kernel::Table& table, float) { return table.product_float; }
+auto product_of(const kernel::Table& table, double) { return table.product_double; }
 
 /// One block of consecutive points and the columns that it fills.
 template <class T>
@@ -64,18 +66,13 @@ class BlockFiller {
       kernel::Halves& current = halves_[e % 2];
       const kernel::Halves& before = halves_[(e + 1) % 2];
       halves_of_edge(e, here, current);
-      out_.re.col(e).segment(first, count) = (block(before.end_re, count) + block(current.start_re, count)).template cast<T>();
-      out_.im.col(e).segment(first, count) = (block(before.end_im, count) + block(current.start_im, count)).template cast<T>();
+      join_of(table_, T{})(before, current, count, out_.re.col(e).data() + first, out_.im.col(e).data() + first);
     }
     for (Index i = 0; i < count; ++i)
       if (at_vertex_[i]) finish_vertex_row(here[i], first + i);
   }
 
  private:
-  static Eigen::Map<const Eigen::VectorXd> block(const double* values, Index count) {
-    return {values, count};
-  }
-
   void halves_of_edge(Index e, std::span<const Complex> points, kernel::Halves& halves) {
     if (!table_.edge_series(edges_[e], points_, order_, halves)) return;
     for (size_t i = 0; i < points.size(); ++i)

@@ -28,6 +28,11 @@ struct Halves {
 /// the edge or its end points; then on_edge marks them with 1 and their halves are not meaningful.
 using EdgeSeries = bool (*)(const Edge& edge, const Block& block, int order, Halves& out);
 
+/// A vertex's column: the end half of the edge before it plus the start half of its own edge, for the
+/// first `count` points.
+template <class T>
+using Join = void (*)(const Halves& before, const Halves& own, long count, T* re, T* im);
+
 /// out += matrix * factors for a block of rows: matrix is column-major with leading dimension
 /// `stride`, `rows` x `inner`; factors are inner complex numbers.
 template <class T>
@@ -36,6 +41,8 @@ using BlockProduct = void (*)(const T* re, const T* im, long stride, long rows, 
 
 struct Table {
   EdgeSeries edge_series;
+  Join<float> join_float;
+  Join<double> join_double;
   BlockProduct<float> product_float;
   BlockProduct<double> product_double;
 };

@@ -1,0 +1,104 @@
+// The whole public face of the maps: what a method is given (Rest, Pose) and what it answers.
+//
+// Adding a method is one file in methods/ and one row of the table in methods.cpp; menus, sliders,
+// JSON fields, contract tests and benchmarks iterate over the table.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/cauchy_array.h"
+
+namespace holomorph {
+
+/// Values of a method's parameters by key; a missing key has the specification's default.
+using Parameters = std::map<std::string, double>;
+
+/// One parameter of a method: what a slider, a JSON field and the help need to know.
+struct ParameterSpec {
+  enum class Kind { number, toggle };
+  std::string key, label, hint;
+  Kind kind = Kind::number;
+  double fallback = 0, lowest = 0, highest = 1;
+  bool logarithmic = false;
+};
+
+enum class Precision {
+  single,  ///< operators in float: for the picture (1e-6 of the displacement)
+  full     ///< operators in double: for numbers that are written out
+};
+
+/// A point handle at rest; `turns` says that its pose prescribes an angle too.
+struct RestPin {
+  Complex position;
+  bool turns = false;
+  bool operator==(const RestPin&) const = default;
+};
+struct PosePin {
+  Complex position;
+  double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin turns
+  bool operator==(const PosePin&) const = default;
+};
+
+/// Everything that forces precomputation. Value type.
+struct Rest {
+  Cage cage;                  ///< straight, each segment of its posed counterpart's degree
+  std::vector<RestPin> pins;
+  Points samples;             ///< where the map is wanted, inside or on the cage
+  Points derivative_samples;  ///< where f_z and f_zbar are wanted, one per sample; empty: at samples
+  Parameters parameters;
+  Precision precision = Precision::single;
+};
+
+/// Everything that moves. Value type; as many segments, control points and pins as the Rest.
+struct Pose {
+  Cage cage;
+  std::vector<PosePin> pins;
+  bool operator==(const Pose&) const = default;
+};
+
+/// A map at the samples of its Rest, with both Wirtinger derivatives
+/// f_z = (f_x - i f_y) / 2 and f_zbar = (f_x + i f_y) / 2 when they were asked for (else empty).
+struct SampledMap {
+  enum class Status { exact, iterating, certified, infeasible };
+  VectorXc f, fz, fzbar;
+  Status status = Status::exact;
+  std::string note;  ///< what the user should know, such as a pin that could not be used
+  int iterations = 0;
+};
+
+/// What was precomputed from a Rest. Answers poses until the rest changes.
+class Deformer {
+ public:
+  virtual ~Deformer() = default;
+
+  /// The map of a pose. Throws Error when the pose does not fit the rest or is not finite.
+  /// Cost for linear methods: one product with an operator of samples x controls.
+  virtual void deform(const Pose& pose, SampledMap& out, bool derivatives) = 0;
+
+  /// For methods linear in the pose: f = samples + matrix * controls(pose), so that a vertex shader
+  /// can apply the operator itself. Null when the method is not linear or works in full precision.
+  virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
+  virtual VectorXc controls(const Pose&) const { return {}; }
+};
+
+/// A row of the table of methods.
+struct Method {
+  std::string id, label, hint;
+  std::vector<ParameterSpec> parameters;
+  bool uses_pins = false;
+  /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
+  /// have in common need not be computed again. Throws Error for a rest that cannot be used.
+  std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
+};
+
+/// The table of methods, in menu order.
+const std::vector<Method>& methods();
+/// The row with this id; throws Error naming the ids that exist.
+const Method& method_named(const std::string& id);
+
+/// The parameter's value, its default when missing.
+double parameter(const Method& method, const Parameters& values, const std::string& key);
+
+}  // namespace holomorph

@@ -1,0 +1,54 @@
+// Singular values of the Jacobian from the Wirtinger derivatives; zeros of f_z by winding numbers.
+#include "core/distortion.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+Distortion distortion_of(const SampledMap& map) {
+  check(map.fz.size() == map.f.size(), "distortion_of: the map was sampled with its derivatives");
+  const Index n = map.fz.size();
+  Distortion result{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < n; ++i) {
+    const double a = std::abs(map.fz[i]), b = std::abs(map.fzbar[i]);
+    const double most = a + b, least = a - b;
+    result.k[i] = a > 0 ? b / a : 1.0;
+    result.area[i] = least > 0 ? std::log2(most * least) : -kInfinity;
+    result.stretch[i] = least > 0 ? std::max(most, 1 / least) : kInfinity;
+  }
+  return result;
+}
+
+bool MapReport::locally_injective() const {
+  return zeros.empty() && flipped_triangles == 0 && std::abs(turning_number - 1) < 0.01;
+}
+
+MapReport report_of(const Mesh& mesh, const SampledMap& map) {
+  check(map.fz.size() == static_cast<Index>(mesh.vertices.size()), "report_of: derivatives per vertex");
+  MapReport report;
+  const Eigen::ArrayXd a = map.fz.cwiseAbs(), b = map.fzbar.cwiseAbs();
+  report.max_k = a.minCoeff() > 0 ? (b / a).maxCoeff() : 1.0;
+  report.max_sigma = (a + b).maxCoeff();
+  report.min_sigma = (a - b).minCoeff();
+
+  const auto increment = [&](int from, int to) {
+    const Complex x = map.fz[from], y = map.fz[to];
+    return std::atan2(cross(x, y), dot(x, y));
+  };
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const double winding = (increment(i, j) + increment(j, k) + increment(k, i)) / (2 * kPi);
+    if (std::abs(winding) > 0.5)
+      report.zeros.push_back((mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]) / 3.0);
+    if (cross(map.f[j] - map.f[i], map.f[k] - map.f[i]) <= 0) ++report.flipped_triangles;
+  }
+  Points image;
+  for (const int v : mesh.boundary) image.push_back(map.f[v]);
+  report.turning_number = turning_number(image);
+  report.simple_boundary = !self_crossing(image).has_value();
+  return report;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,33 @@
+// What a map does to lengths, angles and areas, and whether it folds.
+#pragma once
+
+#include "core/deformer.h"
+#include "core/mesh.h"
+
+namespace holomorph {
+
+/// Distortion at the samples of a map: sigma_max = |f_z| + |f_zbar|, sigma_min = |f_z| - |f_zbar|.
+struct Distortion {
+  Eigen::VectorXd k;        ///< angle: |f_zbar| / |f_z|, 0 for conformal, 1 where it collapses
+  Eigen::VectorXd area;     ///< log2 of sigma_max * sigma_min; -inf where orientation is lost
+  Eigen::VectorXd stretch;  ///< max(sigma_max, 1 / sigma_min)
+};
+/// Needs the map's derivatives. Cost: linear.
+Distortion distortion_of(const SampledMap& map);
+
+/// Measures of a whole map on a mesh.
+struct MapReport {
+  double max_k = 0, min_sigma = 0, max_sigma = 0;
+  Points zeros;               ///< centres of the rest triangles around which f_z winds
+  double turning_number = 0;  ///< of the image of the boundary
+  bool simple_boundary = true;
+  int flipped_triangles = 0;
+  /// No zeros of f_z, turning number one, no flipped triangle: no fold was found. A measurement at
+  /// the samples, not a proof.
+  bool locally_injective() const;
+};
+/// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle on
+/// every triangle. Cost: linear, but for the crossing test of the boundary.
+MapReport report_of(const Mesh& mesh, const SampledMap& map);
+
+}  // namespace holomorph

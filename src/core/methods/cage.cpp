@@ -1,0 +1,35 @@
+// Method `cage`: f(z) = sum C_j(z) b_j, conformal wherever f' does not vanish.
+#include "core/methods/linear.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+template <class T>
+class CageDeformer final : public LinearDeformer<T> {
+ public:
+  explicit CageDeformer(const Rest& rest) : LinearDeformer<T>(rest) {
+    this->value_ = cage_coordinates<T>(rest.cage, rest.samples, 0);
+  }
+  VectorXc controls(const Pose& pose) const override { return cage_displacement(this->rest_, pose); }
+
+ protected:
+  PlanarMatrix<T> derivative_matrix() const override {
+    return cage_coordinates<T>(this->rest_.cage, this->derivative_points(), 1);
+  }
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  if (rest.precision == Precision::full) return std::make_unique<CageDeformer<double>>(rest);
+  return std::make_unique<CageDeformer<float>>(rest);
+}
+
+}  // namespace
+
+Method cage_method() {
+  return {"cage", "Cage", "Move the cage's points; the picture follows conformally. Pins do not act.",
+          {}, false, prepare};
+}
+
+}  // namespace holomorph

@@ -1,0 +1,97 @@
+// Products with the operator, and what cage operators are made of.
+#include "core/methods/linear.h"
+
+#include "core/cauchy.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+template <class T>
+VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& controls) {
+  PlanarMatrix<T> factors(controls.size(), 1), sum(matrix.rows(), 1);
+  factors.re = controls.real().template cast<T>();
+  factors.im = controls.imag().template cast<T>();
+  multiply(matrix, factors, sum);
+  VectorXc result(matrix.rows());
+  result.real() = sum.re.template cast<double>();
+  result.imag() = sum.im.template cast<double>();
+  return result;
+}
+
+}  // namespace
+
+template <class T>
+LinearDeformer<T>::LinearDeformer(const Rest& rest) : rest_(rest) {}
+
+template <class T>
+void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, bool derivatives) {
+  check_pose(rest_, pose);
+  const VectorXc by = controls(pose);
+  const Eigen::Map<const VectorXc> z(rest_.samples.data(), static_cast<Index>(rest_.samples.size()));
+  out.f = z + product(value_, by);
+  out.status = SampledMap::Status::exact;
+  out.note = note_;
+  out.iterations = 0;
+  out.fz.resize(0);
+  out.fzbar.resize(0);
+  if (!derivatives) return;
+  if (derivative_.rows() != z.size()) derivative_ = derivative_matrix();
+  out.fz = product(derivative_, by).array() + Complex(1.0);
+  out.fzbar = VectorXc::Zero(z.size());
+}
+
+template <class T>
+const PlanarMatrix<float>* LinearDeformer<T>::operator_matrix() const {
+  if constexpr (std::is_same_v<T, float>)
+    return &value_;
+  else
+    return nullptr;
+}
+
+void check_pose(const Rest& rest, const Pose& pose) {
+  if (pose.cage.size() != rest.cage.size())
+    throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.cage.size()) +
+                                          " segments and the rest cage " +
+                                          std::to_string(rest.cage.size()) + "; they must agree");
+  if (pose.pins.size() != rest.pins.size())
+    throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
+  for (const Points& segment : pose.cage.segments)
+    for (const Complex& z : segment)
+      if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
+  for (const PosePin& pin : pose.pins)
+    if (!is_finite(pin.position) || !std::isfinite(pin.angle))
+      throw Error(ErrorKind::bad_input, "a posed pin is not finite");
+}
+
+VectorXc cage_displacement(const Rest& rest, const Pose& pose) {
+  return controls_of(elevated_to(pose.cage, rest.cage)) - controls_of(rest.cage);
+}
+
+template <class T>
+PlanarMatrix<T> cage_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
+  if (cage.control_count() == cage.size())
+    return polygon_coordinates<T>(vertices_of(cage), points, order);
+  const MatrixXc exact = cauchy_coordinates(cage, points, order);
+  PlanarMatrix<T> result(exact.rows(), exact.cols());
+  result.re = exact.real().template cast<T>();
+  result.im = exact.imag().template cast<T>();
+  return result;
+}
+
+template <class T>
+PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right) {
+  PlanarMatrix<T> both(left.rows(), left.cols() + right.cols());
+  both.re << left.re, right.re;
+  both.im << left.im, right.im;
+  return both;
+}
+
+template class LinearDeformer<float>;
+template class LinearDeformer<double>;
+template PlanarMatrix<float> cage_coordinates<float>(const Cage&, std::span<const Complex>, int);
+template PlanarMatrix<double> cage_coordinates<double>(const Cage&, std::span<const Complex>, int);
+template PlanarMatrix<float> beside(const PlanarMatrix<float>&, const PlanarMatrix<float>&);
+template PlanarMatrix<double> beside(const PlanarMatrix<double>&, const PlanarMatrix<double>&);
+
+}  // namespace holomorph

@@ -1,0 +1,50 @@
+// What methods linear in the pose share: f = z + M c(pose) at the samples, f_z = 1 + M' c(pose).
+//
+// Controls are displacements, so the rest pose gives the identity to the last bit and rounding scales
+// with the deformation, not with the picture.
+#pragma once
+
+#include "core/deformer.h"
+
+namespace holomorph {
+
+/// A holomorphic map linear in its controls; T is the operator's precision.
+template <class T>
+class LinearDeformer : public Deformer {
+ public:
+  explicit LinearDeformer(const Rest& rest);
+
+  void deform(const Pose& pose, SampledMap& out, bool derivatives) override;
+  const PlanarMatrix<float>* operator_matrix() const override;
+
+ protected:
+  /// M' at the derivative samples; made on first use.
+  virtual PlanarMatrix<T> derivative_matrix() const = 0;
+
+  const Points& derivative_points() const {
+    return rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
+  }
+
+  Rest rest_;
+  PlanarMatrix<T> value_;
+  std::string note_;
+
+ private:
+  PlanarMatrix<T> derivative_;
+};
+
+/// Throws Error unless the pose's cage has the rest's structure and is finite.
+void check_pose(const Rest& rest, const Pose& pose);
+
+/// Displacements of the posed cage's control points, the posed segments raised to the rest's degrees.
+VectorXc cage_displacement(const Rest& rest, const Pose& pose);
+
+/// Coordinates of the cage's control points at points, by the array path where all edges are straight.
+template <class T>
+PlanarMatrix<T> cage_coordinates(const Cage& cage, std::span<const Complex> points, int order);
+
+/// Two operators side by side.
+template <class T>
+PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right);
+
+}  // namespace holomorph

@@ -1,0 +1,251 @@
+// Method `pins`: f = f_cage + h, h holomorphic, h(u_i) = v_i - f_cage(u_i), and as smooth as can be:
+// the energy mean |h''|^2 at edge midpoints (Segall, Ben-Chen 2016, E_s and E_p2p).
+//
+// With the energy's rows in QR form, R g = y, the minimiser is spanned by the pins themselves, as
+// thin-plate splines are: (M M* + ridge) lambda + T c = data with M = P R^-1 and T the affine maps,
+// which cost nothing. A soft pin is a ridge, an exact one is none; a system of the pins' number is all
+// that a pin more costs, besides its column of the operator.
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "core/cauchy.h"
+#include "core/error.h"
+#include "core/methods/linear.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kBasisVertices = 100;
+constexpr double kSpread = 1e-9;  ///< pins nearer than this, in units of L, are one pin
+
+/// The cage's polygon with long edges cut until it has about kBasisVertices.
+Points basis_polygon(const Cage& cage) {
+  const Points corners = vertices_of(cage);
+  const double step = perimeter(corners) / kBasisVertices;
+  Points polygon;
+  for (Index e = 0; e < cage.size(); ++e) {
+    const Complex a = cage.vertex(e), b = cage.vertex(e + 1);
+    const int parts = static_cast<Index>(corners.size()) >= kBasisVertices
+                          ? 1 : std::max(1, static_cast<int>(std::lround(std::abs(b - a) / step)));
+    for (int k = 0; k < parts; ++k) polygon.push_back(a + (b - a) * (static_cast<double>(k) / parts));
+  }
+  return polygon;
+}
+
+/// What does not depend on the pins: the basis at the samples and the smoothness energy's factor.
+template <class T>
+struct PinBasis {
+  Cage cage;
+  Points samples;
+  Points polygon;
+  double length = 1;  ///< L = perimeter / 2 pi, the unit of all energies
+  PlanarMatrix<T> cage_value, value;
+  MatrixXc factor;  ///< upper triangular R
+
+  explicit PinBasis(const Rest& rest) : cage(rest.cage), samples(rest.samples), polygon(basis_polygon(rest.cage)) {
+    length = perimeter(polygon) / (2 * kPi);
+    cage_value = cage_coordinates<T>(cage, samples, 0);
+    value = polygon_coordinates<T>(polygon, samples, 0);
+    const Cage basis = polygon_cage(polygon);
+    std::vector<BoundaryPoint> midpoints;
+    for (Index e = 0; e < basis.size(); ++e) midpoints.push_back({e, 0.5});
+    MatrixXc rows(basis.size() + 2, basis.size());
+    rows.topRows(basis.size()) = cauchy_coordinates(basis, midpoints, 2) *
+                                 (length * length / std::sqrt(static_cast<double>(basis.size())));
+    // The energy leaves affine maps free; two rows at an inner point make R invertible. They do not
+    // change the minimiser, because the affine part is solved for separately.
+    const Complex anchor = inner_point();
+    rows.row(basis.size()) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
+    rows.row(basis.size() + 1) = length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
+    const Eigen::HouseholderQR<MatrixXc> qr(rows);
+    factor = qr.matrixQR().topRows(basis.size()).template triangularView<Eigen::Upper>();
+  }
+
+  /// The deepest of a grid of points.
+  Complex inner_point() const {
+    const Box box = box_of(polygon);
+    Complex best;
+    double depth = -1;
+    constexpr int kGrid = 24;
+    for (int i = 1; i < kGrid; ++i)
+      for (int j = 1; j < kGrid; ++j) {
+        const Complex z(box.left + box.width() * i / kGrid, box.bottom + box.height() * j / kGrid);
+        if (winding_number(polygon, z) == 0) continue;
+        if (const double here = nearest_on_polygon(polygon, z).distance; here > depth) best = z, depth = here;
+      }
+    return depth > 0 ? best : 0.5 * (polygon[0] + polygon[1]);
+  }
+};
+
+template <class T>
+class PinsDeformer final : public LinearDeformer<T> {
+ public:
+  PinsDeformer(const Rest& rest, const PinsDeformer* previous, const Method& method)
+      : LinearDeformer<T>(rest) {
+    if (previous && previous->basis_->cage == rest.cage && previous->basis_->samples == rest.samples)
+      basis_ = previous->basis_;
+    else
+      basis_ = std::make_shared<const PinBasis<T>>(rest);
+    choose_pins();
+    if (used_.empty()) {
+      this->value_ = basis_->cage_value;
+      return;
+    }
+    solve(parameter(method, rest.parameters, "exact") != 0
+              ? 0.0
+              : parameter(method, rest.parameters, "smoothness") /
+                    parameter(method, rest.parameters, "pin_weight"));
+    PlanarMatrix<T> correction(basis_->value.rows(), coefficients_.re.cols());
+    multiply(basis_->value, coefficients_, correction);
+    add_affine(correction, rest.samples, 0);
+    this->value_ = beside(basis_->cage_value, correction);
+  }
+
+  VectorXc controls(const Pose& pose) const override {
+    const VectorXc cage = cage_displacement(this->rest_, pose);
+    VectorXc all(cage.size() + functionals());
+    all.head(cage.size()) = cage;
+    Index row = cage.size();
+    const VectorXc base = cage_at_pins_ * cage;  // what the cage alone does at each functional
+    for (const size_t i : used_)
+      all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
+    for (const size_t i : used_)
+      if (this->rest_.pins[i].turns)
+        all[row++] = basis_->length * (std::polar(1.0, pose.pins[i].angle) - 1.0);
+    all.tail(functionals()) -= base;
+    return all;
+  }
+
+ protected:
+  PlanarMatrix<T> derivative_matrix() const override {
+    const Points& points = this->derivative_points();
+    PlanarMatrix<T> cage = cage_coordinates<T>(this->rest_.cage, points, 1);
+    if (used_.empty()) return cage;
+    PlanarMatrix<T> correction(static_cast<Index>(points.size()), coefficients_.re.cols());
+    multiply(polygon_coordinates<T>(basis_->polygon, points, 1), coefficients_, correction);
+    add_affine(correction, points, 1);
+    return beside(cage, correction);
+  }
+
+ private:
+  Index functionals() const { return cage_at_pins_.rows(); }
+
+  /// Pins outside the cage, or on the spot of an earlier one, are left out and named in the note.
+  void choose_pins() {
+    const auto& pins = this->rest_.pins;
+    const Points corners = vertices_of(this->rest_.cage);
+    std::string outside, doubled;
+    for (size_t i = 0; i < pins.size(); ++i) {
+      const Complex z = pins[i].position;
+      const auto name = [&](std::string& list) { list += (list.empty() ? "" : ", ") + std::to_string(i + 1); };
+      if (!is_finite(z) || winding_number(corners, z) == 0) {
+        name(outside);
+        continue;
+      }
+      bool alone = true;
+      for (const size_t other : used_)
+        alone = alone && std::abs(pins[other].position - z) > kSpread * basis_->length;
+      if (alone)
+        used_.push_back(i);
+      else
+        name(doubled);
+    }
+    if (!outside.empty()) this->note_ = "pin " + outside + " lies outside the cage and does not act";
+    if (!doubled.empty())
+      this->note_ += (this->note_.empty() ? "" : "; ") + ("pin " + doubled + " lies on another pin and does not act");
+  }
+
+  /// One solve for all unit data: coefficients of the basis and of the affine maps per functional.
+  void solve(double ridge_per_pin) {
+    const auto& pins = this->rest_.pins;
+    Points places, turning;
+    for (const size_t i : used_) {
+      places.push_back(pins[i].position);
+      if (pins[i].turns) turning.push_back(pins[i].position);
+    }
+    const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()), m = p + q;
+    const Index n = static_cast<Index>(basis_->polygon.size());
+    const double length = basis_->length;
+    const Cage basis = polygon_cage(basis_->polygon);
+    MatrixXc rows(m, n);
+    rows.topRows(p) = cauchy_coordinates(basis, places, 0);
+    cage_at_pins_.resize(m, this->rest_.cage.control_count());
+    cage_at_pins_.topRows(p) = cauchy_coordinates(this->rest_.cage, places, 0);
+    if (q > 0) {
+      rows.bottomRows(q) = length * cauchy_coordinates(basis, turning, 1);
+      cage_at_pins_.bottomRows(q) = length * cauchy_coordinates(this->rest_.cage, turning, 1);
+    }
+    // Affine maps 1 and (z - center) / L; a single pin without an angle only translates.
+    const Index affine = m >= 2 ? 2 : 1;
+    center_ = places[0];
+    MatrixXc T_rows = MatrixXc::Zero(m, affine);
+    for (Index i = 0; i < m; ++i) {
+      T_rows(i, 0) = i < p ? 1 : 0;
+      if (affine == 2) T_rows(i, 1) = i < p ? (places[i] - center_) / length : 1.0;
+    }
+    // M* = R^-* P*.
+    const MatrixXc adjoint = basis_->factor.adjoint().template triangularView<Eigen::Lower>().solve(rows.adjoint());
+    MatrixXc system = MatrixXc::Zero(m + affine, m + affine);
+    system.topLeftCorner(m, m) = adjoint.adjoint() * adjoint;
+    system.topLeftCorner(m, m).diagonal().array() += ridge_per_pin * static_cast<double>(m);
+    system.topRightCorner(m, affine) = T_rows;
+    system.bottomLeftCorner(affine, m) = T_rows.adjoint();
+    MatrixXc data = MatrixXc::Zero(m + affine, m);
+    data.topRows(m).setIdentity();
+    const Eigen::FullPivLU<MatrixXc> lu(system);
+    const MatrixXc solution = lu.solve(data);
+    if (!solution.allFinite()) throw Error(ErrorKind::bad_input, "the pins contradict each other; move one away from the others");
+    const MatrixXc coefficients = basis_->factor.template triangularView<Eigen::Upper>().solve(adjoint * solution.topRows(m));
+    affine_ = solution.bottomRows(affine);
+    coefficients_ = PlanarMatrix<T>(n, m);
+    coefficients_.re = coefficients.real().template cast<T>();
+    coefficients_.im = coefficients.imag().template cast<T>();
+  }
+
+  /// Adds the affine part's operator (order 0) or its derivative's (order 1).
+  void add_affine(PlanarMatrix<T>& matrix, const Points& points, int order) const {
+    for (Index column = 0; column < matrix.cols(); ++column) {
+      const Complex constant = affine_(0, column);
+      const Complex slope = affine_.rows() > 1 ? affine_(1, column) / basis_->length : Complex(0);
+      for (Index i = 0; i < matrix.rows(); ++i) {
+        const Complex value = order == 0 ? constant + slope * (points[i] - center_) : slope;
+        matrix.re(i, column) += static_cast<T>(value.real());
+        matrix.im(i, column) += static_cast<T>(value.imag());
+      }
+    }
+  }
+
+  std::shared_ptr<const PinBasis<T>> basis_;
+  std::vector<size_t> used_;      ///< pins that act
+  MatrixXc cage_at_pins_;         ///< functionals x cage controls
+  PlanarMatrix<T> coefficients_;  ///< basis x functionals
+  MatrixXc affine_;               ///< affine maps x functionals
+  Complex center_;
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
+  check_rest_cage(rest.cage);
+  const Method& method = method_named("pins");
+  if (rest.precision == Precision::full)
+    return std::make_unique<PinsDeformer<double>>(rest, dynamic_cast<const PinsDeformer<double>*>(previous), method);
+  return std::make_unique<PinsDeformer<float>>(rest, dynamic_cast<const PinsDeformer<float>*>(previous), method);
+}
+
+}  // namespace
+
+Method pins_method() {
+  return {"pins",
+          "Cage and pins",
+          "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
+          {{"exact", "Exact", "The picture passes through every pin; off: it yields a little for smoothness",
+            ParameterSpec::Kind::toggle, 1, 0, 1, false},
+           {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
+            ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true},
+           {"pin_weight", "Pin weight", "How much missing a pin costs when pins are soft (dimensionless)",
+            ParameterSpec::Kind::number, 0.1, 1e-3, 10, true}},
+          true,
+          prepare};
+}
+
+}  // namespace holomorph

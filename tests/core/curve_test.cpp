@@ -1,0 +1,111 @@
+// Bezier segments, cages and polygons.
+#include "core/curve.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/cage.h"
+#include "core/error.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+const Points kCubic{{0, 0}, {10, 40}, {60, -20}, {80, 30}};
+}
+
+TEST_CASE("Splitting and raising the degree leave a curve where it is") {
+  for (const double t : {0.1, 0.5, 0.83}) {
+    const SplitCurve halves = split(kCubic, t);
+    CHECK(halves.before.back() == halves.after.front());
+    for (const double u : {0.0, 0.25, 0.5, 1.0}) {
+      CHECK(std::abs(bezier_point(halves.before, u) - bezier_point(kCubic, u * t)) < 1e-12);
+      CHECK(std::abs(bezier_point(halves.after, u) - bezier_point(kCubic, t + u * (1 - t))) < 1e-12);
+      CHECK(std::abs(bezier_point(elevated(kCubic, 7), u) - bezier_point(kCubic, u)) < 1e-12);
+    }
+  }
+  CHECK_THROWS_AS(elevated(kCubic, 2), Error);
+}
+
+TEST_CASE("Fitting finds the curve that the samples came from") {
+  Points samples;
+  std::vector<double> parameters;
+  for (int i = 0; i <= 20; ++i) {
+    parameters.push_back(i / 20.0);
+    samples.push_back(bezier_point(kCubic, i / 20.0));
+  }
+  const Points again = fitted(samples, parameters, 3);
+  for (int m = 0; m < 4; ++m) CHECK(std::abs(again[m] - kCubic[m]) < 1e-10);
+}
+
+TEST_CASE("Inserting a vertex keeps the loop and erasing it heals the cut") {
+  Cage cage = polygon_cage(shapes::rectangle(100, 60));
+  cage.segments[1] = {{100, 0}, {120, 20}, {90, 40}};
+  const Cage before = cage;
+  insert_vertex(cage, 1, 0.5);
+  REQUIRE(cage.size() == 5);
+  const Points curve = before.controls(1);
+  CHECK(std::abs(bezier_point(cage.controls(1), 0.5) - bezier_point(curve, 0.25)) < 1e-12);
+  CHECK(std::abs(bezier_point(cage.controls(2), 0.5) - bezier_point(curve, 0.75)) < 1e-12);
+  erase_vertex(cage, 2);
+  REQUIRE(cage.size() == 4);
+  CHECK(cage.degree(1) == 3);
+  for (const double t : {0.25, 0.5, 0.75})  // the refit's parameters are proportional to chords
+    CHECK(std::abs(bezier_point(cage.controls(1), t) - bezier_point(curve, t)) < 1.0);
+  Cage straight = polygon_cage(shapes::rectangle(100, 60));
+  insert_vertex(straight, 0, 0.3);
+  erase_vertex(straight, 1);
+  CHECK(straight == polygon_cage(shapes::rectangle(100, 60)));
+}
+
+TEST_CASE("A reversed cage is the same loop from the same vertex") {
+  Cage cage = polygon_cage(shapes::l_shape());
+  cage.segments[2].push_back({150, 130});
+  const Cage back = reversed(cage);
+  CHECK(back.vertex(0) == cage.vertex(0));
+  CHECK(reversed(back) == cage);
+  CHECK(signed_area(vertices_of(back)) == Approx(-signed_area(vertices_of(cage))));
+}
+
+TEST_CASE("A self-crossing is found with its place, a simple polygon has none") {
+  CHECK_FALSE(self_crossing(shapes::l_shape()));
+  CHECK_FALSE(self_crossing(shapes::comb(30)));
+  const Points bow{{0, 0}, {10, 10}, {10, 0}, {0, 10}};
+  const auto crossing = self_crossing(bow);
+  REQUIRE(crossing);
+  CHECK(crossing->first == 0);
+  CHECK(crossing->second == 2);
+  CHECK(std::abs(crossing->point - Complex(5, 5)) < 1e-12);
+  CHECK(self_crossing(Points{{0, 0}, {10, 0}, {4, 0}, {4, 8}}));           // folds back on itself
+  CHECK(self_crossing(Points{{0, 0}, {10, 0}, {10, 10}, {5, 0}, {0, 10}}));  // touches an edge
+}
+
+TEST_CASE("Winding and turning numbers count turns") {
+  const Points square = shapes::rectangle(10, 10);
+  CHECK(winding_number(square, {5, 5}) == 1);
+  CHECK(winding_number(square, {15, 5}) == 0);
+  Points twice;
+  for (int i = 0; i < 40; ++i) twice.push_back(std::polar(10.0 + 2 * std::cos(kPi * i / 20), 4 * kPi * i / 40));
+  CHECK(winding_number(twice, {0, 0}) == 2);
+  CHECK(turning_number(twice) == Approx(2));
+  CHECK(turning_number(square) == Approx(1));
+}
+
+TEST_CASE("A rest cage that cannot be used is refused with the reason") {
+  const auto message = [](const Cage& cage) -> std::string {
+    try {
+      check_rest_cage(cage);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(message(polygon_cage(shapes::l_shape())).empty());
+  CHECK(message(reversed(polygon_cage(shapes::l_shape()))).empty());
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {1, 0}})), Catch::Contains("at least three"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}})), Catch::Contains("(5, 5)"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {0, 0}, {10, 0}, {0, 10}})), Catch::Contains("no length"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {NAN, 0}, {0, 10}})), Catch::Contains("no number"));
+  Cage curved = polygon_cage(shapes::rectangle(5, 5));
+  curved.segments[0].push_back({2, 9});
+  CHECK_THAT(message(curved), Catch::Contains("curved"));
+}

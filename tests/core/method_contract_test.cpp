@@ -1,0 +1,260 @@
+// The contract that every row of the table of methods fulfils, in both precisions.
+#include <catch2/catch.hpp>
+
+#include "core/deformer.h"
+#include "core/error.h"
+#include "core/mesh.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+struct Setup {
+  Rest rest;
+  Pose pose;
+};
+
+Complex bend(Complex z) { return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12); }
+
+/// A cage with two pins (one of them turning) where the method uses pins; posed by a bend.
+Setup setup(const Method& method, Precision precision, int degree = 1) {
+  const Cage straight = polygon_cage(shapes::l_shape());
+  Cage degrees = straight;
+  for (Points& segment : degrees.segments) segment.resize(degree);
+  Setup s;
+  s.rest.cage = elevated_to(straight, degrees);
+  s.rest.precision = precision;
+  const Mesh mesh = domain_mesh(shapes::l_shape(), {400});
+  s.rest.samples = mesh.vertices;
+  s.rest.derivative_samples = derivative_samples(mesh);
+  if (method.uses_pins) s.rest.pins = {{{40, 40}, false}, {{150, 60}, true}, {{50, 160}, false}};
+  s.pose.cage = s.rest.cage;
+  for (Points& segment : s.pose.cage.segments)
+    for (Complex& z : segment) z = bend(z);
+  for (const RestPin& pin : s.rest.pins) s.pose.pins.push_back({bend(pin.position) + Complex(5, -3), 0.3});
+  return s;
+}
+
+Pose mapped(const Rest& rest, Complex a, Complex b) {
+  Pose pose{rest.cage, {}};
+  for (Points& segment : pose.cage.segments)
+    for (Complex& z : segment) z = a * z + b;
+  for (const RestPin& pin : rest.pins) pose.pins.push_back({a * pin.position + b, std::arg(a)});
+  return pose;
+}
+
+/// Rounding of the operators, relative to displacements of the size of the picture.
+double tolerance(Precision precision) { return precision == Precision::full ? 1e-9 : 5e-4; }
+
+template <class Check>
+void for_every_method(Check check) {
+  for (const Method& method : methods())
+    for (const Precision precision : {Precision::single, Precision::full})
+      for (const int degree : {1, 3}) {
+        INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", degree " << degree);
+        check(method, setup(method, precision, degree), tolerance(precision));
+      }
+}
+
+SampledMap run(const Method& method, const Rest& rest, const Pose& pose) {
+  SampledMap map;
+  method.prepare(rest, nullptr)->deform(pose, map, true);
+  return map;
+}
+
+VectorXc samples_of(const Rest& rest) {
+  return Eigen::Map<const VectorXc>(rest.samples.data(), static_cast<Index>(rest.samples.size()));
+}
+
+}  // namespace
+
+TEST_CASE("Contract: the rest pose gives the identity, to the last bit") {
+  for_every_method([](const Method& method, const Setup& s, double) {
+    const SampledMap map = run(method, s.rest, mapped(s.rest, 1, 0));
+    CHECK(map.f == samples_of(s.rest));
+    CHECK(map.fz == VectorXc::Ones(map.f.size()));
+    CHECK(map.fzbar.isZero(0));
+  });
+}
+
+TEST_CASE("Contract: a similarity of the pose gives that similarity") {
+  for_every_method([](const Method& method, const Setup& s, double tolerance) {
+    Rest rest = s.rest;
+    for (RestPin& pin : rest.pins) pin.turns = false;  // a prescribed angle prescribes scale one, too
+    const Complex a{0.4, 1.1}, b{30, -12};
+    const SampledMap map = run(method, rest, mapped(rest, a, b));
+    const VectorXc exact = (a * samples_of(rest)).array() + b;
+    CHECK((map.f - exact).cwiseAbs().maxCoeff() <= tolerance);
+    CHECK((map.fz.array() - a).abs().maxCoeff() <= tolerance);
+  });
+}
+
+TEST_CASE("Contract: scaling everything by a power of two changes nothing else") {
+  for_every_method([](const Method& method, Setup s, double tolerance) {
+    const SampledMap before = run(method, s.rest, s.pose);
+    const double scale = 8;
+    const auto scale_cage = [&](Cage& cage) {
+      for (Points& segment : cage.segments)
+        for (Complex& z : segment) z *= scale;
+    };
+    scale_cage(s.rest.cage), scale_cage(s.pose.cage);
+    for (RestPin& pin : s.rest.pins) pin.position *= scale;
+    for (PosePin& pin : s.pose.pins) pin.position *= scale;
+    for (Complex& z : s.rest.samples) z *= scale;
+    for (Complex& z : s.rest.derivative_samples) z *= scale;
+    const SampledMap after = run(method, s.rest, s.pose);
+    CHECK((after.f - scale * before.f).cwiseAbs().maxCoeff() <= scale * tolerance);
+    CHECK((after.fz - before.fz).cwiseAbs().maxCoeff() <= tolerance);
+  });
+}
+
+TEST_CASE("Contract: derivatives agree with finite differences") {
+  for_every_method([](const Method& method, Setup s, double) {
+    if (s.rest.precision == Precision::single) return;  // differences of floats say nothing
+    const Points centers{{50, 50}, {120, 40}, {60, 150}, {20, 90}};
+    const double h = 1e-3;
+    s.rest.samples.clear();
+    s.rest.derivative_samples.clear();
+    for (const Complex z : centers)
+      for (const Complex step : {Complex(h), Complex(-h), h * kI, -h * kI, Complex(0)}) s.rest.samples.push_back(z + step);
+    const SampledMap map = run(method, s.rest, s.pose);
+    for (Index i = 0; i < map.f.size(); i += 5) {
+      const Complex fx = (map.f[i] - map.f[i + 1]) / (2 * h), fy = (map.f[i + 2] - map.f[i + 3]) / (2 * h);
+      CHECK(std::abs((fx - kI * fy) / 2.0 - map.fz[i + 4]) < 1e-6);
+      CHECK(std::abs((fx + kI * fy) / 2.0 - map.fzbar[i + 4]) < 1e-6);
+    }
+  });
+}
+
+TEST_CASE("Contract: the operator for the shader is the map") {
+  for (const Method& method : methods()) {
+    const Setup s = setup(method, Precision::single);
+    const auto deformer = method.prepare(s.rest, nullptr);
+    const PlanarMatrix<float>* matrix = deformer->operator_matrix();
+    if (!matrix) continue;
+    SampledMap map;
+    deformer->deform(s.pose, map, false);
+    const VectorXc controls = deformer->controls(s.pose);
+    REQUIRE(matrix->cols() == controls.size());
+    const MatrixXc exact = matrix->re.cast<double>().cast<Complex>() + kI * matrix->im.cast<double>().cast<Complex>();
+    CHECK((samples_of(s.rest) + exact * controls - map.f).cwiseAbs().maxCoeff() <= 1e-4);
+  }
+}
+
+TEST_CASE("Contract: single precision is full precision, rounded") {
+  for (const Method& method : methods()) {
+    const Setup rough = setup(method, Precision::single), exact = setup(method, Precision::full);
+    const SampledMap a = run(method, rough.rest, rough.pose), b = run(method, exact.rest, exact.pose);
+    CHECK((a.f - b.f).cwiseAbs().maxCoeff() <= 1e-3);
+    CHECK((a.fz - b.fz).cwiseAbs().maxCoeff() <= 1e-3);
+  }
+}
+
+TEST_CASE("Contract: bad input throws and the deformer still answers") {
+  for_every_method([](const Method& method, const Setup& s, double) {
+    const auto deformer = method.prepare(s.rest, nullptr);
+    SampledMap map;
+    deformer->deform(s.pose, map, false);
+    const VectorXc before = map.f;
+    Pose bad = s.pose;
+    bad.cage.segments[0][0] = {NAN, 0};
+    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
+    bad = s.pose;
+    bad.cage.segments.pop_back();
+    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
+    deformer->deform(s.pose, map, false);
+    CHECK(map.f == before);
+    Rest crossed = s.rest;
+    crossed.cage = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+    CHECK_THROWS_AS(method.prepare(crossed, nullptr), Error);
+  });
+}
+
+TEST_CASE("Contract: a previous deformer changes nothing but the time") {
+  for_every_method([](const Method& method, const Setup& s, double) {
+    Rest fewer = s.rest;
+    Pose fewer_pose = s.pose;
+    if (!fewer.pins.empty()) fewer.pins.pop_back();
+    const auto previous = method.prepare(fewer, nullptr);
+    SampledMap a, b;
+    method.prepare(s.rest, previous.get())->deform(s.pose, a, true);
+    method.prepare(s.rest, nullptr)->deform(s.pose, b, true);
+    CHECK(a.f == b.f);
+    CHECK(a.fz == b.fz);
+  });
+}
+
+TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
+  const Method& pins = method_named("pins");
+  Setup s = setup(pins, Precision::full);
+  s.rest.samples.clear();
+  s.rest.derivative_samples.clear();
+  for (const RestPin& pin : s.rest.pins) s.rest.samples.push_back(pin.position);
+  const auto miss = [&](const Parameters& parameters) {
+    s.rest.parameters = parameters;
+    const SampledMap map = run(pins, s.rest, s.pose);
+    double worst = 0;
+    for (Index i = 0; i < map.f.size(); ++i) worst = std::max(worst, std::abs(map.f[i] - s.pose.pins[i].position));
+    return worst;
+  };
+  CHECK(miss({{"exact", 1}}) < 1e-8);
+  const double light = miss({{"exact", 0}, {"pin_weight", 1e-3}}), heavy = miss({{"exact", 0}, {"pin_weight", 10}});
+  CHECK(heavy < light);
+  CHECK(light > 1e-3);
+  s.rest.parameters = {{"exact", 1}};
+  const SampledMap map = run(pins, s.rest, s.pose);
+  CHECK(std::abs(map.fz[1] - std::polar(1.0, 0.3)) < 1e-8);  // the pin that turns
+}
+
+TEST_CASE("The pins' correction minimises the smoothness energy among maps that meet them") {
+  // Independent: the stacked least-squares problem with the pins as heavy rows.
+  const Method& pins = method_named("pins");
+  Setup s = setup(pins, Precision::full);
+  s.pose.cage = s.rest.cage;
+  for (RestPin& pin : s.rest.pins) pin.turns = false;
+  const auto energy = [&](const Points& samples, const SampledMap& map) {  // mean |f''|^2 by differences of f'
+    double sum = 0;
+    for (size_t i = 0; i + 1 < samples.size(); i += 2)
+      sum += std::norm((map.fz[i + 1] - map.fz[i]) / (samples[i + 1] - samples[i]));
+    return sum;
+  };
+  s.rest.derivative_samples.clear();
+  s.rest.samples.clear();
+  for (double x = 10; x < 100; x += 7)
+    for (double y = 10; y < 190; y += 7) {
+      s.rest.samples.push_back({x, y});
+      s.rest.samples.push_back({x + 1e-3, y});
+    }
+  const double smoothest = energy(s.rest.samples, run(pins, s.rest, s.pose));
+  // Meeting a fourth pin that is off the smoothest map costs energy; one on it costs nothing.
+  Setup more = s;
+  const Complex place{150, 30};
+  more.rest.samples.push_back(place);
+  const SampledMap map = run(pins, more.rest, s.pose);
+  const Complex image = map.f[map.f.size() - 1];
+  more.rest.samples.pop_back();
+  more.rest.pins.push_back({place, false});
+  more.pose.pins.push_back({image, 0});
+  CHECK(energy(s.rest.samples, run(pins, more.rest, more.pose)) == Approx(smoothest).epsilon(1e-6));
+  more.pose.pins.back().position += 20.0;
+  CHECK(energy(s.rest.samples, run(pins, more.rest, more.pose)) > 1.01 * smoothest);
+}
+
+TEST_CASE("One pin moves everything, and unusable pins are named") {
+  const Method& pins = method_named("pins");
+  Setup s = setup(pins, Precision::full);
+  s.rest.pins = {{{40, 40}, false}};
+  Pose pose = mapped(s.rest, 1, 0);
+  pose.pins[0].position += Complex(7, 9);
+  SampledMap map = run(pins, s.rest, pose);
+  CHECK((map.f - samples_of(s.rest)).cwiseAbs().minCoeff() == Approx(std::abs(Complex(7, 9))));
+  CHECK((map.fz.array() - Complex(1)).abs().maxCoeff() < 1e-9);
+  s.rest.pins = {{{40, 40}, false}, {{40, 40}, false}, {{190, 190}, false}};
+  map = run(pins, s.rest, mapped(s.rest, 1, 0));
+  CHECK_THAT(map.note, Catch::Contains("pin 3 lies outside") && Catch::Contains("pin 2 lies on another"));
+}
+
+TEST_CASE("An unknown method is refused by name") {
+  CHECK_THROWS_WITH(method_named("magic"), Catch::Contains("magic") && Catch::Contains("cage, pins"));
+}

@@ -1,0 +1,43 @@
+// Shapes that tests share.
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "core/cage.h"
+
+namespace holomorph::shapes {
+
+inline Points rectangle(double width, double height) {
+  return {{0, 0}, {width, 0}, {width, height}, {0, height}};
+}
+
+inline Points l_shape() { return {{0, 0}, {200, 0}, {200, 100}, {100, 100}, {100, 200}, {0, 200}}; }
+
+/// A star-shaped polygon around (200, 200) with `n` vertices and radii in 100 (1 +- ripple).
+inline Points star(int n, double ripple, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> radius(1 - ripple, 1 + ripple);
+  Points polygon;
+  for (int i = 0; i < n; ++i)
+    polygon.push_back(Complex(200, 200) + 100.0 * radius(random) * std::polar(1.0, 2 * kPi * i / n));
+  return polygon;
+}
+
+/// A closed comb: many thin teeth.
+inline Points comb(int teeth) {
+  Points polygon{{0, 0}};
+  for (int i = 0; i < teeth; ++i) {
+    polygon.push_back({20.0 * i + 18, 0});
+    if (i + 1 < teeth) {
+      polygon.push_back({20.0 * i + 18, 80});
+      polygon.push_back({20.0 * i + 20, 80});
+      polygon.push_back({20.0 * i + 20, 0});
+    }
+  }
+  polygon.push_back({20.0 * teeth - 2, 100});
+  polygon.push_back({0, 100});
+  return polygon;
+}
+
+}  // namespace holomorph::shapes
