@@ -1,0 +1,208 @@
+// The content's distance field has the offset outline as a level curve; marching squares traces it,
+// and simplified_around thins it without giving up a lower level curve, which holds the content.
+#include "scene/auto_cage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "core/simplify.h"
+
+namespace holomorph {
+namespace {
+
+/// A grid of bytes or distances with a border around it.
+template <class T>
+struct Grid {
+  int width, height;
+  std::vector<T> cells;
+  Grid(int w, int h, T fill) : width(w), height(h), cells(static_cast<size_t>(w) * h, fill) {}
+  T& operator()(int c, int r) { return cells[static_cast<size_t>(r) * width + c]; }
+  T operator()(int c, int r) const { return cells[static_cast<size_t>(r) * width + c]; }
+};
+
+/// Keeps the largest 8-connected set of ones.
+void keep_largest_part(Grid<std::uint8_t>& mask) {
+  Grid<int> label(mask.width, mask.height, 0);
+  int best = 0, labels = 0;
+  size_t best_size = 0;
+  std::vector<std::pair<int, int>> stack;
+  for (int r = 0; r < mask.height; ++r)
+    for (int c = 0; c < mask.width; ++c) {
+      if (!mask(c, r) || label(c, r)) continue;
+      ++labels;
+      size_t size = 0;
+      label(c, r) = labels;
+      stack.assign(1, {c, r});
+      while (!stack.empty()) {
+        const auto [x, y] = stack.back();
+        stack.pop_back();
+        ++size;
+        for (int v = std::max(0, y - 1); v <= std::min(mask.height - 1, y + 1); ++v)
+          for (int u = std::max(0, x - 1); u <= std::min(mask.width - 1, x + 1); ++u)
+            if (mask(u, v) && !label(u, v)) {
+              label(u, v) = labels;
+              stack.push_back({u, v});
+            }
+      }
+      if (size > best_size) best_size = size, best = labels;
+    }
+  for (size_t i = 0; i < mask.cells.size(); ++i) mask.cells[i] = best > 0 && label.cells[i] == best;
+}
+
+Grid<std::uint8_t> content_of(const Image& image) {
+  Grid<std::uint8_t> mask(image.width, image.height, 0);
+  for (size_t i = 0; i < mask.cells.size(); ++i) mask.cells[i] = image.pixels[4 * i + 3] > kOpaqueAlpha;
+  return mask;
+}
+
+/// One line of the exact squared Euclidean distance transform: the lower envelope of parabolas.
+void transform_line(const std::vector<double>& f, std::vector<double>& d, std::vector<int>& site, std::vector<double>& bound) {
+  const int n = static_cast<int>(f.size());
+  int k = -1;
+  for (int q = 0; q < n; ++q) {
+    if (f[q] >= 1e20) continue;
+    double s = -1e20;
+    while (k >= 0) {
+      const int p = site[k];
+      s = ((f[q] + static_cast<double>(q) * q) - (f[p] + static_cast<double>(p) * p)) / (2.0 * (q - p));
+      if (s > bound[k]) break;
+      --k;
+    }
+    site[++k] = q;
+    bound[k] = k == 0 ? -1e20 : s;
+    bound[k + 1] = 1e20;
+  }
+  if (k < 0) return void(std::fill(d.begin(), d.end(), 1e20));
+  for (int q = 0, i = 0; q < n; ++q) {
+    while (bound[i + 1] < q) ++i;
+    d[q] = (q - site[i]) * static_cast<double>(q - site[i]) + f[site[i]];
+  }
+}
+
+/// Distance of every cell's centre to the nearest centre of a cell of the mask, in cells.
+Grid<double> distance_field(const Grid<std::uint8_t>& mask) {
+  Grid<double> field(mask.width, mask.height, 1e20);
+  const int longest = std::max(mask.width, mask.height);
+  std::vector<double> f, d, bound(longest + 2);
+  std::vector<int> site(longest + 1);
+  for (int c = 0; c < mask.width; ++c) {
+    f.assign(mask.height, 1e20), d.assign(mask.height, 0);
+    for (int r = 0; r < mask.height; ++r) f[r] = mask(c, r) ? 0 : 1e20;
+    transform_line(f, d, site, bound);
+    for (int r = 0; r < mask.height; ++r) field(c, r) = d[r];
+  }
+  for (int r = 0; r < mask.height; ++r) {
+    f.assign(mask.width, 0), d.assign(mask.width, 0);
+    for (int c = 0; c < mask.width; ++c) f[c] = field(c, r);
+    transform_line(f, d, site, bound);
+    for (int c = 0; c < mask.width; ++c) field(c, r) = std::sqrt(d[c]);
+  }
+  return field;
+}
+
+/// The longest level curve {field = level} as a closed polygon in cell coordinates (centre of cell
+/// (c, r) at (c, r), r downwards), the lower side on its left seen with r upwards.
+Points level_curve(const Grid<double>& field, double level) {
+  // Crossings are numbered by the grid edge they lie on: horizontal ones first, then vertical ones.
+  const int w = field.width, h = field.height;
+  const auto horizontal = [&](int c, int r) { return r * w + c; };
+  const auto vertical = [&](int c, int r) { return w * h + r * w + c; };
+  std::vector<int> next(static_cast<size_t>(2) * w * h, -1);
+  const auto inside = [&](int c, int r) { return field(c, r) < level; };
+  for (int r = 0; r + 1 < h; ++r)
+    for (int c = 0; c + 1 < w; ++c) {
+      // Corners counter-clockwise with r upwards: lower left, lower right, upper right, upper left.
+      const bool corner[4] = {inside(c, r + 1), inside(c + 1, r + 1), inside(c + 1, r), inside(c, r)};
+      const int edge[4] = {horizontal(c, r + 1), vertical(c + 1, r), horizontal(c, r), vertical(c, r)};
+      int leaving[2], entering[2], outs = 0, ins = 0;
+      for (int k = 0; k < 4; ++k) {
+        if (corner[k] && !corner[(k + 1) % 4]) entering[ins++] = k;   // the curve enters the cell here
+        if (!corner[k] && corner[(k + 1) % 4]) leaving[outs++] = k;
+      }
+      for (int k = 0; k < ins; ++k) {
+        // In a saddle the inside is one piece: each entry joins the exit before it around the cell.
+        int to = leaving[0];
+        if (ins == 2) to = leaving[0] == (entering[k] + 3) % 4 ? leaving[1] : leaving[0];
+        next[edge[entering[k]]] = edge[to];
+      }
+    }
+  const auto place = [&](int crossing) {
+    const bool is_vertical = crossing >= w * h;
+    const int at = is_vertical ? crossing - w * h : crossing, c = at % w, r = at / w;
+    const double a = field(c, r), b = is_vertical ? field(c, r + 1) : field(c + 1, r);
+    const double t = std::clamp((level - a) / (b - a), 0.0, 1.0);
+    return is_vertical ? Complex(c, -(r + t)) : Complex(c + t, -r);
+  };
+  Points longest;
+  for (size_t start = 0; start < next.size(); ++start) {
+    if (next[start] < 0) continue;
+    Points loop;
+    for (int at = static_cast<int>(start); at >= 0;) {
+      const Complex z = place(at);
+      if (loop.empty() || z != loop.back()) loop.push_back(z);
+      at = std::exchange(next[at], -1);
+    }
+    if (loop.size() > 2 && loop.front() == loop.back()) loop.pop_back();
+    if (std::abs(signed_area(loop)) > std::abs(signed_area(longest))) longest = std::move(loop);
+  }
+  return longest;
+}
+
+Points rectangle(const Image& image, double margin) {
+  const double right = image.width + margin, top = image.height + margin;
+  return {{-margin, -margin}, {right, -margin}, {right, top}, {-margin, top}};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> largest_part(const Image& image) {
+  Grid<std::uint8_t> mask = content_of(image);
+  keep_largest_part(mask);
+  const bool any = std::find(mask.cells.begin(), mask.cells.end(), 1) != mask.cells.end();
+  return any ? std::move(mask.cells) : std::vector<std::uint8_t>{};
+}
+
+Points auto_cage(const Image& image, const AutoCageOptions& options) {
+  if (options.vertices < 3 || options.vertices > 500)
+    throw Error(ErrorKind::bad_input, "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
+  const int longest = std::max(image.width, image.height);
+  if (!std::isfinite(options.margin) || options.margin > 4.0 * longest)
+    throw Error(ErrorKind::bad_input, "the margin is larger than four times the picture");
+  const double margin = options.margin < 0 ? std::max(3.0, 0.02 * longest) : options.margin;
+  if (!has_transparency(image)) return rectangle(image, margin);
+  const std::vector<std::uint8_t> part = largest_part(image);
+  if (part.empty()) return rectangle(image, margin);
+
+  // Cells of `scale` pixels: a cell with any pixel of the part counts whole.
+  constexpr int kMostCells = 768;
+  const int scale = (longest + kMostCells - 1) / kMostCells;
+  // Distances are roots of whole numbers; a level between them never passes through a cell's centre,
+  // where a level curve could touch itself.
+  constexpr double kBetween = 0.0073;
+  const double level = std::max(margin / scale, 1.6) + kBetween, kept_level = std::max(0.45 * level, 0.75) + kBetween;
+  const int border = static_cast<int>(std::ceil(level)) + 3;
+  Grid<std::uint8_t> cells((image.width - 1) / scale + 1 + 2 * border, (image.height - 1) / scale + 1 + 2 * border, 0);
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c)
+      if (part[static_cast<size_t>(r) * image.width + c]) cells(border + c / scale, border + r / scale) = 1;
+  const Grid<double> field = distance_field(cells);
+  Points outline = level_curve(field, level), kept = level_curve(field, kept_level);
+  const auto in_plane = [&](Complex z) {  // cell centres to image pixels, y up
+    return Complex((z.real() - border + 0.5) * scale, image.height + (z.imag() + border - 0.5) * scale);
+  };
+  std::transform(outline.begin(), outline.end(), outline.begin(), in_plane);
+  std::transform(kept.begin(), kept.end(), kept.begin(), in_plane);
+  Points cage = simplified_around(outline, kept, options.vertices);
+  // Rounding to 1/16 px reads well in files and cannot reach the content, 0.7 cells away.
+  Points rounded = cage;
+  for (Complex& z : rounded) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};
+  return self_crossing(rounded) ? cage : rounded;
+}
+
+Scene with_cage(Scene scene, const Points& polygon) {
+  scene.rest = scene.pose = polygon_cage(polygon);
+  return scene;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,135 @@
+// Paths are the subtle part: a scene names its picture relative to itself, so saving elsewhere
+// rewrites the reference, and an autosave names it absolutely.
+#include "scene/document.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <random>
+
+#include "core/error.h"
+#include "scene/scene_json.h"
+
+namespace holomorph {
+namespace fs = std::filesystem;
+namespace {
+
+/// "<pid>-<random>": tells whose it is and never repeats.
+std::string fresh_id() {
+  std::random_device random;
+  char text[48];
+  std::snprintf(text, sizeof text, "%ld-%08x", static_cast<long>(::getpid()), random());
+  return text;
+}
+
+Path image_path_of(const Scene& scene, const Path& scene_path) {
+  if (!scene.image) return {};
+  const Path file(scene.image->file);
+  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file).lexically_normal();
+}
+
+Path autosave_path(const Path& folder, const std::string& id) { return folder / (id + ".json"); }
+
+}  // namespace
+
+bool is_scene_path(const Path& path) { return path.extension() == ".json"; }
+
+LoadedScene load_scene(const Path& path) {
+  LoadedScene loaded;
+  loaded.scene = scene_from_json(read_file(path), path.string());
+  if (!loaded.scene.image) return loaded;
+  const Path image_path = image_path_of(loaded.scene, path);
+  const std::string pointer = path.string() + ": /image/file: ";
+  try {
+    const std::string bytes = read_file(image_path);
+    loaded.image = std::make_shared<const Image>(decode_image(bytes, image_path.string()));
+    ImageReference& reference = *loaded.scene.image;
+    if (!reference.sha256.empty() && reference.sha256 != sha256_hex(bytes))
+      loaded.warning = "The picture " + reference.file + " has changed since the scene was saved.";
+    reference.sha256 = sha256_hex(bytes);
+    reference.width = loaded.image->width;
+    reference.height = loaded.image->height;
+  } catch (const Error& error) {
+    throw Error(error.kind(), pointer + error.what());
+  }
+  return loaded;
+}
+
+LoadedScene scene_of_image(const Path& path) {
+  const std::string bytes = read_file(path);
+  LoadedScene loaded;
+  loaded.image = std::make_shared<const Image>(decode_image(bytes, path.string()));
+  loaded.scene.image = ImageReference{fs::absolute(path).string(), loaded.image->width, loaded.image->height, sha256_hex(bytes), ""};
+  return loaded;
+}
+
+Document::Document() : id_(fresh_id()), history_(Scene{}, "New") {}
+
+Document::Document(LoadedScene loaded, Path path)
+    : id_(fresh_id()), history_(loaded.scene), image_(std::move(loaded.image)),
+      image_path_(image_path_of(loaded.scene, path)), path_(std::move(path)), saved_(loaded.scene),
+      warning_(std::move(loaded.warning)) {}
+
+Document Document::open(const Path& path) {
+  if (is_scene_path(path)) return {load_scene(path), fs::absolute(path).lexically_normal()};
+  return {scene_of_image(path), Path()};
+}
+
+Document Document::recover(const Path& autosave) {
+  Document document(load_scene(autosave), Path());
+  document.saved_ = Scene{};
+  return document;
+}
+
+std::string Document::title() const {
+  if (!path_.empty()) return path_.filename().string();
+  return image_path_.empty() ? "Untitled" : image_path_.stem().string() + " (not saved)";
+}
+
+bool Document::commit(const std::string& label, Scene scene) { return history_.commit(label, std::move(scene)); }
+
+Scene Document::portable(const Path& folder) const {
+  Scene scene = history_.current();
+  if (scene.image && !image_path_.empty()) {
+    const Path relative = image_path_.lexically_relative(fs::absolute(folder).lexically_normal());
+    scene.image->file = relative.empty() || folder.empty() ? image_path_.string() : relative.generic_string();
+  }
+  return scene;
+}
+
+void Document::save(const Path& path) {
+  const Path target = fs::absolute(path).lexically_normal();
+  write_file(target, json_of(portable(target.parent_path())));
+  path_ = target;
+  saved_ = history_.current();
+}
+
+void Document::autosave(const Path& folder) {
+  if (!modified() || autosaved_ == scene()) return;
+  fs::create_directories(folder);
+  write_file(autosave_path(folder, id_), json_of(portable(Path())));
+  autosaved_ = scene();
+}
+
+void Document::remove_autosave(const Path& folder) const {
+  std::error_code ignored;
+  fs::remove(autosave_path(folder, id_), ignored);
+}
+
+std::vector<Path> recoverable(const Path& folder) {
+  std::vector<std::pair<fs::file_time_type, Path>> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json" || entry.path().filename().string().starts_with(".")) continue;
+    const long owner = std::atol(entry.path().stem().c_str());
+    if (owner > 0 && owner != ::getpid() && ::kill(static_cast<pid_t>(owner), 0) == 0) continue;
+    if (owner == ::getpid()) continue;
+    found.push_back({entry.last_write_time(error), entry.path()});
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<Path> paths;
+  for (auto& [time, path] : found) paths.push_back(std::move(path));
+  return paths;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,74 @@
+// An open scene: its history, its picture, its file and its autosave. The only owner of edits.
+#pragma once
+
+#include <memory>
+
+#include "scene/history.h"
+#include "scene/image.h"
+
+namespace holomorph {
+
+/// A scene and its picture as read from disk.
+struct LoadedScene {
+  Scene scene;
+  std::shared_ptr<const Image> image;
+  std::string warning;  ///< such as: the picture is not the one that the scene was made with
+};
+/// Reads a scene file and the picture that it names, relative to the file's folder. Throws Error.
+LoadedScene load_scene(const Path& path);
+
+/// The scene of a picture alone: no cage yet.
+LoadedScene scene_of_image(const Path& image);
+
+/// Whether a path is a scene by its name (.json); anything else is taken for a picture.
+bool is_scene_path(const Path& path);
+
+/// A scene being edited. Scenes read or recovered count as saved or not; commits make it modified.
+class Document {
+ public:
+  Document();  ///< empty, nothing to lose
+  /// Opens a scene or a picture. Throws Error and leaves nothing behind.
+  static Document open(const Path& path);
+  /// What an interrupted session left in an autosave file. Throws Error.
+  static Document recover(const Path& autosave);
+
+  const Scene& scene() const { return history_.current(); }
+  const Image* image() const { return image_.get(); }
+  std::shared_ptr<const Image> shared_image() const { return image_; }
+  const History& history() const { return history_; }
+  const Path& path() const { return path_; }  ///< empty for a scene never saved
+  const std::string& warning() const { return warning_; }
+  std::string title() const;
+  bool modified() const { return scene() != saved_; }
+  bool empty() const { return !image_ && !scene().has_cage() && history_.entries().size() == 1; }
+
+  /// One step of the history; no step when nothing changed. Returns whether there was one.
+  bool commit(const std::string& label, Scene scene);
+  bool undo() { return history_.undo(); }
+  bool redo() { return history_.redo(); }
+  void go_to(size_t entry) { history_.go_to(entry); }
+
+  /// Writes the scene; the picture's path is made relative to it. Throws Error and stays modified.
+  void save(const Path& path);
+
+  /// Writes the current scene under the document's id, when it is modified and not written yet.
+  void autosave(const Path& folder);
+  void remove_autosave(const Path& folder) const;
+
+ private:
+  Document(LoadedScene loaded, Path path);
+  Scene portable(const Path& folder) const;
+
+  std::string id_;  ///< names the autosave file, whatever the document's path is
+  History history_;
+  std::shared_ptr<const Image> image_;
+  Path image_path_, path_;
+  Scene saved_;
+  std::optional<Scene> autosaved_;
+  std::string warning_;
+};
+
+/// Autosave files that no running program owns, newest first.
+std::vector<Path> recoverable(const Path& folder);
+
+}  // namespace holomorph

@@ -1,0 +1,98 @@
+// POSIX calls, because an atomic replacement needs fsync and rename.
+#include "scene/file.h"
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+std::string read_file(const Path& path, size_t limit) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    throw Error(ErrorKind::bad_input, path.string() + ": there is no such file");
+  if (std::filesystem::is_directory(status))
+    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory, not a file");
+  if (!std::filesystem::is_regular_file(status))
+    throw Error(ErrorKind::bad_input, path.string() + ": this is not a regular file");
+  if (std::filesystem::file_size(path, error) > limit)
+    throw Error(ErrorKind::bad_input, path.string() + ": the file is larger than " + std::to_string(limit >> 20) + " MB");
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) throw Error(ErrorKind::bad_input, path.string() + ": the file cannot be read");
+  return bytes;
+}
+
+namespace {
+
+[[noreturn]] void fail(const Path& path, const char* what) {
+  throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+/// Flushes a directory's entries, so that a rename in it survives a power cut.
+void sync_directory(const Path& directory) {
+  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
+
+void write_file(const Path& wanted, const std::string& bytes) {
+  std::error_code error;
+  if (std::filesystem::is_directory(wanted, error))
+    throw Error(ErrorKind::bad_input, wanted.string() + ": this is a directory; name a file");
+  // A link keeps pointing where it points: its target is what gets replaced.
+  const Path resolved = std::filesystem::is_symlink(wanted, error) ? std::filesystem::canonical(wanted, error) : wanted;
+  const Path path = resolved.empty() ? wanted : resolved;
+  const Path directory = path.has_parent_path() ? path.parent_path() : Path(".");
+  std::string name = (directory / ("." + path.filename().string() + ".XXXXXX")).string();
+  const int fd = ::mkstemp(name.data());
+  if (fd < 0) fail(path, "cannot write here");
+  size_t done = 0;
+  bool good = true;
+  while (good && done < bytes.size()) {
+    const ssize_t wrote = ::write(fd, bytes.data() + done, bytes.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    good = wrote > 0;
+    if (good) done += static_cast<size_t>(wrote);
+  }
+  struct stat before {};
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  const mode_t mode = ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : 0666 & ~mask;
+  good = good && ::fchmod(fd, mode) == 0 && ::fsync(fd) == 0;
+  good = ::close(fd) == 0 && good;
+  good = good && ::rename(name.c_str(), path.c_str()) == 0;
+  if (!good) {
+    const int reason = errno;
+    ::unlink(name.c_str());
+    errno = reason;
+    fail(path, "cannot be written");
+  }
+  sync_directory(directory);
+}
+
+std::string sha256_hex(const std::string& bytes) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  check(EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) == 1, "SHA-256 is available");
+  std::string hex;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr char kDigits[] = "0123456789abcdef";
+    hex += kDigits[digest[i] >> 4];
+    hex += kDigits[digest[i] & 15];
+  }
+  return hex;
+}
+
+}  // namespace holomorph

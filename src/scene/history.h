@@ -1,0 +1,47 @@
+// Undo by snapshots: one drag is one snapshot, taken on release.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// A line of scenes and a place in it. There is always at least one scene.
+class History {
+ public:
+  struct Entry {
+    std::string label;
+    Scene scene;
+  };
+
+  explicit History(Scene scene, std::string label = "Open") { entries_.push_back({std::move(label), std::move(scene)}); }
+
+  /// Adds a scene after the current one; what had been undone is forgotten. A scene equal to the
+  /// current one is not added: returns false.
+  bool commit(std::string label, Scene scene) {
+    if (scene == current()) return false;
+    entries_.resize(index_ + 1);
+    entries_.push_back({std::move(label), std::move(scene)});
+    if (entries_.size() > kMost) entries_.erase(entries_.begin());
+    index_ = entries_.size() - 1;
+    return true;
+  }
+  bool undo() { return index_ > 0 && (--index_, true); }
+  bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }
+  void go_to(size_t index) { index_ = std::min(index, entries_.size() - 1); }
+
+  bool can_undo() const { return index_ > 0; }
+  bool can_redo() const { return index_ + 1 < entries_.size(); }
+  const Scene& current() const { return entries_[index_].scene; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  size_t index() const { return index_; }
+
+ private:
+  static constexpr size_t kMost = 1000;
+  std::vector<Entry> entries_;
+  size_t index_ = 0;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,45 @@
+// Pictures in memory and on disk.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/types.h"
+#include "scene/file.h"
+
+namespace holomorph {
+
+/// A picture of 8-bit straight-alpha RGBA pixels, rows from top to bottom. The pixel in column c of
+/// row r covers the plane's square [c, c + 1] x [height - r - 1, height - r].
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;  ///< 4 per pixel
+
+  Image() = default;
+  Image(int width, int height)
+      : width(width), height(height), pixels(static_cast<size_t>(width) * height * 4) {}
+  bool operator==(const Image&) const = default;
+
+  const std::uint8_t* at(int column, int row) const {
+    return &pixels[4 * (static_cast<size_t>(row) * width + column)];
+  }
+  std::uint8_t* at(int column, int row) {
+    return &pixels[4 * (static_cast<size_t>(row) * width + column)];
+  }
+};
+
+/// Decodes PNG, JPEG and what else stb_image reads. `name` is for messages.
+/// Throws Error{bad_input} for what is no picture, or one of more than 16384 pixels a side.
+Image decode_image(const std::string& bytes, const std::string& name);
+
+/// The picture in a file; errors as read_file and decode_image.
+Image load_image(const Path& path);
+
+/// The bytes of a PNG file.
+std::string encode_png(const Image& image);
+
+/// Whether any pixel's alpha is below 255.
+bool has_transparency(const Image& image);
+
+}  // namespace holomorph

@@ -1,0 +1,149 @@
+// Values are compared instead of dirty flags: the worker is asked when same_rest is false.
+#include "scene/live_map.h"
+
+#include <chrono>
+#include <utility>
+
+namespace holomorph {
+namespace {
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+bool same_rest(const Scene& a, const Scene& b) {
+  if (a.method != b.method || a.parameters != b.parameters || a.rest != b.rest) return false;
+  for (Index i = 0; i < a.pose.size() && i < b.pose.size(); ++i)
+    if (a.pose.degree(i) != b.pose.degree(i)) return false;
+  if (!method_named(a.method).uses_pins) return true;
+  if (a.pins.size() != b.pins.size()) return false;
+  for (size_t i = 0; i < a.pins.size(); ++i)
+    if (a.pins[i].rest != b.pins[i].rest || a.pins[i].angle.has_value() != b.pins[i].angle.has_value()) return false;
+  return true;
+}
+
+std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision, const MeshOptions& options,
+                                          const PreparedMap* previous) {
+  const double start = now_ms();
+  auto prepared = std::make_unique<PreparedMap>();
+  prepared->rest = rest_of(scene, precision);
+  prepared->method = scene.method;
+  const Points polygon = vertices_of(scene.rest);
+  const bool same_cage = previous && previous->mesh && vertices_of(previous->rest.cage) == polygon;
+  prepared->mesh = same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(polygon, options));
+  prepared->rest.samples = prepared->mesh->vertices;
+  prepared->rest.derivative_samples = same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
+  const bool same_method = previous && previous->method == scene.method;
+  prepared->deformer = method_named(scene.method).prepare(prepared->rest, same_method ? previous->deformer.get() : nullptr);
+  prepared->milliseconds = now_ms() - start;
+  return prepared;
+}
+
+LiveMap::LiveMap(MeshOptions options) : options_(options), worker_([this] { work(); }) {}
+
+LiveMap::~LiveMap() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+}
+
+void LiveMap::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || waiting_; });
+    if (stop_) return;
+    const Scene scene = *std::exchange(waiting_, std::nullopt);
+    const std::shared_ptr<PreparedMap> base = base_;
+    working_ = true;
+    lock.unlock();
+    std::shared_ptr<PreparedMap> result;
+    std::optional<Error> failure;
+    try {
+      result = prepared_map(scene, Precision::single, options_, base.get());
+    } catch (const Error& error) {
+      failure = error;
+    } catch (const std::exception& error) {
+      failure = Error(ErrorKind::failed, std::string("the map could not be prepared: ") + error.what());
+    }
+    lock.lock();
+    working_ = false;
+    finished_ = true;
+    result_ = std::move(result);
+    failure_ = std::move(failure);
+    if (result_) base_ = result_;
+    changed_.notify_all();
+    if (wake_) wake_();
+  }
+}
+
+void LiveMap::take_result() {
+  const std::lock_guard lock(mutex_);
+  busy_ = working_ || waiting_;
+  if (!std::exchange(finished_, false)) return;
+  error_ = std::move(failure_);
+  failure_.reset();
+  if (!result_) return;
+  shown_ = std::move(result_);
+  posed_.reset();
+  ++preparation_;
+}
+
+bool LiveMap::pose(const Scene& scene, bool derivatives) {
+  if (!shown_ || (posed_ == scene && posed_derivatives_ == derivatives)) return false;
+  const double start = now_ms();
+  try {
+    SampledMap map;
+    shown_->deformer->deform(pose_of(scene), map, derivatives);
+    map_ = std::move(map);
+  } catch (const Error& error) {
+    error_ = error;
+    return false;
+  }
+  pose_milliseconds_ = now_ms() - start;
+  posed_ = scene;
+  posed_derivatives_ = derivatives;
+  return true;
+}
+
+bool LiveMap::update(const Scene& scene, bool derivatives) {
+  const unsigned before = preparation_;
+  take_result();
+  if (!scene.has_cage()) {
+    const bool changed = shown_ != nullptr;
+    shown_.reset();
+    map_ = SampledMap{};
+    posed_.reset();
+    requested_.reset();
+    error_.reset();
+    return changed;
+  }
+  if (!requested_ || !same_rest(*requested_, scene)) {
+    requested_ = scene;
+    error_.reset();
+    const std::lock_guard lock(mutex_);
+    waiting_ = scene;
+    finished_ = false;  // an older result is of no use
+    result_.reset();
+    busy_ = true;
+    changed_.notify_all();
+    return before != preparation_;
+  }
+  if (busy_ || error_) return before != preparation_;
+  return pose(scene, derivatives) || before != preparation_;
+}
+
+void LiveMap::finish(const Scene& scene, bool derivatives) {
+  update(scene, derivatives);
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !working_ && !waiting_; });
+  }
+  update(scene, derivatives);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,85 @@
+// The map of a scene that is being edited: prepared on a worker thread, posed on the caller's.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "core/error.h"
+#include "core/mesh.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// A domain mesh and a deformer over it: what a rest needs prepared. Immutable but for the deformer.
+struct PreparedMap {
+  Rest rest;  ///< with samples
+  std::string method;
+  std::shared_ptr<const Mesh> mesh;
+  std::unique_ptr<Deformer> deformer;
+  double milliseconds = 0;  ///< what preparing took
+};
+
+/// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh of
+/// the same cage, the method's precomputation. Throws Error.
+std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision, const MeshOptions& options,
+                                          const PreparedMap* previous = nullptr);
+
+/// Follows a scene. update() never waits: while a changed rest is prepared on the worker the last map
+/// stays; errors are kept for showing and leave the last map, too.
+class LiveMap {
+ public:
+  explicit LiveMap(MeshOptions options = {});
+  ~LiveMap();
+  LiveMap(const LiveMap&) = delete;
+  LiveMap& operator=(const LiveMap&) = delete;
+
+  /// Called by the worker when a preparation has ended, to wake an event loop. Set before use.
+  void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
+
+  /// Takes what the worker has finished, asks for what the scene needs, and poses the map when it
+  /// fits the scene. Returns whether the map changed. `derivatives` asks for f_z and f_zbar, too.
+  bool update(const Scene& scene, bool derivatives);
+  /// update(), then waits for the worker until the map is the scene's or failed. For tests.
+  void finish(const Scene& scene, bool derivatives);
+
+  const PreparedMap* prepared() const { return shown_.get(); }
+  /// The map at mesh->vertices; empty until there is one.
+  const SampledMap& map() const { return map_; }
+  bool has_map() const { return shown_ && map_.f.size() > 0; }
+  bool busy() const { return busy_; }
+  const std::optional<Error>& error() const { return error_; }
+  double pose_milliseconds() const { return pose_milliseconds_; }
+  /// Grows by one whenever a newly prepared map is taken over.
+  unsigned preparation() const { return preparation_; }
+
+ private:
+  void work();
+  void take_result();
+  bool pose(const Scene& scene, bool derivatives);
+
+  MeshOptions options_;
+  std::function<void()> wake_;
+  std::shared_ptr<PreparedMap> shown_;
+  SampledMap map_;
+  std::optional<Error> error_;
+  std::optional<Scene> requested_;      ///< the scene whose rest was last asked for
+  std::optional<Scene> posed_;          ///< the scene that map_ shows
+  bool posed_derivatives_ = false, busy_ = false;
+  double pose_milliseconds_ = 0;
+  unsigned preparation_ = 0;
+
+  std::mutex mutex_;  ///< guards what follows
+  std::condition_variable changed_;
+  std::optional<Scene> waiting_;
+  std::shared_ptr<PreparedMap> base_, result_;
+  std::optional<Error> failure_;
+  bool working_ = false, finished_ = false, stop_ = false;
+  std::thread worker_;
+};
+
+/// Whether two scenes need the same preparation.
+bool same_rest(const Scene& a, const Scene& b);
+
+}  // namespace holomorph

@@ -1,0 +1,52 @@
+// What the user made and what a file holds: a plain value.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/deformer.h"
+
+namespace holomorph {
+
+/// JSON object text of keys that this version does not know; they are kept and written back.
+using Extra = std::string;
+
+/// The picture that a scene bends: a path relative to the scene file, and what the file was.
+struct ImageReference {
+  std::string file;
+  int width = 0, height = 0;
+  std::string sha256;
+  Extra extra;
+  bool operator==(const ImageReference&) const = default;
+};
+
+/// A point handle; with an angle it turns the picture around it, too.
+struct Pin {
+  Complex rest, pose;
+  std::optional<double> angle;
+  Extra extra;
+  bool operator==(const Pin&) const = default;
+};
+
+/// All that is saved. rest and pose of the cage have the same number of segments; both are empty
+/// until a cage is drawn.
+struct Scene {
+  std::optional<ImageReference> image;
+  Cage rest, pose;
+  std::vector<Pin> pins;
+  std::string method = "cage";
+  Parameters parameters;
+  Extra cage_extra, method_extra, extra;
+
+  bool has_cage() const { return rest.size() > 0; }
+  bool operator==(const Scene&) const = default;
+};
+
+/// What the scene's method precomputes from, without samples.
+Rest rest_of(const Scene& scene, Precision precision);
+/// What moves.
+Pose pose_of(const Scene& scene);
+/// The scene with everything posed as it rests.
+Scene at_rest(Scene scene);
+
+}  // namespace holomorph

@@ -1,0 +1,295 @@
+// One reader object carries the file's name and the JSON pointer, so that every error can say where.
+#include "scene/scene_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr double kLargest = 1e8;       ///< coordinates beyond this are no picture's
+constexpr size_t kMostSegments = 5000;
+constexpr size_t kHighestDegree = 32;
+
+/// A JSON value, where it stands, and how to complain about it.
+class Reader {
+ public:
+  Reader(const Json& value, std::string name, std::string pointer)
+      : value_(value), name_(std::move(name)), pointer_(std::move(pointer)) {}
+
+  [[noreturn]] void fail(const std::string& reason, std::optional<Complex> where = {}) const {
+    throw Error(ErrorKind::bad_input, name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
+  }
+
+  const Reader& object() const {
+    if (!value_.is_object()) fail("an object is wanted here, not " + kind());
+    return *this;
+  }
+  const Reader& array() const {
+    if (!value_.is_array()) fail("a list is wanted here, not " + kind());
+    return *this;
+  }
+  size_t size() const { return value_.size(); }
+  bool has(const char* key) const { return value_.contains(key); }
+  Reader operator[](const char* key) const {
+    if (!has(key)) fail(std::string("the key '") + key + "' is missing");
+    return {value_.at(key), name_, pointer_ + "/" + key};
+  }
+  Reader operator[](size_t i) const { return {value_.at(i), name_, pointer_ + "/" + std::to_string(i)}; }
+
+  double number() const {
+    if (!value_.is_number()) fail("a number is wanted here, not " + kind());
+    const double number = value_.get<double>();
+    if (!std::isfinite(number)) fail("the number is not finite");
+    return number;
+  }
+  int whole(int lowest, int highest) const {
+    const double n = number();
+    if (n != std::floor(n) || n < lowest || n > highest)
+      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) + " is wanted here");
+    return static_cast<int>(n);
+  }
+  std::string text() const {
+    if (!value_.is_string()) fail("a text is wanted here, not " + kind());
+    return value_.get<std::string>();
+  }
+  Complex point() const {
+    array();
+    if (size() != 2) fail("a point [x, y] is wanted here");
+    const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
+    if (std::abs(z.real()) > kLargest || std::abs(z.imag()) > kLargest) fail("the coordinates are larger than 1e8");
+    return z;
+  }
+  /// A parameter: a number, or a switch as 0 or 1.
+  double value() const { return value_.is_boolean() ? (value_.get<bool>() ? 1.0 : 0.0) : number(); }
+
+  /// The keys other than the known ones, as text; empty when there are none.
+  Extra others(std::initializer_list<const char*> known) const {
+    Json rest = Json::object();
+    for (const auto& [key, value] : value_.items())
+      if (std::find(known.begin(), known.end(), key) == known.end()) rest[key] = value;
+    return rest.empty() ? "" : rest.dump();
+  }
+  std::vector<std::string> keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : value_.items()) keys.push_back(key);
+    return keys;
+  }
+
+ private:
+  std::string kind() const { return value_.is_null() ? "null" : std::string("a ") + value_.type_name(); }
+
+  const Json& value_;
+  std::string name_, pointer_;
+};
+
+Cage read_loop(const Reader& list) {
+  list.array();
+  if (list.size() > kMostSegments) list.fail("more than " + std::to_string(kMostSegments) + " segments");
+  Cage cage;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Reader segment = list[i].array();
+    if (segment.size() == 0) segment.fail("a segment needs at least its first control point");
+    if (segment.size() > kHighestDegree) segment.fail("a segment's degree is at most " + std::to_string(kHighestDegree));
+    Points controls;
+    for (size_t m = 0; m < segment.size(); ++m) controls.push_back(segment[m].point());
+    cage.segments.push_back(std::move(controls));
+  }
+  return cage;
+}
+
+void read_cage(const Reader& reader, Scene& scene) {
+  reader.object();
+  scene.rest = read_loop(reader["rest"]);
+  scene.pose = reader.has("pose") ? read_loop(reader["pose"]) : scene.rest;
+  scene.cage_extra = reader.others({"rest", "pose"});
+  if (scene.pose.size() != scene.rest.size())
+    reader["pose"].fail("there are " + std::to_string(scene.pose.size()) + " posed segments and " +
+                        std::to_string(scene.rest.size()) + " at rest; they must agree");
+  if (!scene.has_cage()) return;  // not drawn yet
+  try {
+    check_rest_cage(scene.rest);
+  } catch (const Error& error) {
+    reader["rest"].fail(error.what(), error.where());
+  }
+}
+
+Pin read_pin(const Reader& reader) {
+  reader.object();
+  Pin pin;
+  pin.rest = reader["rest"].point();
+  pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
+  if (reader.has("angle")) pin.angle = reader["angle"].number();
+  pin.extra = reader.others({"rest", "pose", "angle"});
+  return pin;
+}
+
+ImageReference read_image(const Reader& reader) {
+  reader.object();
+  ImageReference image;
+  image.file = reader["file"].text();
+  if (image.file.empty()) reader["file"].fail("the path is empty");
+  if (reader.has("size")) {
+    const Reader size = reader["size"].array();
+    if (size.size() != 2) size.fail("[width, height] is wanted here");
+    image.width = size[size_t{0}].whole(1, 1 << 20);
+    image.height = size[1].whole(1, 1 << 20);
+  }
+  if (reader.has("sha256")) image.sha256 = reader["sha256"].text();
+  image.extra = reader.others({"file", "size", "sha256"});
+  return image;
+}
+
+void read_method(const Reader& reader, Scene& scene) {
+  reader.object();
+  scene.method = reader["id"].text();
+  try {
+    method_named(scene.method);
+  } catch (const Error& error) {
+    reader["id"].fail(error.what());
+  }
+  const Method& method = method_named(scene.method);
+  if (reader.has("parameters")) {
+    const Reader values = reader["parameters"].object();
+    for (const std::string& key : values.keys()) {
+      const auto spec = std::find_if(method.parameters.begin(), method.parameters.end(),
+                                     [&](const ParameterSpec& s) { return s.key == key; });
+      if (spec == method.parameters.end()) values.fail("method '" + scene.method + "' has no parameter '" + key + "'");
+      const double value = values[key.c_str()].value();
+      if (value < spec->lowest || value > spec->highest)
+        values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " + Json(spec->highest).dump() + "]");
+      scene.parameters[key] = value;
+    }
+  }
+  scene.method_extra = reader.others({"id", "parameters"});
+}
+
+Json point_json(Complex z) { return Json::array({z.real(), z.imag()}); }
+
+Json loop_json(const Cage& cage) {
+  Json list = Json::array();
+  for (const Points& controls : cage.segments) {
+    Json segment = Json::array();
+    for (const Complex& z : controls) segment.push_back(point_json(z));
+    list.push_back(std::move(segment));
+  }
+  return list;
+}
+
+void add_extra(Json& object, const Extra& extra) {
+  if (extra.empty()) return;
+  const Json others = Json::parse(extra);
+  for (const auto& [key, value] : others.items()) object[key] = value;
+}
+
+/// Lists of numbers on one line, everything else indented: short files that read well in a diff.
+void write_value(const Json& value, int depth, std::string& out) {
+  const std::string indent(2 * (depth + 1), ' ');
+  const auto flat = [](const Json& list) {
+    return std::none_of(list.begin(), list.end(), [](const Json& v) {
+      return v.is_object() || (v.is_array() && v.size() > 0 && v[0].is_array());
+    });
+  };
+  if (value.is_object() && !value.empty()) {
+    out += "{\n";
+    bool first = true;
+    for (const auto& [key, member] : value.items()) {
+      if (!first) out += ",\n";
+      first = false;
+      out += indent + Json(key).dump() + ": ";
+      write_value(member, depth + 1, out);
+    }
+    out += "\n" + std::string(2 * depth, ' ') + "}";
+  } else if (value.is_array() && !value.empty() && !flat(value)) {
+    out += "[\n";
+    for (size_t i = 0; i < value.size(); ++i) {
+      out += indent;
+      write_value(value[i], depth + 1, out);
+      out += i + 1 < value.size() ? ",\n" : "\n";
+    }
+    out += std::string(2 * depth, ' ') + "]";
+  } else {
+    out += value.dump();
+  }
+}
+
+}  // namespace
+
+Scene scene_from_json(const std::string& text, const std::string& name) {
+  Json document;
+  try {
+    document = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw Error(ErrorKind::bad_input, name + ": this is not a scene: " + error.what());
+  }
+  const Reader reader(document, name, "");
+  reader.object();
+  if (!reader.has("format") || reader["format"].text() != "holomorph")
+    reader.fail("this is not a Holomorph scene: \"format\": \"holomorph\" is missing");
+  const int version = reader["version"].whole(1, 1 << 30);
+  if (version > kVersion)
+    reader["version"].fail("the scene is of version " + std::to_string(version) + ", written by a newer program; this one reads up to version " + std::to_string(kVersion));
+  Scene scene;
+  if (reader.has("image")) scene.image = read_image(reader["image"]);
+  read_cage(reader["cage"], scene);
+  if (reader.has("pins")) {
+    const Reader pins = reader["pins"].array();
+    if (pins.size() > 2000) pins.fail("more than 2000 pins");
+    for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
+  }
+  if (reader.has("method")) read_method(reader["method"], scene);
+  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "method"});
+  return scene;
+}
+
+std::string json_of(const Scene& scene) {
+  Json document;
+  document["format"] = "holomorph";
+  document["version"] = kVersion;
+  if (scene.image) {
+    Json image;
+    image["file"] = scene.image->file;
+    if (scene.image->width > 0) image["size"] = Json::array({scene.image->width, scene.image->height});
+    if (!scene.image->sha256.empty()) image["sha256"] = scene.image->sha256;
+    add_extra(image, scene.image->extra);
+    document["image"] = std::move(image);
+  }
+  Json cage;
+  cage["rest"] = loop_json(scene.rest);
+  cage["pose"] = loop_json(scene.pose);
+  add_extra(cage, scene.cage_extra);
+  document["cage"] = std::move(cage);
+  if (!scene.pins.empty()) {
+    document["pins"] = Json::array();
+    for (const Pin& pin : scene.pins) {
+      Json item;
+      item["rest"] = point_json(pin.rest);
+      item["pose"] = point_json(pin.pose);
+      if (pin.angle) item["angle"] = *pin.angle;
+      add_extra(item, pin.extra);
+      document["pins"].push_back(std::move(item));
+    }
+  }
+  Json method;
+  method["id"] = scene.method;
+  method["parameters"] = Json::object();
+  for (const ParameterSpec& spec : method_named(scene.method).parameters)
+    if (const auto found = scene.parameters.find(spec.key); found != scene.parameters.end()) {
+      if (spec.kind == ParameterSpec::Kind::toggle)
+        method["parameters"][spec.key] = found->second != 0;
+      else
+        method["parameters"][spec.key] = found->second;
+    }
+  add_extra(method, scene.method_extra);
+  document["method"] = std::move(method);
+  add_extra(document, scene.extra);
+  std::string text;
+  write_value(document, 0, text);
+  return text + "\n";
+}
+
+}  // namespace holomorph

@@ -1,0 +1,16 @@
+// Scenes as JSON text; the format is published in schema/scene.schema.json.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// Reads a scene. `name` is the file's name for messages. Throws Error{bad_input} naming the file,
+/// the JSON pointer and the reason: not JSON, a wrong type, a number that is not finite or beyond
+/// 1e8, a newer version, an unknown method, a cage that is no rest cage. Unknown keys are kept.
+Scene scene_from_json(const std::string& text, const std::string& name);
+
+/// Writes a scene, unknown keys included; reading it gives the same scene, bit for bit.
+std::string json_of(const Scene& scene);
+
+}  // namespace holomorph
