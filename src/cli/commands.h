@@ -1,0 +1,51 @@
+// The program without a window: one function per subcommand.
+#pragma once
+
+#include <optional>
+
+#include "scene/file.h"
+
+namespace holomorph {
+
+struct MapCommand {
+  Path scene, points;
+  std::optional<Path> out;  ///< standard output when missing
+};
+struct CoordinatesCommand {
+  Path scene, points, out;
+  int order = 0;
+};
+struct RenderCommand {
+  Path scene, out;
+  double scale = 1;
+  std::string view = "image";
+  bool crop = false;
+};
+struct InfoCommand {
+  Path scene;
+  bool json = false;
+};
+struct NewCommand {
+  Path image, out;
+  int vertices = 30;
+  double margin = -1;
+};
+struct ExportCommand {
+  Path scene, out;
+  std::string format;
+};
+struct BenchCommand {
+  std::string filter;
+  bool json = false;
+};
+
+/// Each does its work and throws Error when it cannot.
+void run(const MapCommand& command);
+void run(const CoordinatesCommand& command);
+void run(const RenderCommand& command);
+void run(const InfoCommand& command);
+void run(const NewCommand& command);
+void run(const ExportCommand& command);
+void run(const BenchCommand& command);
+
+}  // namespace holomorph

@@ -1,0 +1,104 @@
+// The one executable: subcommands without a window, the editor otherwise.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "app/editor.h"
+#include "cli/commands.h"
+#include "core/error.h"
+
+using namespace holomorph;
+
+namespace {
+
+template <class Command>
+void on_run(CLI::App* app, const Command& command, bool& done) {
+  app->callback([&command, &done] {
+    run(command);
+    done = true;
+  });
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
+  app.set_version_flag("--version", HOLOMORPH_VERSION);
+  EditorOptions editor;
+  app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
+  app.add_option("--state", editor.state_file, "Write what the editor shows to this file whenever it changes (for scripts)");
+  app.require_subcommand(0, 1);
+  app.fallthrough(false);
+  bool done = false;
+
+  MapCommand map;
+  auto* sub = app.add_subcommand("map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im");
+  sub->add_option("SCENE", map.scene)->required();
+  sub->add_option("--points", map.points, "CSV file of points")->required();
+  sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
+  on_run(sub, map, done);
+
+  CoordinatesCommand coordinates;
+  sub = app.add_subcommand("coordinates", "The basis matrix at points as a NumPy file");
+  sub->add_option("SCENE", coordinates.scene)->required();
+  sub->add_option("--points", coordinates.points, "CSV file of points")->required();
+  sub->add_option("--order", coordinates.order, "Order of the derivative")->capture_default_str();
+  sub->add_option("--out", coordinates.out, "File to write")->required();
+  on_run(sub, coordinates, done);
+
+  RenderCommand render;
+  sub = app.add_subcommand("render", "Draw the posed scene to a PNG file");
+  sub->add_option("SCENE", render.scene)->required();
+  sub->add_option("--out", render.out, "PNG file to write")->required();
+  sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
+  sub->add_option("--view", render.view, "image, angle, area, stretch or checker")->capture_default_str();
+  sub->add_flag("--crop", render.crop, "Keep the picture's rectangle; otherwise nothing is cut off");
+  on_run(sub, render, done);
+
+  InfoCommand info;
+  sub = app.add_subcommand("info", "Measure the scene's map");
+  sub->add_option("SCENE", info.scene)->required();
+  sub->add_flag("--json", info.json, "Print JSON");
+  on_run(sub, info, done);
+
+  NewCommand fresh;
+  sub = app.add_subcommand("new", "Make a scene with a cage from a picture's alpha");
+  sub->add_option("IMAGE", fresh.image)->required();
+  sub->add_option("--out", fresh.out, "Scene to write")->required();
+  sub->add_option("--vertices", fresh.vertices, "Wanted number of cage vertices")->capture_default_str();
+  sub->add_option("--margin", fresh.margin, "Distance from the content in pixels; default 2 % of the longer side");
+  on_run(sub, fresh, done);
+
+  ExportCommand out;
+  sub = app.add_subcommand("export", "Write the posed scene in another format");
+  sub->add_option("SCENE", out.scene)->required();
+  sub->add_option("--format", out.format, "obj, svg, npy or png")->required();
+  sub->add_option("--out", out.out, "File to write")->required();
+  on_run(sub, out, done);
+
+  BenchCommand bench;
+  sub = app.add_subcommand("bench", "Run the benchmarks and print their table");
+  sub->add_option("--filter", bench.filter, "Only benchmarks whose name contains this");
+  sub->add_flag("--json", bench.json, "Print JSON");
+  on_run(sub, bench, done);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  }
+  if (done) return 0;
+  return run_editor(editor);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const Error& error) {
+    std::cerr << "holomorph: " << error.what() << "\n";
+    return error.kind() == ErrorKind::bad_input ? 2 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "holomorph: " << error.what() << "\n";
+    return 1;
+  }
+}

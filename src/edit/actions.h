@@ -1,0 +1,30 @@
+// The one table of actions: menus, toolbar, tooltips, keys, help and tests all read it.
+#pragma once
+
+#include "edit/input.h"
+#include "edit/workspace.h"
+
+namespace holomorph {
+
+struct Action {
+  std::string id, label;
+  const char* icon;  ///< a glyph of the icon font, or ""
+  const char* menu;  ///< the menu that lists it
+  std::vector<Shortcut> keys;
+  bool (*enabled)(const Workspace&);
+  void (*run)(Workspace&);
+  bool (*checked)(const Workspace&) = nullptr;  ///< for what can be on or off
+};
+
+/// The table, in menu order.
+const std::vector<Action>& actions();
+/// The action of this id; it must exist.
+const Action& action_named(const std::string& id);
+/// The enabled action that a key press runs, if any.
+const Action* action_for(const Shortcut& shortcut, const Workspace& workspace);
+/// Runs an enabled action; an Error becomes a toast.
+void run(const Action& action, Workspace& workspace);
+/// "Undo (Ctrl+Z)".
+std::string label_with_keys(const Action& action);
+
+}  // namespace holomorph

@@ -1,0 +1,148 @@
+// Rest and pose have the same segments; every structural edit is made in both.
+#include "edit/edits.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+const Cage& cage_of(const Scene& scene, Layer layer) { return layer == Layer::rest ? scene.rest : scene.pose; }
+
+namespace {
+
+Cage& cage_of(Scene& scene, Layer layer) { return layer == Layer::rest ? scene.rest : scene.pose; }
+
+Complex& place(Scene& scene, Handle handle, Layer layer) {
+  if (handle.kind == Handle::Kind::pin)
+    return layer == Layer::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
+  return cage_of(scene, layer).segments[handle.index][handle.control];
+}
+
+}  // namespace
+
+Complex position_of(const Scene& scene, Handle handle, Layer layer) {
+  if (handle.kind == Handle::Kind::pin)
+    return layer == Layer::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
+  return cage_of(scene, layer).segments[handle.index][handle.control];
+}
+
+bool exists(const Scene& scene, Handle handle, Layer layer) {
+  if (handle.kind == Handle::Kind::pin) return handle.index < static_cast<Index>(scene.pins.size());
+  const Cage& cage = cage_of(scene, layer);
+  return handle.index < cage.size() && handle.control < cage.degree(handle.index);
+}
+
+std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
+  std::vector<Handle> handles;
+  const Cage& cage = cage_of(scene, layer);
+  for (Index i = 0; i < cage.size(); ++i)
+    for (int m = 0; m < cage.degree(i); ++m) handles.push_back({Handle::Kind::cage, i, m});
+  if (method_named(scene.method).uses_pins)
+    for (Index i = 0; i < static_cast<Index>(scene.pins.size()); ++i) handles.push_back({Handle::Kind::pin, i, 0});
+  return handles;
+}
+
+Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer) {
+  Selection all = selection;
+  for (const Handle& handle : selection) {
+    if (handle.kind != Handle::Kind::cage || handle.control != 0) continue;
+    const Cage& cage = cage_of(scene, layer);
+    const Index before = (handle.index + cage.size() - 1) % cage.size();
+    if (cage.degree(handle.index) > 1) all.insert({Handle::Kind::cage, handle.index, 1});
+    if (cage.degree(before) > 1) all.insert({Handle::Kind::cage, before, cage.degree(before) - 1});
+  }
+  for (const Handle& handle : all)
+    if (exists(scene, handle, layer)) place(scene, handle, layer) += by;
+  return scene;
+}
+
+Scene placed(Scene scene, Handle handle, Complex at, Layer layer) {
+  const Complex by = at - position_of(scene, handle, layer);
+  return moved(std::move(scene), {handle}, by, layer);
+}
+
+Scene inserted(Scene scene, Index segment, double t) {
+  insert_vertex(scene.rest, segment, t);
+  insert_vertex(scene.pose, segment, t);
+  return scene;
+}
+
+Scene erased(Scene scene, const Selection& selection) {
+  // From the highest number down, so that the remaining numbers stay valid.
+  Index vertices = 0;
+  for (const Handle& handle : selection) vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
+  if (scene.rest.size() - vertices < 3 && vertices > 0)
+    throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
+  for (auto handle = selection.rbegin(); handle != selection.rend(); ++handle) {
+    if (handle->kind == Handle::Kind::pin) {
+      scene.pins.erase(scene.pins.begin() + handle->index);
+    } else if (handle->control == 0) {
+      erase_vertex(scene.rest, handle->index);
+      erase_vertex(scene.pose, handle->index);
+    }
+  }
+  return scene;
+}
+
+Scene with_pin(Scene scene, Complex rest, Complex pose) {
+  if (!method_named(scene.method).uses_pins) scene = with_method(std::move(scene), "pins");
+  scene.pins.push_back({rest, pose, {}, {}});
+  return scene;
+}
+
+Scene turned(Scene scene, Index pin, double angle) {
+  scene.pins[pin].angle = angle;
+  return scene;
+}
+
+Scene reset(Scene scene, const Selection& selection) {
+  if (selection.empty()) return at_rest(std::move(scene));
+  for (const Handle& handle : selection) {
+    if (handle.kind == Handle::Kind::pin) {
+      Pin& pin = scene.pins[handle.index];
+      pin.pose = pin.rest;
+      if (pin.angle) pin.angle = 0.0;
+    } else if (handle.control == 0) {
+      scene = placed(std::move(scene), handle, scene.rest.vertex(handle.index), Layer::pose);
+    } else if (exists(scene, handle, Layer::pose)) {
+      const double t = static_cast<double>(handle.control) / scene.pose.degree(handle.index);
+      place(scene, handle, Layer::pose) = bezier_point(scene.rest.controls(handle.index), t);
+    }
+  }
+  return scene;
+}
+
+Scene with_method(Scene scene, const std::string& id) {
+  const Method& method = method_named(id);
+  std::erase_if(scene.parameters, [&](const auto& entry) {
+    return std::none_of(method.parameters.begin(), method.parameters.end(), [&](const ParameterSpec& spec) { return spec.key == entry.first; });
+  });
+  scene.method = id;
+  return scene;
+}
+
+Scene with_new_cage(Scene scene, const Points& polygon) {
+  scene.rest = scene.pose = polygon_cage(polygon);
+  for (Pin& pin : scene.pins) {
+    pin.pose = pin.rest;
+    if (pin.angle) pin.angle = 0.0;
+  }
+  return scene;
+}
+
+CageHit nearest_on_cage(const Cage& cage, Complex z) {
+  CageHit best;
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    const int pieces = controls.size() == 2 ? 1 : 32;
+    for (int k = 0; k < pieces; ++k) {
+      const double t0 = static_cast<double>(k) / pieces, t1 = static_cast<double>(k + 1) / pieces;
+      const NearestPoint near = nearest_on_segment(bezier_point(controls, t0), bezier_point(controls, t1), z);
+      if (near.distance < best.distance) best = {i, t0 + near.t * (t1 - t0), near.point, near.distance};
+    }
+  }
+  return best;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,71 @@
+// Edits as functions from a scene to a scene. None of them knows about windows or tools.
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include "core/mesh.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// What can be picked: a control point of the cage (control 0 is a vertex) or a pin.
+struct Handle {
+  enum class Kind { cage, pin };
+  Kind kind = Kind::cage;
+  Index index = 0;    ///< segment or pin
+  int control = 0;
+  auto operator<=>(const Handle&) const = default;
+};
+using Selection = std::set<Handle>;
+
+/// Which of the two shapes an edit or a picture is about.
+enum class Layer { pose, rest };
+
+/// The cage of a layer.
+const Cage& cage_of(const Scene& scene, Layer layer);
+/// A handle's place in a layer.
+Complex position_of(const Scene& scene, Handle handle, Layer layer);
+bool exists(const Scene& scene, Handle handle, Layer layer);
+/// Every handle of a layer: cage control points, then pins where the method uses them.
+std::vector<Handle> handles_of(const Scene& scene, Layer layer);
+
+/// Moves handles; a moved rest point leaves the pose where it is. Moving a vertex takes the control
+/// points next to it along.
+Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer);
+
+/// Puts one handle at a place.
+Scene placed(Scene scene, Handle handle, Complex at, Layer layer);
+
+/// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
+Scene inserted(Scene scene, Index segment, double t);
+
+/// Without these handles: vertices (neighbours refit) and pins. At least three segments stay: throws
+/// Error otherwise.
+Scene erased(Scene scene, const Selection& selection);
+
+/// With a pin more; the method becomes one that uses pins.
+Scene with_pin(Scene scene, Complex rest, Complex pose);
+
+/// A pin turned to an angle in radians; the pin turns the picture from then on.
+Scene turned(Scene scene, Index pin, double angle);
+
+/// The selected handles (all when none is) posed as they rest.
+Scene reset(Scene scene, const Selection& selection);
+
+/// With another method; parameters that it does not know are dropped.
+Scene with_method(Scene scene, const std::string& id);
+
+/// A new cage at rest and in pose; pins keep their rest and return to it.
+Scene with_new_cage(Scene scene, const Points& polygon);
+
+/// The place on a layer's cage that is nearest to z.
+struct CageHit {
+  Index segment = 0;
+  double t = 0;
+  Complex point;
+  double distance = 1e300;
+};
+CageHit nearest_on_cage(const Cage& cage, Complex z);
+
+}  // namespace holomorph

@@ -1,0 +1,39 @@
+// What the pointer does in one frame, as tools see it; and keys as the action table names them.
+#pragma once
+
+#include <string>
+
+#include "core/types.h"
+
+namespace holomorph {
+
+struct Modifiers {
+  bool ctrl = false, shift = false, alt = false;
+  bool operator==(const Modifiers&) const = default;
+};
+
+/// The pointer in one frame; positions in window px and in the plane.
+struct Input {
+  Complex px, position;
+  bool pressed = false, down = false, released = false, double_clicked = false;  ///< left button
+  bool inside = false;  ///< over the canvas and not over a panel
+  Modifiers mods;
+};
+
+/// A key by what is printed on it in the user's layout ('A', ',', ...) or by name.
+enum class Key : int { tab = 256, escape, enter, backspace, del, left, right, up, down, f1, space };
+
+struct Shortcut {
+  int key = 0;
+  Modifiers mods;
+  bool operator==(const Shortcut&) const = default;
+
+  Shortcut() = default;
+  Shortcut(char letter, Modifiers mods = {}) : key(letter), mods(mods) {}
+  Shortcut(Key named, Modifiers mods = {}) : key(static_cast<int>(named)), mods(mods) {}
+};
+
+/// "Ctrl+Shift+Z".
+std::string text_of(const Shortcut& shortcut);
+
+}  // namespace holomorph

@@ -1,0 +1,92 @@
+// N: a click on the picture sets a pin and goes on dragging it; a click on a pin picks it.
+#include "edit/tool.h"
+
+namespace holomorph {
+namespace {
+
+class PinTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::pin; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (drag_.active()) {
+      drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move pin");
+      return;
+    }
+    hover_.reset();
+    if (!input.inside) return;
+    hover_ = handle_at(workspace, input.px);
+    if (!input.pressed) return;
+    if (hover_ && input.mods.alt) return remove(workspace);
+    if (hover_) {
+      if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
+      workspace.selection.insert(*hover_);
+      drag_.start(input, workspace.selection, workspace.scene());
+      return;
+    }
+    if (!workspace.scene().has_cage()) {
+      workspace.say("Pins act inside a cage: draw one with P, or make one from the picture (Cage menu).");
+      return;
+    }
+    const auto rest = workspace.rest_at(input.position);
+    if (!rest) {
+      workspace.say(workspace.map.busy() ? "One moment, the map is being prepared." : "A pin goes on the picture, inside the cage.");
+      return;
+    }
+    const bool switches = !method_named(workspace.scene().method).uses_pins;
+    // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
+    const Complex pose = workspace.layer == Layer::pose ? input.position : posed(*rest, workspace);
+    workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose));
+    if (switches) workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
+    workspace.selection = {{Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
+    drag_.start(input, workspace.selection, workspace.scene());
+  }
+
+  void cancel(Workspace& workspace) override {
+    drag_.cancel(workspace);
+    hover_.reset();
+  }
+  bool key(Key key, Workspace& workspace) override {
+    if (key != Key::escape) return false;
+    if (!drag_.active()) workspace.selection.clear();
+    cancel(workspace);
+    return true;
+  }
+  bool busy() const override { return drag_.active(); }
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.hover = hover_;
+    return overlay;
+  }
+  std::string hint(const Workspace& workspace) const override {
+    if (!workspace.scene().has_cage()) return "Pins act inside a cage: draw one with P first";
+    return hover_ ? "Drag to move; Alt-click deletes" : "Click on the picture to set a pin, and drag it";
+  }
+
+ private:
+  void remove(Workspace& workspace) {
+    try {
+      workspace.commit(hover_->kind == Handle::Kind::pin ? "Delete pin" : "Delete point", erased(workspace.scene(), {*hover_}));
+      workspace.selection.clear();
+    } catch (const Error& error) {
+      workspace.complain(error);
+    }
+    hover_.reset();
+  }
+
+  static Complex posed(Complex rest, const Workspace& workspace) {
+    const Mesh& mesh = *workspace.map.prepared()->mesh;
+    const auto found = locate(mesh, mesh.vertices, rest);
+    const VectorXc& f = workspace.map.map().f;
+    return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
+  }
+
+  HandleDrag drag_;
+  std::optional<Handle> hover_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> pin_tool() { return std::make_unique<PinTool>(); }
+
+}  // namespace holomorph

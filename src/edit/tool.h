@@ -1,0 +1,72 @@
+// Tools turn input into a changed scene: nothing, a preview, or a commit.
+#pragma once
+
+#include <memory>
+
+#include "edit/input.h"
+#include "edit/workspace.h"
+
+namespace holomorph {
+
+/// What a tool wants drawn besides the scene.
+struct ToolOverlay {
+  Points line;                          ///< an unfinished cage, in the plane
+  std::optional<Complex> line_end;      ///< where its next point would be
+  bool closes = false;                  ///< the next click closes it
+  std::optional<Box> marquee;           ///< in window px
+  std::optional<Handle> hover;
+  std::optional<Complex> insertion;     ///< where a click inserts a point
+  std::optional<Index> ring;            ///< the pin that shows its rotation ring
+};
+
+inline constexpr double kDragThresholdPx = 3;
+inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
+
+/// One way of using the pointer. Objects live as long as the editor; state is an unfinished gesture.
+class Tool {
+ public:
+  virtual ~Tool() = default;
+  virtual ToolId id() const = 0;
+  virtual void input(const Input& input, Workspace& workspace) = 0;
+  /// A key that the tool uses itself (Enter, Backspace, Escape); false leaves it to the actions.
+  virtual bool key(Key, Workspace&) { return false; }
+  /// Drops an unfinished gesture.
+  virtual void cancel(Workspace& workspace) = 0;
+  virtual bool busy() const = 0;
+  virtual ToolOverlay overlay() const = 0;
+  virtual std::string hint(const Workspace& workspace) const = 0;
+};
+
+std::unique_ptr<Tool> select_tool();
+std::unique_ptr<Tool> pen_tool();
+std::unique_ptr<Tool> pin_tool();
+
+/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by the
+/// tools that drag.
+class HandleDrag {
+ public:
+  void start(const Input& input, Selection what, const Scene& scene) {
+    start_px_ = input.px;
+    start_ = input.position;
+    what_ = std::move(what);
+    scene_ = scene;
+    active_ = true;
+    moving_ = false;
+  }
+  bool active() const { return active_; }
+  bool moving() const { return moving_; }
+  /// Follows the pointer; on release commits with `label`. Returns true when the drag has ended.
+  bool follow(const Input& input, Workspace& workspace, const std::string& label);
+  void cancel(Workspace& workspace) {
+    if (active_) workspace.preview.reset();
+    active_ = false;
+  }
+
+ private:
+  Complex start_px_, start_;
+  Selection what_;
+  Scene scene_;
+  bool active_ = false, moving_ = false;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,70 @@
+// Commits go through one gate, so that no unusable cage ever enters the history.
+#include "edit/workspace.h"
+
+namespace holomorph {
+
+bool Workspace::commit(const std::string& label, Scene scene) {
+  preview.reset();
+  if (scene.has_cage()) try {
+      if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
+    } catch (const Error& error) {
+      complain(Error(error.kind(), "Not done: " + std::string(error.what()), error.where()));
+      return false;
+    }
+  const bool done = document.commit(label, std::move(scene));
+  prune_selection();
+  return done;
+}
+
+void Workspace::prune_selection() {
+  std::erase_if(selection, [&](const Handle& handle) { return !exists(scene(), handle, layer); });
+}
+
+std::optional<Complex> Workspace::rest_at(Complex z) const {
+  if (!map.has_map()) return {};
+  const Mesh& mesh = *map.prepared()->mesh;
+  const std::span<const Complex> positions =
+      at_rest() ? std::span<const Complex>(mesh.vertices) : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
+  const auto found = locate(mesh, positions, z);
+  if (!found) return {};
+  return found->in(mesh, mesh.vertices);
+}
+
+Box Workspace::content_box() const {
+  Box box;
+  if (const Image* image = document.image()) {
+    box.include({0, 0});
+    box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
+  }
+  for (const Complex& z : outline_of(cage_of(scene(), layer))) box.include(z);
+  if (!at_rest() && map.has_map())
+    for (const Complex& z : map.map().f)
+      if (is_finite(z)) box.include(z);
+  return box;
+}
+
+void Workspace::open(Document opened) {
+  document = std::move(opened);
+  preview.reset();
+  selection.clear();
+  layer = Layer::pose;
+  tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
+  if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});
+}
+
+std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
+  std::optional<Handle> best;
+  double distance = workspace.handle_px;
+  const Scene& scene = workspace.scene();
+  for (const Handle& handle : handles_of(scene, workspace.layer)) {
+    const double here = std::abs(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer)) - px);
+    // A pin on a cage point's spot is picked first: it lies on top.
+    if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
+      best = handle;
+      distance = here;
+    }
+  }
+  return best;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,69 @@
+// Everything that tools and actions act on; the window draws it.
+#pragma once
+
+#include <memory>
+
+#include "core/heat.h"
+#include "edit/edits.h"
+#include "edit/viewport.h"
+#include "scene/document.h"
+#include "scene/live_map.h"
+
+namespace holomorph {
+
+/// What an action asks of the window, which alone can show dialogs.
+enum class Request { none, new_scene, open, save, save_as, export_picture, export_again, quit, help, palette };
+
+enum class ToolId { select, pen, pin };
+
+/// A short message over the canvas; `where` can be shown.
+struct Toast {
+  std::string text;
+  bool problem = false;
+  std::optional<Complex> where;
+};
+
+/// The editor's state beyond the document.
+struct Workspace {
+  explicit Workspace(MeshOptions options = {}) : map(options) {}
+
+  Document document;
+  LiveMap map;
+  std::optional<Scene> preview;  ///< what a drag shows before it is committed
+  Selection selection;
+  Viewport viewport;
+  Layer layer = Layer::pose;
+  ToolId tool = ToolId::select;
+  View view = View::image;
+  bool automatic_range = false, show_mesh = false, show_cage = true;
+  bool hide_overlays = false, show_original = false;  ///< while a key is held
+  double handle_px = 10;         ///< picking distance in window px, scaled with the display
+  int auto_cage_vertices = 30;
+  double auto_cage_margin = -1;
+  Request request = Request::none;
+  std::vector<Toast> toasts;     ///< taken over by the window
+
+  /// The scene to show: the preview of a drag, or the document's.
+  const Scene& scene() const { return preview ? *preview : document.scene(); }
+  /// Whether the canvas shows the picture at rest.
+  bool at_rest() const { return layer == Layer::rest || show_original; }
+
+  /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
+  bool commit(const std::string& label, Scene scene);
+  /// Drops handles that an undo or another edit took away.
+  void prune_selection();
+  void say(std::string text) { toasts.push_back({std::move(text), false, {}}); }
+  void complain(const Error& error) { toasts.push_back({error.what(), true, error.where()}); }
+
+  /// The rest place under a place of the shown picture; none outside it or before there is a map.
+  std::optional<Complex> rest_at(Complex z) const;
+  /// The box of picture and cage as shown.
+  Box content_box() const;
+  /// Replaces the document; selection, preview and layer start afresh.
+  void open(Document opened);
+};
+
+/// The nearest handle of the shown layer within picking distance.
+std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
+
+}  // namespace holomorph

@@ -1,0 +1,26 @@
+// What leaves the program besides pictures: matrices, vertices, meshes, curves.
+#pragma once
+
+#include "core/mesh.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// A NumPy file (.npy, version 1.0) of a complex128 matrix, row-major.
+std::string npy_of(const MatrixXc& matrix);
+
+/// A NumPy file of the positions as a float64 matrix, n x 2.
+std::string npy_of(std::span<const Complex> positions);
+
+/// The warped mesh as Wavefront OBJ: positions in image pixels, texture coordinates of the picture.
+std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width, int image_height);
+
+/// The posed cage as one SVG path over a drawing of the picture's size (degrees above three are
+/// drawn as fine polylines), pins as circles.
+std::string svg_of(const Scene& scene);
+
+/// The points of a CSV file: two numbers a line, separated by comma, semicolon or blanks; a first
+/// line that is no pair of numbers is a heading. Throws Error naming the line.
+Points points_of_csv(const std::string& text, const std::string& name);
+
+}  // namespace holomorph

@@ -1,0 +1,228 @@
+// Every speed that an issue names is one entry of the table in measured().
+#include "bench/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "core/cauchy.h"
+#include "core/error.h"
+#include "raster/raster.h"
+#include "scene/auto_cage.h"
+#include "scene/live_map.h"
+
+namespace holomorph::bench {
+namespace {
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The median time of `work` in milliseconds, after one run that does not count.
+double median_ms(int runs, const std::function<void()>& work) {
+  work();
+  std::vector<double> times;
+  for (int i = 0; i < runs; ++i) {
+    const double start = now_ms();
+    work();
+    times.push_back(now_ms() - start);
+  }
+  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
+  return times[runs / 2];
+}
+
+/// A wavy closed cage of n vertices.
+Points wavy(int n, Complex center, double radius) {
+  Points polygon;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * kPi * i / n;
+    polygon.push_back(center + radius * (1 + 0.25 * std::sin(5 * angle)) * std::polar(1.0, angle));
+  }
+  return polygon;
+}
+
+Scene scene_with(const Points& polygon) {
+  Scene scene;
+  scene.rest = scene.pose = polygon_cage(polygon);
+  for (Points& segment : scene.pose.segments) segment[0] += 20.0 * std::sin(segment[0] / 100.0).real();
+  return scene;
+}
+
+/// The number of vertices to ask for so that the mesh has about 15000.
+constexpr int kAsked = 13000;
+
+Image gradient(int side) {
+  Image image(side, side);
+  for (int r = 0; r < side; ++r)
+    for (int c = 0; c < side; ++c) {
+      std::uint8_t* p = image.at(c, r);
+      p[0] = static_cast<std::uint8_t>(c), p[1] = static_cast<std::uint8_t>(r), p[2] = static_cast<std::uint8_t>(c ^ r);
+      p[3] = 255;
+    }
+  return image;
+}
+
+double resident_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::atof(line.c_str() + 6) / 1024;
+  return 0;
+}
+
+struct Entry {
+  const char* name;
+  const char* unit;
+  double goal;
+  int runs;
+  double (*measure)(int runs);
+};
+
+double coordinates_ns(Kernel kernel, int order, int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {kAsked});
+  PlanarMatrix<float> out;
+  const double ms = median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices, order, kernel, out); });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
+}
+
+double scalar_log_ns(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {1500});
+  Complex sum = 0;
+  const double ms = median_ms(runs, [&] {
+    for (const Complex& z : mesh.vertices)
+      for (size_t e = 0; e < cage.size(); ++e) sum += std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z));
+  });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100) + 1e-300 * std::abs(sum);
+}
+
+double prepare_ms(int runs) {
+  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
+}
+
+double coordinates_ms(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {kAsked});
+  return median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices); });
+}
+
+double frame_ms(int runs) {
+  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  const auto prepared = prepared_map(scene, Precision::single, {kAsked});
+  SampledMap map;
+  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, false); });
+}
+
+double mesh_ms(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  return median_ms(runs, [&] { domain_mesh(cage, {kAsked}); });
+}
+
+double add_pin_ms(int runs) {
+  Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  scene.method = "pins";
+  for (int i = 0; i < 10; ++i) scene.pins.push_back({Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
+  const auto before = prepared_map(scene, Precision::single, {kAsked});
+  scene.pins.push_back({{510, 520}, {510, 520}, {}, {}});
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}, before.get()); });
+}
+
+double export_ms(int runs, int threads) {
+  const Image image = gradient(2000);
+  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
+  return median_ms(runs, [&] {
+    SampledMap map;
+    prepared->deformer->deform(pose_of(scene), map, false);
+    RasterJob job;
+    job.mesh = prepared->mesh.get();
+    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.source = &image;
+    job.threads = threads;
+    rasterized(job);
+  });
+}
+
+double auto_cage_ms(int runs) {
+  Image image(2000, 2000);
+  const Points shape = wavy(400, {1000, 1000}, 700);
+  for (int r = 0; r < image.height; r += 1)
+    for (int c = 0; c < image.width; ++c) {
+      const Complex z = Complex(c, 2000 - r) - Complex(1000, 1000);
+      image.at(c, r)[3] = std::abs(z) < 700 * (1 + 0.25 * std::sin(5 * std::arg(z))) ? 255 : 0;
+    }
+  return median_ms(runs, [&] { auto_cage(image); });
+}
+
+double memory_mb(int) {
+  const Image image = gradient(2000);
+  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, true);
+  return resident_mb();
+}
+
+const Entry kEntries[] = {
+    {"open: 2000 x 2000 picture, 32-vertex cage, resident memory without a window", "MB", 300, 1, memory_mb},
+    {"coordinates: degree 1, order 0, AVX2, 15k points x 100 edges, per point and edge", "ns", 4, 15,
+     [](int runs) { return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 0, runs); }},
+    {"coordinates: the same, widest instructions", "ns", 0, 15, [](int runs) { return coordinates_ns(Kernel::automatic, 0, runs); }},
+    {"coordinates: the same, portable", "ns", 0, 9, [](int runs) { return coordinates_ns(Kernel::portable, 0, runs); }},
+    {"coordinates: order 1, AVX2, per point and edge", "ns", 0, 9,
+     [](int runs) { return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 1, runs); }},
+    {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0, 9, scalar_log_ns},
+    {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
+    {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
+    {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
+    {"pins: one pin more at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
+    {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
+    {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15, [](int runs) { return export_ms(runs, 2); }},
+    {"export: the same, one core", "ms", 0, 9, [](int runs) { return export_ms(runs, 1); }},
+    {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
+};
+
+}  // namespace
+
+std::vector<Result> measured(const std::string& filter, const std::function<void(const Result&)>& report) {
+  std::vector<Result> results;
+  for (const Entry& entry : kEntries) {
+    if (std::string(entry.name).find(filter) == std::string::npos) continue;
+    results.push_back({entry.name, entry.unit, entry.measure(entry.runs), entry.goal, entry.runs});
+    report(results.back());
+  }
+  return results;
+}
+
+std::string line_of(const Result& result) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median, result.unit.c_str());
+  std::string line = text;
+  if (result.goal > 0) {
+    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal, result.median <= result.goal ? "" : ", missed");
+    line += text;
+  }
+  return line;
+}
+
+std::string table_of(const std::vector<Result>& results) {
+  std::string table;
+  for (const Result& result : results) table += line_of(result) + "\n";
+  return table;
+}
+
+std::string json_of(const std::vector<Result>& results) {
+  std::string json = "[\n";
+  for (size_t i = 0; i < results.size(); ++i) {
+    char text[320];
+    std::snprintf(text, sizeof text, "  {\"name\": \"%s\", \"unit\": \"%s\", \"median\": %.6g, \"goal\": %g, \"runs\": %d}%s\n",
+                  results[i].name.c_str(), results[i].unit.c_str(), results[i].median, results[i].goal, results[i].runs,
+                  i + 1 < results.size() ? "," : "");
+    json += text;
+  }
+  return json + "]\n";
+}
+
+}  // namespace holomorph::bench

@@ -1,0 +1,23 @@
+// The benchmarks behind `holomorph bench`: medians of repeated runs, and the goals beside them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace holomorph::bench {
+
+struct Result {
+  std::string name, unit;
+  double median = 0, goal = 0;  ///< goal 0: none
+  int runs = 0;
+};
+
+/// Runs every benchmark whose name contains `filter`; `report` is told each result as it comes.
+std::vector<Result> measured(const std::string& filter, const std::function<void(const Result&)>& report);
+
+std::string line_of(const Result& result);
+std::string table_of(const std::vector<Result>& results);
+std::string json_of(const std::vector<Result>& results);
+
+}  // namespace holomorph::bench
