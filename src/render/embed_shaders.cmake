@@ -1,0 +1,10 @@
+# Writes OUT, a header with each shader of FOLDER as a string.
+set(text "// Made from the folder shaders by the build.\n#pragma once\n\n")
+foreach(pair IN ITEMS "warp.vert=kWarpVert" "image.frag=kImageFrag")
+  string(REPLACE "=" ";" pair ${pair})
+  list(GET pair 0 file)
+  list(GET pair 1 name)
+  file(READ ${FOLDER}/${file} source)
+  string(APPEND text "inline constexpr const char* ${name} = R\"glsl(${source})glsl\";\n")
+endforeach()
+file(WRITE ${OUT} "${text}")

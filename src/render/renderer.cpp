@@ -1,0 +1,374 @@
+// GL state is set where it is used and never assumed: the user interface draws in the same context.
+#include "render/renderer.h"
+
+#include "core/error.h"
+#include "render/gl.h"
+#include "shaders.h"  // the files of shaders/, as strings
+
+namespace holomorph {
+namespace {
+
+GLuint compiled(GLenum kind, const std::string& source) {
+  const GLuint shader = glCreateShader(kind);
+  const std::string text = "#version 330 core\n" + source;
+  const char* pointer = text.c_str();
+  glShaderSource(shader, 1, &pointer, nullptr);
+  glCompileShader(shader);
+  GLint good = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (!good) {
+    char log[2000] = "";
+    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    glDeleteShader(shader);
+    throw Error(ErrorKind::failed, std::string("a shader does not compile on this driver: ") + log);
+  }
+  return shader;
+}
+
+GLuint linked() {
+  const GLuint program = glCreateProgram();
+  const GLuint vertex = compiled(GL_VERTEX_SHADER, kWarpVert), fragment = compiled(GL_FRAGMENT_SHADER, kImageFrag);
+  glAttachShader(program, vertex);
+  glAttachShader(program, fragment);
+  const char* read_back[] = {"warped"};
+  glTransformFeedbackVaryings(program, 1, read_back, GL_INTERLEAVED_ATTRIBS);
+  glLinkProgram(program);
+  glDeleteShader(vertex);
+  glDeleteShader(fragment);
+  GLint good = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  if (!good) {
+    char log[2000] = "";
+    glGetProgramInfoLog(program, sizeof log, nullptr, log);
+    throw Error(ErrorKind::failed, std::string("the shaders do not link on this driver: ") + log);
+  }
+  return program;
+}
+
+/// Averages blocks of factor x factor pixels, weighted by alpha, and premultiplies.
+std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_t* pixels, int factor) {
+  const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
+  std::vector<std::uint8_t> out(static_cast<size_t>(w) * h * 4);
+  for (int r = 0; r < h; ++r)
+    for (int c = 0; c < w; ++c) {
+      unsigned sum[4] = {0, 0, 0, 0}, count = 0;
+      for (int y = r * factor; y < std::min(height, (r + 1) * factor); ++y)
+        for (int x = c * factor; x < std::min(width, (c + 1) * factor); ++x, ++count) {
+          const std::uint8_t* p = pixels + 4 * (static_cast<size_t>(y) * width + x);
+          for (int k = 0; k < 3; ++k) sum[k] += (p[k] * p[3] + 127) / 255;
+          sum[3] += p[3];
+        }
+      for (int k = 0; k < 4; ++k) out[4 * (static_cast<size_t>(r) * w + c) + k] = static_cast<std::uint8_t>((sum[k] + count / 2) / count);
+    }
+  return out;
+}
+
+std::vector<float> pairs(std::span<const Complex> points) {
+  std::vector<float> flat;
+  flat.reserve(2 * points.size());
+  for (const Complex& z : points) {
+    flat.push_back(static_cast<float>(z.real()));
+    flat.push_back(static_cast<float>(z.imag()));
+  }
+  return flat;
+}
+
+void upload(GLuint buffer, GLenum target, const void* data, size_t bytes, GLenum use) {
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), data, use);
+}
+
+constexpr int kPicture = 0, kColors = 1, kMatrix = 2, kControls = 3;  // texture units
+
+}  // namespace
+
+struct Renderer::Objects {
+  GLuint program = linked();
+  GLuint vertex_array = 0, quad_array = 0;
+  GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0, feedback = 0;
+  GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
+  GLsizei index_count = 0, vertex_count = 0;
+  double width = 0, height = 0;  ///< the picture's, in plane units
+  int columns = 0;
+
+  GLint at(const char* name) const { return glGetUniformLocation(program, name); }
+};
+
+Renderer::Renderer() {
+  if (epoxy_gl_version() < 33)
+    throw Error(ErrorKind::failed, "OpenGL 3.3 is needed; this display offers " + std::to_string(epoxy_gl_version() / 10) + "." + std::to_string(epoxy_gl_version() % 10));
+  gl_ = std::make_unique<Objects>();
+  Objects& gl = *gl_;
+  for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix, &gl.controls, &gl.feedback}) glGenBuffers(1, buffer);
+  for (GLuint* texture : {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture}) glGenTextures(1, texture);
+  glGenVertexArrays(1, &gl.vertex_array);
+  glGenVertexArrays(1, &gl.quad_array);
+
+  glBindVertexArray(gl.vertex_array);
+  const auto attribute = [](GLuint buffer, GLuint location, GLint size) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, 0, nullptr);
+  };
+  attribute(gl.rest, 0, 2);
+  attribute(gl.position, 1, 2);
+  attribute(gl.value, 2, 1);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.triangles);
+  glBindVertexArray(gl.quad_array);
+  attribute(gl.quad, 0, 2);
+  glBindVertexArray(0);
+
+  for (const bool diverging : {false, true}) {
+    std::vector<float> colors;
+    for (int i = 0; i < 256; ++i)
+      for (const float channel : heat_color(i / 255.0, diverging)) colors.push_back(channel);
+    glBindTexture(GL_TEXTURE_1D, diverging ? gl.diverging : gl.sequential);
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB8, 256, 0, GL_RGB, GL_FLOAT, colors.data());
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  }
+}
+
+Renderer::~Renderer() {
+  Objects& gl = *gl_;
+  for (const GLuint buffer : {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix, gl.controls, gl.feedback}) glDeleteBuffers(1, &buffer);
+  for (const GLuint texture : {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture}) glDeleteTextures(1, &texture);
+  glDeleteVertexArrays(1, &gl.vertex_array);
+  glDeleteVertexArrays(1, &gl.quad_array);
+  glDeleteProgram(gl.program);
+}
+
+int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
+  Objects& gl = *gl_;
+  gl.width = width;
+  gl.height = height;
+  if (width <= 0 || height <= 0) return 1;
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  int factor = 1;
+  while ((std::max(width, height) + factor - 1) / factor > largest) ++factor;
+  const std::vector<std::uint8_t> data = premultiplied(width, height, pixels, factor);
+  const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
+  glActiveTexture(GL_TEXTURE0 + kPicture);
+  glBindTexture(GL_TEXTURE_2D, gl.picture);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, data.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    GLfloat most = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
+  }
+  const double left = 0, right = width, bottom = 0, top = height;
+  const float corners[] = {static_cast<float>(left), static_cast<float>(bottom), static_cast<float>(right), static_cast<float>(bottom),
+                           static_cast<float>(left), static_cast<float>(top),    static_cast<float>(right), static_cast<float>(top)};
+  upload(gl.quad, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
+  return factor;
+}
+
+void Renderer::set_mesh(const Mesh* mesh) {
+  Objects& gl = *gl_;
+  gl.columns = 0;
+  gl.index_count = gl.vertex_count = 0;
+  if (!mesh) return;
+  gl.vertex_count = static_cast<GLsizei>(mesh->vertices.size());
+  gl.index_count = static_cast<GLsizei>(3 * mesh->triangles.size());
+  const std::vector<float> rest = pairs(mesh->vertices);
+  const std::vector<float> values(mesh->vertices.size(), 0.0f);
+  glBindVertexArray(0);
+  upload(gl.rest, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STATIC_DRAW);
+  upload(gl.position, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STREAM_DRAW);
+  upload(gl.value, GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float), GL_STREAM_DRAW);
+  glBindVertexArray(gl.vertex_array);
+  upload(gl.triangles, GL_ELEMENT_ARRAY_BUFFER, mesh->triangles.data(), mesh->triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
+  glBindVertexArray(0);
+}
+
+void Renderer::set_positions(std::span<const Complex> positions) {
+  check(static_cast<GLsizei>(positions.size()) == gl_->vertex_count, "a position for each mesh vertex");
+  const std::vector<float> flat = pairs(positions);
+  upload(gl_->position, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
+}
+
+void Renderer::set_heat(const Eigen::VectorXf& positions) {
+  check(positions.size() == gl_->vertex_count, "a heat value for each mesh vertex");
+  upload(gl_->value, GL_ARRAY_BUFFER, positions.data(), static_cast<size_t>(positions.size()) * sizeof(float), GL_STREAM_DRAW);
+}
+
+bool Renderer::set_operator(const PlanarMatrix<float>* matrix) {
+  Objects& gl = *gl_;
+  gl.columns = 0;
+  if (!matrix) return false;
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  const Index texels = matrix->rows() * matrix->cols();
+  if (texels > most || matrix->rows() != gl.vertex_count) return false;
+  std::vector<float> flat(2 * static_cast<size_t>(texels));
+  for (Index i = 0; i < texels; ++i) {
+    flat[2 * i] = matrix->re.data()[i];
+    flat[2 * i + 1] = matrix->im.data()[i];
+  }
+  upload(gl.matrix, GL_TEXTURE_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STATIC_DRAW);
+  glActiveTexture(GL_TEXTURE0 + kMatrix);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.matrix_texture);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_RG32F, gl.matrix);
+  gl.columns = static_cast<int>(matrix->cols());
+  return true;
+}
+
+void Renderer::set_controls(const VectorXc& controls) {
+  Objects& gl = *gl_;
+  check(controls.size() == gl.columns, "a control for each column of the operator");
+  const std::vector<float> flat = pairs({controls.data(), static_cast<size_t>(controls.size())});
+  upload(gl.controls, GL_TEXTURE_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
+  glActiveTexture(GL_TEXTURE0 + kControls);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.controls_texture);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_RG32F, gl.controls);
+}
+
+namespace {
+
+int mode_of(Placement placement) { return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2; }
+
+}  // namespace
+
+void Renderer::draw(const Frame& frame) {
+  Objects& gl = *gl_;
+  const int left = static_cast<int>(frame.canvas_left), width = static_cast<int>(frame.canvas_width);
+  const int height = static_cast<int>(frame.canvas_height);
+  const int bottom = frame.window_height - static_cast<int>(frame.canvas_top) - height;
+  glViewport(left, bottom, width, height);
+  glScissor(left, bottom, width, height);
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glStencilMask(0xff);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearColor(frame.background[0], frame.background[1], frame.background[2], 1);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+
+  glUseProgram(gl.program);
+  const double sx = 2 * frame.zoom / width, sy = 2 * frame.zoom / height;
+  const float to_clip[9] = {static_cast<float>(sx), 0, 0, 0, static_cast<float>(sy), 0,
+                            static_cast<float>(-sx * frame.center.real()), static_cast<float>(-sy * frame.center.imag()), 1};
+  glUniformMatrix3fv(gl.at("to_clip"), 1, GL_FALSE, to_clip);
+  glUniform2f(gl.at("picture_size"), static_cast<float>(std::max(gl.width, 1.0)), static_cast<float>(std::max(gl.height, 1.0)));
+  glUniform1i(gl.at("picture"), kPicture);
+  glUniform1i(gl.at("colors"), kColors);
+  glUniform1i(gl.at("operator_matrix"), kMatrix);
+  glUniform1i(gl.at("operator_controls"), kControls);
+  glUniform1i(gl.at("column_count"), gl.columns);
+  glUniform1i(gl.at("row_count"), gl.vertex_count);
+  glActiveTexture(GL_TEXTURE0 + kMatrix);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.matrix_texture : 0);
+  glActiveTexture(GL_TEXTURE0 + kControls);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.controls_texture : 0);
+  glActiveTexture(GL_TEXTURE0 + kColors);
+  glBindTexture(GL_TEXTURE_1D, frame.diverging ? gl.diverging : gl.sequential);
+  glActiveTexture(GL_TEXTURE0 + kPicture);
+  glBindTexture(GL_TEXTURE_2D, gl.picture);
+
+  const auto coloring = [&](int kind) { glUniform1i(gl.at("coloring"), kind); };
+  const auto mode = [&](Placement placement) { glUniform1i(gl.at("mode"), mode_of(placement)); };
+  const auto draw_mesh = [&] {
+    glBindVertexArray(gl.vertex_array);
+    glDrawElements(GL_TRIANGLES, gl.index_count, GL_UNSIGNED_INT, nullptr);
+  };
+  const bool picture = gl.width > 0;
+  const Placement placement = frame.placement == Placement::by_operator && gl.columns == 0 ? Placement::positions : frame.placement;
+
+  if (picture) {  // what shows through where the picture is transparent
+    mode(Placement::at_rest);
+    coloring(3);
+    glUniform4f(gl.at("flat_color"), frame.backdrop[0], frame.backdrop[1], frame.backdrop[2], 1);
+    glBindVertexArray(gl.quad_array);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  if (picture && frame.view == View::image) {  // what lies outside the rest cage stays
+    if (gl.index_count > 0) {
+      glEnable(GL_STENCIL_TEST);
+      glStencilFunc(GL_ALWAYS, 1, 0xff);
+      glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      mode(Placement::at_rest);
+      coloring(3);
+      draw_mesh();
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glStencilFunc(GL_EQUAL, 0, 0xff);
+      glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    }
+    mode(Placement::at_rest);
+    coloring(0);
+    glBindVertexArray(gl.quad_array);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_STENCIL_TEST);
+  }
+  if (gl.index_count > 0 && (picture || frame.view != View::image)) {
+    mode(placement);
+    coloring(frame.view == View::image ? 0 : frame.view == View::checker ? 2 : 1);
+    draw_mesh();
+  }
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, frame.window_width, frame.window_height);
+}
+
+std::vector<Complex> Renderer::placed_vertices(Placement placement) {
+  Objects& gl = *gl_;
+  std::vector<float> flat(2 * static_cast<size_t>(gl.vertex_count));
+  glUseProgram(gl.program);
+  const float identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  glUniformMatrix3fv(gl.at("to_clip"), 1, GL_FALSE, identity);
+  glUniform1i(gl.at("operator_matrix"), kMatrix);
+  glUniform1i(gl.at("operator_controls"), kControls);
+  glUniform1i(gl.at("picture"), kPicture);
+  glUniform1i(gl.at("colors"), kColors);
+  glUniform1i(gl.at("column_count"), gl.columns);
+  glUniform1i(gl.at("row_count"), gl.vertex_count);
+  glUniform1i(gl.at("mode"), mode_of(placement));
+  glActiveTexture(GL_TEXTURE0 + kMatrix);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.matrix_texture : 0);
+  glActiveTexture(GL_TEXTURE0 + kControls);
+  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.controls_texture : 0);
+  upload(gl.feedback, GL_TRANSFORM_FEEDBACK_BUFFER, nullptr, flat.size() * sizeof(float), GL_STREAM_READ);
+  glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, gl.feedback);
+  glEnable(GL_RASTERIZER_DISCARD);
+  glBindVertexArray(gl.vertex_array);
+  glBeginTransformFeedback(GL_POINTS);
+  glDrawArrays(GL_POINTS, 0, gl.vertex_count);
+  glEndTransformFeedback();
+  glDisable(GL_RASTERIZER_DISCARD);
+  glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, gl.feedback);
+  glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(flat.size() * sizeof(float)), flat.data());
+  glBindVertexArray(0);
+  glUseProgram(0);
+  std::vector<Complex> placed;
+  for (GLsizei i = 0; i < gl.vertex_count; ++i) placed.push_back({flat[2 * i], flat[2 * i + 1]});
+  return placed;
+}
+
+std::string Renderer::driver() const {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name ? name : "unknown";
+}
+
+bool Renderer::is_software() const {
+  const std::string name = driver();
+  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"})
+    if (name.find(software) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace holomorph

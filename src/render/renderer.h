@@ -1,0 +1,67 @@
+// The warped picture in OpenGL 3.3: one mesh, one texture, one program. Handles and cages are not
+// drawn here.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/heat.h"
+#include "core/mesh.h"
+
+namespace holomorph {
+
+/// How the vertices get their places.
+enum class Placement { at_rest, positions, by_operator };
+
+/// One drawing of the canvas. Window px have x to the right and y down.
+struct Frame {
+  int window_width = 1, window_height = 1;        ///< of the framebuffer
+  double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
+  Complex center;                                 ///< plane point in the canvas' middle
+  double zoom = 1;                                ///< framebuffer px per plane unit
+  View view = View::image;
+  bool diverging = false;                         ///< the heat map's colours
+  Placement placement = Placement::positions;
+  Color background{0.2f, 0.2f, 0.2f}, backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
+};
+
+/// Owns the GL objects. Needs a current OpenGL 3.3 core context during construction, calls and
+/// destruction. Throws Error{failed} when the context cannot do what is needed.
+class Renderer {
+ public:
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor by
+  /// which it had to be reduced for this driver, 1 when not at all.
+  int set_picture(int width, int height, const std::uint8_t* pixels);
+  /// The mesh at rest; positions and operator start afresh. Null takes it away.
+  void set_mesh(const Mesh* mesh);
+  /// Where the vertices go, by Placement::positions.
+  void set_positions(std::span<const Complex> positions);
+  /// Position of each vertex's value on the heat scale, in [0, 1].
+  void set_heat(const Eigen::VectorXf& positions);
+  /// The operator of Placement::by_operator; null takes it away. Returns false when it does not fit
+  /// this driver's texture buffers.
+  bool set_operator(const PlanarMatrix<float>* matrix);
+  void set_controls(const VectorXc& controls);
+
+  void draw(const Frame& frame);
+
+  /// The vertex places that the shader computes, read back.
+  std::vector<Complex> placed_vertices(Placement placement);
+
+  /// Whether the driver computes on a processor: then the CPU path is the faster one.
+  bool is_software() const;
+  /// The driver's name, for the log.
+  std::string driver() const;
+
+ private:
+  struct Objects;
+  std::unique_ptr<Objects> gl_;
+};
+
+}  // namespace holomorph
