@@ -319,6 +319,14 @@ void Renderer::draw(const Frame& frame) {
     coloring(frame.view == View::image ? 0 : frame.view == View::checker ? 2 : 1);
     draw_mesh();
   }
+  if (gl.index_count > 0 && frame.wireframe) {
+    mode(placement);
+    coloring(3);
+    glUniform4f(gl.at("flat_color"), 0.05f, 0.15f, 0.35f, 0.35f);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    draw_mesh();
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  }
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_SCISSOR_TEST);

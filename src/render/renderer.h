@@ -23,6 +23,7 @@ struct Frame {
   View view = View::image;
   bool diverging = false;                         ///< the heat map's colours
   Placement placement = Placement::positions;
+  bool wireframe = false;                         ///< the mesh's edges over it
   Color background{0.2f, 0.2f, 0.2f}, backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
 };
 

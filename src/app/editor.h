@@ -1,0 +1,17 @@
+// The editor: a window around a workspace.
+#pragma once
+
+#include "scene/file.h"
+
+namespace holomorph {
+
+struct EditorOptions {
+  Path file;        ///< a scene or picture to open; empty: the welcome page
+  Path state_file;  ///< when set, what the editor shows is written here whenever it changes
+};
+
+/// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there is
+/// no display or the file cannot be opened.
+int run_editor(const EditorOptions& options);
+
+}  // namespace holomorph

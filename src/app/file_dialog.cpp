@@ -1,0 +1,155 @@
+// The folder is read when it is entered, not every frame.
+#include "app/file_dialog.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace holomorph {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+Path home() {
+  const char* home = std::getenv("HOME");
+  return home && *home ? Path(home) : Path("/");
+}
+
+}  // namespace
+
+void FileDialog::ask(FileQuestion question, Answer answer) {
+  question_ = std::move(question);
+  answer_ = std::move(answer);
+  open_ = opening_ = true;
+  confirming_ = false;
+  picture_scale_ = 1;
+  name_.clear();
+  std::error_code error;
+  Path start = question_.start.empty() ? folder_ : question_.start;
+  if (!start.empty() && !fs::is_directory(start, error)) {
+    name_ = start.filename().string();
+    start = start.parent_path();
+  }
+  if (start.empty() || !fs::is_directory(start, error)) start = fs::current_path(error);
+  enter(start);
+}
+
+bool FileDialog::shows(const Path& path) const {
+  const std::string extension = lower(path.extension().string());
+  return std::find(question_.extensions.begin(), question_.extensions.end(), extension) != question_.extensions.end();
+}
+
+void FileDialog::enter(const Path& folder) {
+  message_.clear();
+  std::vector<Item> items;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied, error)) {
+    if (entry.path().filename().string().starts_with(".")) continue;
+    std::error_code ignored;
+    const bool is_folder = entry.is_directory(ignored);
+    if (is_folder || shows(entry.path())) items.push_back({entry.path(), is_folder});
+  }
+  if (error) {
+    message_ = folder.string() + " cannot be read: " + error.message();
+    return;
+  }
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    return std::make_pair(!a.folder, lower(a.path.filename().string())) < std::make_pair(!b.folder, lower(b.path.filename().string()));
+  });
+  folder_ = fs::absolute(folder).lexically_normal();
+  items_ = std::move(items);
+}
+
+void FileDialog::accept(const Path& wanted) {
+  Path path = wanted;
+  std::error_code error;
+  if (fs::is_directory(path, error)) return enter(path);
+  if (question_.mode == FileQuestion::Mode::open) {
+    if (!fs::exists(path, error)) {
+      message_ = "There is no file " + path.filename().string() + " here.";
+      return;
+    }
+  } else {
+    if (path.extension().empty()) path += question_.extensions[0];
+    if (fs::exists(path, error) && !confirming_) {
+      confirming_ = true;
+      message_ = path.filename().string() + " exists already. Press the button again to replace it.";
+      return;
+    }
+  }
+  open_ = false;
+  ImGui::CloseCurrentPopup();
+  answer_(path, picture_scale_);
+}
+
+void FileDialog::draw(double scale) {
+  if (!open_) return;
+  const float s = static_cast<float>(scale);
+  const std::string id = question_.title + "###file-dialog";
+  if (opening_) ImGui::OpenPopup("###file-dialog");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowSize({std::min(680 * s, display.x - 20), std::min(480 * s, display.y - 20)}, ImGuiCond_Always);
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  bool keep = true;
+  if (!ImGui::BeginPopupModal(id.c_str(), &keep, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) {
+    open_ = false;
+    return;
+  }
+  std::optional<Path> go;
+  if (ImGui::Button("Up")) go = folder_.parent_path();
+  ImGui::SameLine();
+  if (ImGui::Button("Home")) go = home();
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(folder_.c_str());
+
+  const float below = ImGui::GetFrameHeightWithSpacing() * (question_.asks_scale ? 3.0f : 2.0f) + ImGui::GetTextLineHeightWithSpacing();
+  std::optional<Path> chosen;
+  ImGui::BeginChild("files", {0, -below}, true);
+  for (const Item& item : items_) {
+    const std::string name = item.path.filename().string() + (item.folder ? "/" : "");
+    if (ImGui::Selectable(name.c_str(), item.path.filename() == name_, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+      confirming_ = false;
+      if (!item.folder) name_ = item.path.filename().string();
+      if (item.folder && ImGui::IsMouseDoubleClicked(0)) go = item.path;
+      if (!item.folder && ImGui::IsMouseDoubleClicked(0)) chosen = item.path;
+    }
+  }
+  if (items_.empty()) ImGui::TextDisabled("Nothing here that can be opened.");
+  ImGui::EndChild();
+
+  if (opening_) ImGui::SetKeyboardFocusHere();
+  opening_ = false;
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##name", "File name or path", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) confirming_ = false;
+  if (question_.asks_scale) {
+    float value = static_cast<float>(picture_scale_);
+    ImGui::SetNextItemWidth(200 * s);
+    if (ImGui::SliderFloat("Scale", &value, 0.1f, 4.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) picture_scale_ = value;
+  }
+  if (!message_.empty())
+    ImGui::TextUnformatted(message_.c_str());
+  else
+    ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open ? "Double-click opens." : "The extension is added when it is missing.");
+  const bool pressed = ImGui::Button(question_.button.c_str(), {120 * s, 0});
+  ImGui::SameLine();
+  const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if ((entered || pressed) && !name_.empty()) chosen = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;
+  if (go) enter(*go);
+  if (chosen) accept(*chosen);
+  if (cancelled || !keep) {
+    open_ = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace holomorph

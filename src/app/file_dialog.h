@@ -1,0 +1,50 @@
+// A file browser inside the window.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/file.h"
+
+namespace holomorph {
+
+/// What a dialog is asked for.
+struct FileQuestion {
+  enum class Mode { open, save } mode = Mode::open;
+  std::string title, button;
+  std::vector<std::string> extensions;  ///< lower case with the dot; the first is added when saving
+  Path start;                           ///< a folder or a file; empty: the last folder
+  bool asks_scale = false;              ///< also a scale, for pictures
+};
+
+/// Shows one question at a time; the answer comes through the callback, once.
+class FileDialog {
+ public:
+  using Answer = std::function<void(const Path& path, double scale)>;
+
+  void ask(FileQuestion question, Answer answer);
+  bool open() const { return open_; }
+  /// Draws the dialog while it is open.
+  void draw(double scale);
+
+ private:
+  void enter(const Path& folder);
+  void accept(const Path& path);
+  bool shows(const Path& path) const;
+
+  FileQuestion question_;
+  Answer answer_;
+  bool open_ = false, opening_ = false, confirming_ = false;
+  Path folder_;
+  std::string name_, message_;
+  double picture_scale_ = 1;
+  struct Item {
+    Path path;
+    bool folder;
+  };
+  std::vector<Item> items_;
+};
+
+}  // namespace holomorph

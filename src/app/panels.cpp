@@ -1,0 +1,311 @@
+// Menus, toolbar, help and palette read the action table; nothing is listed twice.
+#include "app/panels.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+namespace holomorph {
+
+PanelSizes PanelSizes::at(double scale) {
+  const double line = ImGui::GetFrameHeight();
+  return {line, 52 * scale, 300 * scale, line + 6 * scale};
+}
+
+namespace {
+
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void action_item(const Action& action, Workspace& workspace) {
+  const std::string keys = action.keys.empty() ? "" : text_of(action.keys[0]);
+  const bool checked = action.checked && action.checked(workspace);
+  if (ImGui::MenuItem(action.label.c_str(), keys.c_str(), checked, action.enabled(workspace))) run(action, workspace);
+}
+
+void menu_of(const char* name, Workspace& workspace) {
+  for (const Action& action : actions())
+    if (std::string_view(action.menu) == name) action_item(action, workspace);
+}
+
+}  // namespace
+
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
+  PanelAnswer answer;
+  if (!ImGui::BeginMainMenuBar()) return answer;
+  for (const char* name : {"File", "Edit", "Tools", "Cage", "View", "Help"}) {
+    if (!ImGui::BeginMenu(name)) continue;
+    if (std::string_view(name) == "File" && ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
+      for (const Path& path : preferences.recent)
+        if (ImGui::MenuItem(path.c_str())) answer.open = path;
+      ImGui::EndMenu();
+    }
+    menu_of(name, workspace);
+    if (std::string_view(name) == "Cage") {
+      ImGui::Separator();
+      ImGui::SetNextItemWidth(160);
+      ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d", ImGuiSliderFlags_AlwaysClamp);
+    }
+    if (std::string_view(name) == "View") {
+      ImGui::Separator();
+      if (ImGui::MenuItem("Light theme", "", preferences.light_theme)) {
+        preferences.light_theme = !preferences.light_theme;
+        answer.style_changed = true;
+      }
+      if (ImGui::BeginMenu("Size of the interface")) {
+        for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
+          char label[32];
+          std::snprintf(label, sizeof label, scale == 0 ? "As the display" : "%.0f %%", 100 * scale);
+          if (ImGui::MenuItem(label, "", preferences.ui_scale == scale)) {
+            preferences.ui_scale = scale;
+            answer.style_changed = true;
+          }
+        }
+        ImGui::EndMenu();
+      }
+    }
+    ImGui::EndMenu();
+  }
+  const std::string title = workspace.document.empty() ? "" : workspace.document.title() + (workspace.document.modified() ? " *" : "");
+  const float width = ImGui::CalcTextSize(title.c_str()).x;
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX() + 20, (ImGui::GetWindowWidth() - width) / 2));
+  ImGui::TextDisabled("%s", title.c_str());
+  ImGui::EndMainMenuBar();
+  return answer;
+}
+
+void draw_toolbar(Workspace& workspace, double scale) {
+  const PanelSizes sizes = PanelSizes::at(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float s = static_cast<float>(scale);
+  ImGui::SetNextWindowPos({0, static_cast<float>(sizes.menu)});
+  ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar), display.y - static_cast<float>(sizes.menu + sizes.status)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
+  ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "", "cage.from_picture", "cage.rest", "", "edit.undo", "edit.redo", "", "view.fit", "help.keys"}) {
+    if (!*id) {
+      ImGui::Dummy({0, 2 * s});
+      ImGui::Separator();
+      ImGui::Dummy({0, 2 * s});
+      continue;
+    }
+    const Action& action = action_named(id);
+    const bool on = action.checked && action.checked(workspace), enabled = action.enabled(workspace);
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    ImGui::BeginDisabled(!enabled);
+    const std::string face = std::string(*action.icon ? action.icon : "\uf0b2") + "###" + id;
+    if (ImGui::Button(face.c_str(), {40 * s, 38 * s})) run(action, workspace);
+    ImGui::EndDisabled();
+    if (on) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale) {
+  const PanelSizes sizes = PanelSizes::at(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float s = static_cast<float>(scale), height = static_cast<float>(sizes.status);
+  ImGui::SetNextWindowPos({0, display.y - height});
+  ImGui::SetNextWindowSize({display.x, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * s, 4 * s});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+  ImGui::Begin("Status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  ImGui::AlignTextToFramePadding();
+  const LiveMap& map = workspace.map;
+  if (map.error()) {
+    ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.error()->what());
+    if (const auto where = map.error()->where()) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *where;
+    }
+  } else {
+    ImGui::TextUnformatted(status.hint.c_str());
+  }
+  char right[240] = "";
+  int used = 0;
+  const auto add = [&](const char* format, auto... values) {
+    used += std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
+    used = std::min(used, static_cast<int>(sizeof right) - 1);
+  };
+  if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
+  if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.viewport.zoom);
+  if (map.has_map()) {
+    add("%s: ", method_named(workspace.scene().method).label.c_str());
+    add("%s, %.2f ms%s   ", map.map().status == SampledMap::Status::exact ? "exact" : "", map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
+  }
+  if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
+  const float width = ImGui::CalcTextSize(right).x;
+  ImGui::SameLine(std::max(display.x - width - 14 * s, ImGui::GetCursorPosX()));
+  ImGui::TextDisabled("%s", right);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+}
+
+void draw_cage_offer(Workspace& workspace, double scale) {
+  if (!workspace.document.image() || workspace.scene().has_cage()) return;
+  const float s = static_cast<float>(scale);
+  const Viewport& view = workspace.viewport;
+  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2), static_cast<float>(view.top + view.height) - 24 * s}, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::Begin("Cage offer", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextUnformatted("This picture needs a cage before it can bend.");
+  if (ImGui::Button("\uf0d0  Make from picture", {190 * s, 0})) run(action_named("cage.from_picture"), workspace);
+  ImGui::SameLine();
+  if (ImGui::Button("\uf040  Draw it (P)", {150 * s, 0})) workspace.tool = ToolId::pen;
+  ImGui::SetNextItemWidth(190 * s);
+  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, const std::vector<Sample>& samples,
+                         const std::vector<Path>& recoverable, double scale) {
+  PanelAnswer answer;
+  const float s = static_cast<float>(scale);
+  const PanelSizes sizes = PanelSizes::at(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, static_cast<float>(sizes.menu)});
+  ImGui::SetNextWindowSize({display.x, display.y - static_cast<float>(sizes.menu + sizes.status)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {48 * s, 32 * s});
+  ImGui::Begin("Welcome", nullptr, kPanel);
+  ImGui::SetWindowFontScale(1.9f);
+  ImGui::TextUnformatted("Holomorph");
+  ImGui::SetWindowFontScale(1);
+  ImGui::TextDisabled("Bend a picture: give it a cage, then drag cage points and pins.");
+  ImGui::Dummy({0, 8 * s});
+  if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s})) run(action_named("file.open"), workspace);
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("or drop a file on this window");
+  if (!recoverable.empty()) {
+    ImGui::Dummy({0, 8 * s});
+    ImGui::TextColored({0.98f, 0.7f, 0.25f, 1}, "Work that was not saved:");
+    for (const Path& path : recoverable) {
+      ImGui::PushID(path.c_str());
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextUnformatted(path.stem().c_str());
+      ImGui::SameLine();
+      if (ImGui::Button("Recover")) answer.recover = path;
+      ImGui::SameLine();
+      if (ImGui::Button("Discard")) answer.discard = path;
+      ImGui::PopID();
+    }
+  }
+  ImGui::Dummy({0, 10 * s});
+  ImGui::TextUnformatted("Samples");
+  const float tile = 200 * s;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const Sample& sample = samples[i];
+    ImGui::PushID(static_cast<int>(i));
+    if (i > 0 && ImGui::GetItemRectMax().x + tile + 60 * s < display.x) ImGui::SameLine(0, 20 * s);
+    ImGui::BeginGroup();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::Button("##tile", {tile, tile})) answer.open = sample.scene;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (sample.thumbnail.id()) {
+      const float w = static_cast<float>(sample.thumbnail.width()), h = static_cast<float>(sample.thumbnail.height());
+      const float fit = (tile - 24 * s) / std::max(w, h);
+      const ImVec2 corner(at.x + (tile - w * fit) / 2, at.y + (tile - h * fit) / 2);
+      list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(sample.thumbnail.id())), corner, {corner.x + w * fit, corner.y + h * fit});
+    }
+    ImGui::TextUnformatted(sample.title.c_str());
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + tile);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", sample.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+    ImGui::PopID();
+  }
+  if (!preferences.recent.empty()) {
+    ImGui::Dummy({0, 10 * s});
+    ImGui::TextUnformatted("Recent");
+    for (size_t i = 0; i < std::min<size_t>(preferences.recent.size(), 6); ++i)
+      if (ImGui::Selectable(preferences.recent[i].c_str(), false, 0, {std::min(display.x - 100 * s, 640 * s), 0})) answer.open = preferences.recent[i];
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  return answer;
+}
+
+bool draw_help(double scale) {
+  const float s = static_cast<float>(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(760 * s, display.x - 40), std::min(600 * s, display.y - 60)});
+  bool open = true;
+  ImGui::Begin("Keys and mouse", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
+  static constexpr const char* kMouse[][2] = {
+      {"Drag a point or pin", "move it; Shift keeps the axis"},
+      {"Drag on empty canvas", "select with a box; Shift adds"},
+      {"Double-click an edge", "insert a cage point"},
+      {"Alt-click a point or pin", "delete it"},
+      {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
+      {"Middle drag, Space-drag", "pan"},
+      {"Wheel", "zoom at the cursor"},
+      {"Right click", "menu of what is under the cursor"},
+      {"Hold H", "hide cage and pins"},
+      {"Hold \\", "show the original picture"},
+      {"Enter, Backspace, Esc", "while drawing: close, take a point back, cancel"}};
+  const auto row = [](const std::string& left, const std::string& right) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(left.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(right.c_str());
+  };
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+    for (const auto& line : kMouse) row(line[0], line[1]);
+    for (const Action& action : actions()) {
+      std::string keys;
+      for (const Shortcut& key : action.keys) keys += (keys.empty() ? "" : ", ") + text_of(key);
+      if (!keys.empty()) row(keys, action.label);
+    }
+    ImGui::EndTable();
+  }
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open = false;
+  ImGui::End();
+  return open;
+}
+
+bool draw_palette(Workspace& workspace, std::string& text, bool opening, double scale) {
+  const float s = static_cast<float>(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, 80 * s}, ImGuiCond_Always, {0.5f, 0.0f});
+  ImGui::SetNextWindowSize({std::min(520 * s, display.x - 40), 380 * s});
+  ImGui::Begin("Find an action", nullptr, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+  if (opening) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const auto lower = [](std::string t) {
+    std::transform(t.begin(), t.end(), t.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return t;
+  };
+  const Action* chosen = nullptr;
+  bool first = true;
+  for (const Action& action : actions()) {
+    if (lower(action.label).find(lower(text)) == std::string::npos) continue;
+    const bool enabled = action.enabled(workspace);
+    if (entered && first && enabled) chosen = &action;
+    if (enabled) first = false;
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::Selectable((action.label + "###" + action.id).c_str())) chosen = &action;
+    ImGui::EndDisabled();
+    if (!action.keys.empty()) {
+      ImGui::SameLine(ImGui::GetWindowWidth() - 150 * s);
+      ImGui::TextDisabled("%s", text_of(action.keys[0]).c_str());
+    }
+  }
+  const bool left = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) ||
+                    (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
+  ImGui::End();
+  if (chosen) run(*chosen, workspace);
+  return !chosen && !left;
+}
+
+}  // namespace holomorph

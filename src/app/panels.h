@@ -1,0 +1,57 @@
+// The panels around the canvas: each is a function that draws itself and changes the workspace.
+#pragma once
+
+#include "app/theme.h"
+#include "app/window.h"
+#include "edit/actions.h"
+#include "edit/tool.h"
+#include "render/texture.h"
+#include "scene/preferences.h"
+
+namespace holomorph {
+
+/// What a panel can ask of the editor beyond actions.
+struct PanelAnswer {
+  std::optional<Path> open;      ///< a recent file or a sample
+  std::optional<Path> recover;   ///< an autosave
+  std::optional<Path> discard;   ///< an autosave to delete
+  bool style_changed = false;    ///< theme or scale in the preferences
+};
+
+/// Sizes of the panels in window px for a scale of the display.
+struct PanelSizes {
+  double menu, toolbar, inspector, status;
+  static PanelSizes at(double scale);
+};
+
+/// One menu per name in the action table. Returns recent files to open and style changes.
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences);
+void draw_toolbar(Workspace& workspace, double scale);
+void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale);
+
+/// What the status bar says besides the workspace.
+struct StatusLine {
+  std::string hint;
+  std::optional<Complex> cursor;
+  bool draft = false;       ///< a drag is going on or the map is being prepared
+  bool by_operator = false;
+};
+void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale);
+
+/// A sample scene of the welcome page.
+struct Sample {
+  Path scene;
+  std::string title, text;
+  Texture thumbnail;
+};
+PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, const std::vector<Sample>& samples,
+                         const std::vector<Path>& recoverable, double scale);
+
+/// The two buttons for a picture without a cage.
+void draw_cage_offer(Workspace& workspace, double scale);
+
+/// The overlay of keys and mouse (F1), and the search over all actions. Both return false when closed.
+bool draw_help(double scale);
+bool draw_palette(Workspace& workspace, std::string& text, bool opening, double scale);
+
+}  // namespace holomorph

@@ -1,0 +1,20 @@
+// Fonts, sizes and colours.
+#pragma once
+
+#include <imgui.h>
+
+#include "core/heat.h"
+
+namespace holomorph {
+
+/// Sets ImGui's fonts and style. Returns whether the icon font was found.
+bool apply_theme(double scale, bool light);
+
+/// Colours of what is drawn over the canvas.
+struct CanvasColors {
+  Color canvas, backdrop;
+  ImU32 pose, rest, pin, selected, hover, outline, text, panel, warning, accent;
+};
+CanvasColors canvas_colors(bool light);
+
+}  // namespace holomorph

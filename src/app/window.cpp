@@ -1,0 +1,192 @@
+// Callbacks note what happened and owe three frames for it: ImGui needs two to settle a layout.
+#include "app/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "app/theme.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kFramesPerEvent = 3;
+
+Window* self(GLFWwindow* window) { return static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+/// The key as the user's layout prints it.
+int printed_key(int key, int scancode) {
+  switch (key) {
+    case GLFW_KEY_TAB: return static_cast<int>(Key::tab);
+    case GLFW_KEY_ESCAPE: return static_cast<int>(Key::escape);
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER: return static_cast<int>(Key::enter);
+    case GLFW_KEY_BACKSPACE: return static_cast<int>(Key::backspace);
+    case GLFW_KEY_DELETE: return static_cast<int>(Key::del);
+    case GLFW_KEY_LEFT: return static_cast<int>(Key::left);
+    case GLFW_KEY_RIGHT: return static_cast<int>(Key::right);
+    case GLFW_KEY_UP: return static_cast<int>(Key::up);
+    case GLFW_KEY_DOWN: return static_cast<int>(Key::down);
+    case GLFW_KEY_F1: return static_cast<int>(Key::f1);
+    case GLFW_KEY_SPACE: return static_cast<int>(Key::space);
+    default: break;
+  }
+  const char* name = glfwGetKeyName(key, scancode);
+  if (!name || name[0] == 0 || name[1] != 0) return 0;
+  return std::toupper(static_cast<unsigned char>(name[0]));
+}
+
+}  // namespace
+
+bool has_display() {
+  for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"})
+    if (const char* value = std::getenv(variable); value && *value) return true;
+  return false;
+}
+
+Window::Window(int width, int height, double ui_scale, bool light) {
+  std::string reason = "unknown reason";
+  glfwSetErrorCallback(nullptr);
+  if (!glfwInit()) throw Error(ErrorKind::failed, "no window can be opened here: there is no display");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_STENCIL_BITS, 8);
+  glfwWindowHint(GLFW_SAMPLES, 4);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
+  if (!window_) {  // some drivers have no multisampling
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
+  }
+  if (!window_) {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    reason = text ? text : reason;
+    glfwTerminate();
+    throw Error(ErrorKind::failed, "the window with OpenGL 3.3 cannot be opened: " + reason);
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(window_, this);
+  // Installed before ImGui's, which call these in turn.
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) { self(w)->add_key(key, scancode, action, mods); });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { self(w)->add_character(code); });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w)->wake(); });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w)->wake(); });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w)->wake(); });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { self(w)->wake(); });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w)->wake(); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->wake(); });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->wake(); });
+  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->wake(); });
+  glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) {
+    glfwSetWindowShouldClose(w, GLFW_FALSE);
+    self(w)->close_ = true;
+    self(w)->wake();
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    for (int i = 0; i < count; ++i) self(w)->drops_.push_back(paths[i]);
+    self(w)->wake();
+  });
+
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+  set_style(ui_scale, light);
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void Window::set_style(double ui_scale, bool light) {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
+  light_ = light;
+  has_icons_ = apply_theme(scale_, light);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again from the new fonts with the next frame
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  wake();
+}
+
+bool Window::wait(double longest) {
+  if (owed_frames_ > 0)
+    glfwPollEvents();
+  else
+    glfwWaitEventsTimeout(longest);
+  if (woken_.exchange(false)) owed_frames_ = kFramesPerEvent;
+  if (owed_frames_ <= 0) return false;
+  --owed_frames_;
+  return true;
+}
+
+void Window::wake() {
+  woken_ = true;
+  glfwPostEmptyEvent();
+}
+
+void Window::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Window::end_frame() {
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window_);
+}
+
+void Window::add_key(int key, int scancode, int action, int mods) {
+  wake();
+  if (action == GLFW_RELEASE) return;
+  const int printed = printed_key(key, scancode);
+  if (printed == 0 || printed == '+' || printed == '?') return;  // those come as characters
+  Shortcut shortcut;
+  shortcut.key = printed;
+  shortcut.mods = {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0};
+  keys_.push_back(shortcut);
+}
+
+void Window::add_character(unsigned code) {
+  wake();
+  if (code == '?' || code == '+') keys_.push_back(Shortcut(static_cast<char>(code)));
+}
+
+std::vector<Shortcut> Window::take_keys() { return std::exchange(keys_, {}); }
+std::vector<Path> Window::take_drops() { return std::exchange(drops_, {}); }
+bool Window::take_close() { return std::exchange(close_, false); }
+
+bool Window::is_down(char key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }  // GLFW's codes are ASCII
+bool Window::is_down(Key key) const { return key == Key::space && glfwGetKey(window_, GLFW_KEY_SPACE) == GLFW_PRESS; }
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+namespace {
+template <class Get>
+std::pair<int, int> size_of(GLFWwindow* window, Get get) {
+  int width = 1, height = 1;
+  get(window, &width, &height);
+  return {std::max(width, 1), std::max(height, 1)};
+}
+}  // namespace
+
+int Window::width() const { return size_of(window_, glfwGetWindowSize).first; }
+int Window::height() const { return size_of(window_, glfwGetWindowSize).second; }
+int Window::framebuffer_width() const { return size_of(window_, glfwGetFramebufferSize).first; }
+int Window::framebuffer_height() const { return size_of(window_, glfwGetFramebufferSize).second; }
+
+}  // namespace holomorph

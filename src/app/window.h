@@ -1,0 +1,69 @@
+// The GLFW window and ImGui's life in it: events in, frames out, sleep when nothing happens.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "edit/input.h"
+#include "scene/file.h"
+
+struct GLFWwindow;
+
+namespace holomorph {
+
+/// Owns the window, its OpenGL context and ImGui. Throws Error{failed} without a display or OpenGL 3.3.
+class Window {
+ public:
+  Window(int width, int height, double ui_scale, bool light);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Waits until there is something to draw: an event, a wake(), or a frame that is owed after one;
+  /// at most `longest` seconds. Returns whether a frame should be drawn.
+  bool wait(double longest);
+  /// From any thread: makes wait() return.
+  void wake();
+  /// Starts and ends a frame of the user interface; draw with OpenGL in between.
+  void begin_frame();
+  void end_frame();
+
+  /// Fonts and sizes for a scale (0: the display's) and colours for a theme.
+  void set_style(double ui_scale, bool light);
+  double scale() const { return scale_; }
+  bool light() const { return light_; }
+  bool has_icons() const { return has_icons_; }
+
+  /// Key presses since the last call, repeats included.
+  std::vector<Shortcut> take_keys();
+  /// Files dropped on the window since the last call.
+  std::vector<Path> take_drops();
+  /// Whether the user asked to close the window; asked once, answered by the program.
+  bool take_close();
+  bool is_down(char key) const;
+  bool is_down(Key key) const;
+  void set_title(const std::string& title);
+
+  int width() const;   ///< in window px
+  int height() const;
+  int framebuffer_width() const;
+  int framebuffer_height() const;
+
+ private:
+  void add_key(int key, int scancode, int action, int mods);
+  void add_character(unsigned code);
+
+  GLFWwindow* window_ = nullptr;
+  std::atomic<bool> woken_{false};
+  int owed_frames_ = 3;
+  double scale_ = 1;
+  bool light_ = false, has_icons_ = false, close_ = false;
+  std::vector<Shortcut> keys_;
+  std::vector<Path> drops_;
+};
+
+/// Whether a window can be opened at all (a display is set).
+bool has_display();
+
+}  // namespace holomorph
