@@ -22,13 +22,16 @@ double seconds() {
 }
 
 std::vector<Sample> load_samples() {
-  const Path folder = std::filesystem::exists(HOLOMORPH_ASSETS) ? Path(HOLOMORPH_ASSETS) : Path(HOLOMORPH_INSTALLED_ASSETS);
+  const Path folder = std::filesystem::exists(HOLOMORPH_ASSETS) ? Path(HOLOMORPH_ASSETS)
+                                                                : Path(HOLOMORPH_INSTALLED_ASSETS);
   struct Row {
     const char *name, *title, *text;
   };
-  static constexpr Row kRows[] = {{"giraffe", "Giraffe", "A cage around the whole animal; its neck is bent by a few cage points."},
-                                  {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
-                                  {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
+  static constexpr Row kRows[] = {
+      {"giraffe", "Giraffe",
+       "A cage around the whole animal; its neck is bent by a few cage points."},
+      {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
+      {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
   std::vector<Sample> samples;
   for (const Row& row : kRows) {
     Sample sample{folder / (std::string(row.name) + ".json"), row.title, row.text, {}};
@@ -50,7 +53,9 @@ std::vector<Sample> load_samples() {
 class Editor {
  public:
   explicit Editor(const EditorOptions& options)
-      : options_(options), preferences_(load_preferences()), window_(1280, 800, preferences_.ui_scale, preferences_.light_theme) {
+      : options_(options),
+        preferences_(load_preferences()),
+        window_(1280, 800, preferences_.ui_scale, preferences_.light_theme) {
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
     tools_.push_back(pin_tool());
@@ -81,7 +86,8 @@ class Editor {
   // ---- One frame -------------------------------------------------------------------------------
 
   void frame() {
-    if (std::exchange(restyle_, false)) window_.set_style(preferences_.ui_scale, preferences_.light_theme);
+    if (std::exchange(restyle_, false))
+      window_.set_style(preferences_.ui_scale, preferences_.light_theme);
     window_.begin_frame();
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
@@ -100,7 +106,8 @@ class Editor {
     draw_panels(input);
     ImGui::Render();
     window_.end_frame();
-    if (!options_.state_file.empty()) write_state_file(options_.state_file, workspace_, current_tool().busy());
+    if (!options_.state_file.empty())
+      write_state_file(options_.state_file, workspace_, current_tool().busy());
   }
 
   void layout(const PanelSizes& sizes) {
@@ -123,8 +130,11 @@ class Editor {
     const bool modal = dialog_.open() || unsaved_question_ || palette_ || help_;
     for (const Shortcut& key : window_.take_keys()) {
       if (typing || modal) continue;
-      if (key.mods == Modifiers{} && key.key >= 256 && current_tool().key(static_cast<Key>(key.key), workspace_)) continue;
-      if (current_tool().busy() && !pan_key(key)) continue;  // a gesture is finished before anything else
+      if (key.mods == Modifiers{} && key.key >= 256 &&
+          current_tool().key(static_cast<Key>(key.key), workspace_))
+        continue;
+      if (current_tool().busy() && !pan_key(key))
+        continue;  // a gesture is finished before anything else
       if (const Action* action = action_for(key, workspace_)) holomorph::run(*action, workspace_);
     }
     workspace_.hide_overlays = !typing && window_.is_down('H');
@@ -132,7 +142,9 @@ class Editor {
   }
 
   /// Keys that only change the view may be pressed during a gesture.
-  static bool pan_key(const Shortcut& key) { return key.key == 'F' || key.key == '+' || key.key == '-' || key.key == '0'; }
+  static bool pan_key(const Shortcut& key) {
+    return key.key == 'F' || key.key == '+' || key.key == '-' || key.key == '0';
+  }
 
   Input take_input() {
     const ImGuiIO& io = ImGui::GetIO();
@@ -155,7 +167,8 @@ class Editor {
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && ImGui::IsMouseDown(0))) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (input.inside && io.MouseWheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
+    if (input.inside && io.MouseWheel != 0)
+      workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -174,7 +187,9 @@ class Editor {
     }
     current_tool().input(input, workspace_);
     if (input.inside && ImGui::IsMouseClicked(1)) {
-      if (const auto handle = handle_at(workspace_, input.px); handle && !workspace_.selection.contains(*handle)) workspace_.selection = {*handle};
+      if (const auto handle = handle_at(workspace_, input.px);
+          handle && !workspace_.selection.contains(*handle))
+        workspace_.selection = {*handle};
       ImGui::OpenPopup("context");
     }
   }
@@ -255,12 +270,14 @@ class Editor {
       options.scale = scale;
       options.view = workspace_.view;
       options.automatic_range = workspace_.automatic_range;
-      const RasterResult result = picture_of(workspace_.document.scene(), workspace_.document.image(), options);
+      const RasterResult result =
+          picture_of(workspace_.document.scene(), workspace_.document.image(), options);
       write_file(path, encode_png(result.image));
       export_path_ = path;
       export_scale_ = scale;
       char text[64];
-      std::snprintf(text, sizeof text, ", %d x %d pixels.", result.image.width, result.image.height);
+      std::snprintf(text, sizeof text, ", %d x %d pixels.", result.image.width,
+                    result.image.height);
       workspace_.say("Exported " + path.filename().string() + text);
     } catch (const Error& error) {
       workspace_.complain(error);
@@ -270,16 +287,20 @@ class Editor {
   void ask_export() {
     const Document& document = workspace_.document;
     Path start = export_path_;
-    if (start.empty()) start = document.path().empty() ? Path("picture.png") : Path(document.path()).replace_extension(".png");
+    if (start.empty())
+      start = document.path().empty() ? Path("picture.png")
+                                      : Path(document.path()).replace_extension(".png");
     // Never offer to replace the source picture itself.
-    if (document.scene().image && start.filename() == Path(document.scene().image->file).filename()) start.replace_filename(start.stem().string() + "-bent.png");
+    if (document.scene().image && start.filename() == Path(document.scene().image->file).filename())
+      start.replace_filename(start.stem().string() + "-bent.png");
     dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
                 [this](const Path& path, double scale) { export_to(path, scale); });
   }
 
   void handle_request() {
     switch (std::exchange(workspace_.request, Request::none)) {
-      case Request::none: break;
+      case Request::none:
+        break;
       case Request::new_scene:
         ask_then([this] {
           adopt(Document());
@@ -289,13 +310,24 @@ class Editor {
         break;
       case Request::open:
         ask_then([this] {
-          dialog_.ask({FileQuestion::Mode::open, "Open a picture or a scene", "Open", {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json"}, {}, false},
+          dialog_.ask({FileQuestion::Mode::open,
+                       "Open a picture or a scene",
+                       "Open",
+                       {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json"},
+                       {},
+                       false},
                       [this](const Path& path, double) { open(path); });
         });
         break;
-      case Request::save: save(false); break;
-      case Request::save_as: save(true); break;
-      case Request::export_picture: ask_export(); break;
+      case Request::save:
+        save(false);
+        break;
+      case Request::save_as:
+        save(true);
+        break;
+      case Request::export_picture:
+        ask_export();
+        break;
       case Request::export_again:
         if (export_path_.empty())
           ask_export();
@@ -308,7 +340,9 @@ class Editor {
           quit_ = true;
         });
         break;
-      case Request::help: help_ = true; break;
+      case Request::help:
+        help_ = true;
+        break;
       case Request::palette:
         palette_ = palette_opening_ = true;
         palette_text_.clear();
@@ -322,7 +356,8 @@ class Editor {
       workspace_.document.autosave(autosave_folder());
     } catch (const std::exception& error) {
       if (!std::exchange(autosave_failed_, true))
-        workspace_.complain(Error(ErrorKind::failed, std::string("Autosave does not work: ") + error.what()));
+        workspace_.complain(
+            Error(ErrorKind::failed, std::string("Autosave does not work: ") + error.what()));
     }
   }
 
@@ -336,14 +371,18 @@ class Editor {
 
   void update_title() {
     const Document& document = workspace_.document;
-    const std::string title = document.empty() ? "Holomorph" : document.title() + (document.modified() ? " * - Holomorph" : " - Holomorph");
+    const std::string title =
+        document.empty()
+            ? "Holomorph"
+            : document.title() + (document.modified() ? " * - Holomorph" : " - Holomorph");
     if (title != title_) window_.set_title(title_ = title);
   }
 
   // ---- Drawing ---------------------------------------------------------------------------------
 
   void update_heat() {
-    if (!is_heat(workspace_.view) || !workspace_.map.has_map() || workspace_.map.map().fz.size() == 0) {
+    if (!is_heat(workspace_.view) || !workspace_.map.has_map() ||
+        workspace_.map.map().fz.size() == 0) {
       heat_values_.resize(0);
       return;
     }
@@ -354,9 +393,13 @@ class Editor {
   void upload() {
     if (std::exchange(picture_dirty_, false)) {
       const Image* image = workspace_.document.image();
-      const int factor = image ? renderer_.set_picture(image->width, image->height, image->pixels.data()) : renderer_.set_picture(0, 0, nullptr);
+      const int factor =
+          image ? renderer_.set_picture(image->width, image->height, image->pixels.data())
+                : renderer_.set_picture(0, 0, nullptr);
       if (factor > 1)
-        workspace_.say("The picture is larger than this driver's textures: the canvas shows it reduced " + std::to_string(factor) + " times. Export uses all pixels.");
+        workspace_.say(
+            "The picture is larger than this driver's textures: the canvas shows it reduced " +
+            std::to_string(factor) + " times. Export uses all pixels.");
     }
     const LiveMap& map = workspace_.map;
     if (!map.has_map()) {
@@ -367,7 +410,8 @@ class Editor {
     if (uploaded_ != map.preparation()) {
       renderer_.set_mesh(map.prepared()->mesh.get());
       // On a processor-driven OpenGL the shader's sum is the slower one.
-      by_operator_ = !renderer_.is_software() && renderer_.set_operator(map.prepared()->deformer->operator_matrix());
+      by_operator_ = !renderer_.is_software() &&
+                     renderer_.set_operator(map.prepared()->deformer->operator_matrix());
       uploaded_ = map.preparation();
     }
     if (by_operator_ && !map.busy() && same_structure())
@@ -375,7 +419,8 @@ class Editor {
     renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
     if (heat_values_.size() == map.map().f.size()) {
       Eigen::VectorXf shades(heat_values_.size());
-      for (Index i = 0; i < shades.size(); ++i) shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
+      for (Index i = 0; i < shades.size(); ++i)
+        shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
       renderer_.set_heat(shades);
     }
   }
@@ -399,10 +444,13 @@ class Editor {
     frame.canvas_height = view.height * ratio;
     frame.center = view.center;
     frame.zoom = view.zoom * ratio;
-    frame.view = is_heat(workspace_.view) && heat_values_.size() == 0 ? View::image : workspace_.view;
+    frame.view =
+        is_heat(workspace_.view) && heat_values_.size() == 0 ? View::image : workspace_.view;
     frame.diverging = heat_scale_.diverging;
     frame.wireframe = workspace_.show_mesh;
-    frame.placement = workspace_.at_rest() ? Placement::at_rest : by_operator_ ? Placement::by_operator : Placement::positions;
+    frame.placement = workspace_.at_rest() ? Placement::at_rest
+                      : by_operator_       ? Placement::by_operator
+                                           : Placement::positions;
     frame.background = colors.canvas;
     frame.backdrop = colors.backdrop;
     renderer_.draw(frame);
@@ -430,11 +478,14 @@ class Editor {
     }
     draw_status_bar(workspace_, status, scale);
     draw_toasts(style);
-    if (workspace_.map.error() && workspace_.map.error()->where()) draw_marker(workspace_, *workspace_.map.error()->where(), style);
+    if (workspace_.map.error() && workspace_.map.error()->where())
+      draw_marker(workspace_, *workspace_.map.error()->where(), style);
     dialog_.draw(scale);
     draw_unsaved_question();
     if (help_) help_ = draw_help(scale);
-    if (palette_) palette_ = draw_palette(workspace_, palette_text_, std::exchange(palette_opening_, false), scale);
+    if (palette_)
+      palette_ =
+          draw_palette(workspace_, palette_text_, std::exchange(palette_opening_, false), scale);
   }
 
   void answer(const PanelAnswer& wanted) {
@@ -449,9 +500,12 @@ class Editor {
 
   void draw_context_menu() {
     if (!ImGui::BeginPopup("context")) return;
-    for (const char* id : {"edit.delete", "edit.reset", "edit.free_angle", "edit.select_all", "view.frame", "view.fit", "cage.rest"}) {
+    for (const char* id : {"edit.delete", "edit.reset", "edit.free_angle", "edit.select_all",
+                           "view.frame", "view.fit", "cage.rest"}) {
       const Action& action = action_named(id);
-      if (ImGui::MenuItem(action.label.c_str(), action.keys.empty() ? "" : text_of(action.keys[0]).c_str(), false, action.enabled(workspace_)))
+      if (ImGui::MenuItem(action.label.c_str(),
+                          action.keys.empty() ? "" : text_of(action.keys[0]).c_str(), false,
+                          action.enabled(workspace_)))
         holomorph::run(action, workspace_);
     }
     ImGui::EndPopup();
@@ -461,7 +515,9 @@ class Editor {
     if (unsaved_question_) ImGui::OpenPopup("Unsaved changes");
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) return;
+    if (!ImGui::BeginPopupModal("Unsaved changes", nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+      return;
     ImGui::Text("%s has changes that are not saved.", workspace_.document.title().c_str());
     ImGui::Dummy({0, 6});
     const float width = 130 * static_cast<float>(window_.scale());
@@ -482,7 +538,8 @@ class Editor {
       }
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", {width, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    if (ImGui::Button("Cancel", {width, 0}) ||
+        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
       close();
       after_question_ = {};
     }
@@ -502,8 +559,11 @@ class Editor {
       const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
       const ImVec2 size = ImGui::CalcTextSize(shown.toast.text.c_str(), nullptr, false, wrap);
       const float x = static_cast<float>(view.left + view.width / 2) - size.x / 2;
-      list.AddRectFilled({x - 14 * s, y - 8 * s}, {x + size.x + 14 * s, y + size.y + 8 * s}, style.colors.panel, 6 * s);
-      list.AddRect({x - 14 * s, y - 8 * s}, {x + size.x + 14 * s, y + size.y + 8 * s}, shown.toast.problem ? style.colors.warning : style.colors.accent, 6 * s, 0, 1.5f * s);
+      list.AddRectFilled({x - 14 * s, y - 8 * s}, {x + size.x + 14 * s, y + size.y + 8 * s},
+                         style.colors.panel, 6 * s);
+      list.AddRect({x - 14 * s, y - 8 * s}, {x + size.x + 14 * s, y + size.y + 8 * s},
+                   shown.toast.problem ? style.colors.warning : style.colors.accent, 6 * s, 0,
+                   1.5f * s);
       list.AddText(nullptr, 0, {x, y}, style.colors.text, shown.toast.text.c_str(), nullptr, wrap);
       if (shown.toast.where) draw_marker(workspace_, *shown.toast.where, style);
       y += size.y + 24 * s;
@@ -534,8 +594,10 @@ class Editor {
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   unsigned uploaded_ = 0;
-  bool picture_dirty_ = false, fit_ = false, panning_ = false, by_operator_ = false, unsaved_question_ = false;
-  bool help_ = false, palette_ = false, palette_opening_ = false, autosave_failed_ = false, quit_ = false;
+  bool picture_dirty_ = false, fit_ = false, panning_ = false, by_operator_ = false,
+       unsaved_question_ = false;
+  bool help_ = false, palette_ = false, palette_opening_ = false, autosave_failed_ = false,
+       quit_ = false;
   bool restyle_ = false;
 };
 
@@ -543,7 +605,9 @@ class Editor {
 
 int run_editor(const EditorOptions& options) {
   if (!has_display())
-    throw Error(ErrorKind::failed, "no window can be opened here: there is no display. 'holomorph render SCENE --out PICTURE.png' works without one");
+    throw Error(ErrorKind::failed,
+                "no window can be opened here: there is no display. 'holomorph render SCENE --out "
+                "PICTURE.png' works without one");
   return Editor(options).run();
 }
 

@@ -10,8 +10,8 @@ struct EditorOptions {
   Path state_file;  ///< when set, what the editor shows is written here whenever it changes
 };
 
-/// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there is
-/// no display or the file cannot be opened.
+/// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there
+/// is no display or the file cannot be opened.
 int run_editor(const EditorOptions& options);
 
 }  // namespace holomorph

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -43,14 +44,16 @@ void FileDialog::ask(FileQuestion question, Answer answer) {
 
 bool FileDialog::shows(const Path& path) const {
   const std::string extension = lower(path.extension().string());
-  return std::find(question_.extensions.begin(), question_.extensions.end(), extension) != question_.extensions.end();
+  return std::find(question_.extensions.begin(), question_.extensions.end(), extension) !=
+         question_.extensions.end();
 }
 
 void FileDialog::enter(const Path& folder) {
   message_.clear();
   std::vector<Item> items;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied, error)) {
+  for (const auto& entry :
+       fs::directory_iterator(folder, fs::directory_options::skip_permission_denied, error)) {
     if (entry.path().filename().string().starts_with(".")) continue;
     std::error_code ignored;
     const bool is_folder = entry.is_directory(ignored);
@@ -61,7 +64,8 @@ void FileDialog::enter(const Path& folder) {
     return;
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-    return std::make_pair(!a.folder, lower(a.path.filename().string())) < std::make_pair(!b.folder, lower(b.path.filename().string()));
+    return std::make_pair(!a.folder, lower(a.path.filename().string())) <
+           std::make_pair(!b.folder, lower(b.path.filename().string()));
   });
   folder_ = fs::absolute(folder).lexically_normal();
   items_ = std::move(items);
@@ -80,7 +84,8 @@ void FileDialog::accept(const Path& wanted) {
     if (path.extension().empty()) path += question_.extensions[0];
     if (fs::exists(path, error) && !confirming_) {
       confirming_ = true;
-      message_ = path.filename().string() + " exists already. Press the button again to replace it.";
+      message_ =
+          path.filename().string() + " exists already. Press the button again to replace it.";
       return;
     }
   }
@@ -95,10 +100,12 @@ void FileDialog::draw(double scale) {
   const std::string id = question_.title + "###file-dialog";
   if (opening_) ImGui::OpenPopup("###file-dialog");
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowSize({std::min(680 * s, display.x - 20), std::min(480 * s, display.y - 20)}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({std::min(680 * s, display.x - 20), std::min(480 * s, display.y - 20)},
+                           ImGuiCond_Always);
   ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   bool keep = true;
-  if (!ImGui::BeginPopupModal(id.c_str(), &keep, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) {
+  if (!ImGui::BeginPopupModal(id.c_str(), &keep,
+                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) {
     open_ = false;
     return;
   }
@@ -110,12 +117,15 @@ void FileDialog::draw(double scale) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(folder_.c_str());
 
-  const float below = ImGui::GetFrameHeightWithSpacing() * (question_.asks_scale ? 3.0f : 2.0f) + ImGui::GetTextLineHeightWithSpacing();
+  const float below = ImGui::GetFrameHeightWithSpacing() * (question_.asks_scale ? 3.0f : 2.0f) +
+                      ImGui::GetTextLineHeightWithSpacing();
   std::optional<Path> chosen;
   ImGui::BeginChild("files", {0, -below}, true);
   for (const Item& item : items_) {
     const std::string name = item.path.filename().string() + (item.folder ? "/" : "");
-    if (ImGui::Selectable(name.c_str(), item.path.filename() == name_, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+    if (ImGui::Selectable(
+            name.c_str(), item.path.filename() == name_,
+            ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
       confirming_ = false;
       if (!item.folder) name_ = item.path.filename().string();
       if (item.folder && ImGui::IsMouseDoubleClicked(0)) go = item.path;
@@ -128,21 +138,27 @@ void FileDialog::draw(double scale) {
   if (opening_) ImGui::SetKeyboardFocusHere();
   opening_ = false;
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##name", "File name or path", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##name", "File name or path", &name_,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) confirming_ = false;
   if (question_.asks_scale) {
     float value = static_cast<float>(picture_scale_);
     ImGui::SetNextItemWidth(200 * s);
-    if (ImGui::SliderFloat("Scale", &value, 0.1f, 4.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) picture_scale_ = value;
+    if (ImGui::SliderFloat("Scale", &value, 0.1f, 4.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+      picture_scale_ = value;
   }
   if (!message_.empty())
     ImGui::TextUnformatted(message_.c_str());
   else
-    ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open ? "Double-click opens." : "The extension is added when it is missing.");
+    ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
+                                  ? "Double-click opens."
+                                  : "The extension is added when it is missing.");
   const bool pressed = ImGui::Button(question_.button.c_str(), {120 * s, 0});
   ImGui::SameLine();
-  const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  if ((entered || pressed) && !name_.empty()) chosen = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;
+  const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) ||
+                         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if ((entered || pressed) && !name_.empty())
+    chosen = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;
   if (go) enter(*go);
   if (chosen) accept(*chosen);
   if (cancelled || !keep) {

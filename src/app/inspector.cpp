@@ -7,11 +7,15 @@ namespace {
 
 /// A value that previews while it is dragged and commits when it is let go: one step a drag.
 template <class Edit>
-void edit_number(const char* label, double value, const char* format, float speed, Workspace& workspace, const char* step, Edit edit) {
+void edit_number(const char* label, double value, const char* format, float speed,
+                 Workspace& workspace, const char* step, Edit edit) {
   double number = value;
-  const bool changed = ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
-  if (changed && std::isfinite(number)) workspace.preview = edit(workspace.document.scene(), number);
-  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview) workspace.commit(step, *workspace.preview);
+  const bool changed =
+      ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
+  if (changed && std::isfinite(number))
+    workspace.preview = edit(workspace.document.scene(), number);
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+    workspace.commit(step, *workspace.preview);
 }
 
 void method_section(Workspace& workspace) {
@@ -20,7 +24,8 @@ void method_section(Workspace& workspace) {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##method", method.label.c_str())) {
     for (const Method& row : methods()) {
-      if (ImGui::Selectable(row.label.c_str(), row.id == method.id)) workspace.commit("Method: " + row.label, with_method(scene, row.id));
+      if (ImGui::Selectable(row.label.c_str(), row.id == method.id))
+        workspace.commit("Method: " + row.label, with_method(scene, row.id));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
     }
     ImGui::EndCombo();
@@ -40,18 +45,23 @@ void method_section(Workspace& workspace) {
       ImGui::BeginDisabled(unused);
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-      if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest), static_cast<float>(spec.highest), "%.2e",
-                             ImGuiSliderFlags_AlwaysClamp | (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
+      if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),
+                             static_cast<float>(spec.highest), "%.2e",
+                             ImGuiSliderFlags_AlwaysClamp |
+                                 (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
         Scene after = workspace.document.scene();
         after.parameters[spec.key] = std::clamp<double>(number, spec.lowest, spec.highest);
         workspace.preview = after;
       }
-      if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview) workspace.commit(spec.label, *workspace.preview);
+      if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+        workspace.commit(spec.label, *workspace.preview);
       ImGui::EndDisabled();
     }
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", spec.hint.c_str());
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", spec.hint.c_str());
   }
-  if (workspace.map.has_map() && !workspace.map.map().note.empty()) ImGui::TextWrapped("%s", workspace.map.map().note.c_str());
+  if (workspace.map.has_map() && !workspace.map.map().note.empty())
+    ImGui::TextWrapped("%s", workspace.map.map().note.c_str());
 }
 
 void one_handle(Workspace& workspace, Handle handle) {
@@ -59,13 +69,20 @@ void one_handle(Workspace& workspace, Handle handle) {
   const Layer layer = workspace.layer;
   const Complex z = position_of(scene, handle, layer);
   const bool pin = handle.kind == Handle::Kind::pin;
-  ImGui::Text("%s %d, %s", pin ? "Pin" : handle.control == 0 ? "Cage point" : "Curve point of segment", static_cast<int>(handle.index) + 1,
-              layer == Layer::rest ? "at rest" : "posed");
+  ImGui::Text("%s %d, %s",
+              pin                   ? "Pin"
+              : handle.control == 0 ? "Cage point"
+                                    : "Curve point of segment",
+              static_cast<int>(handle.index) + 1, layer == Layer::rest ? "at rest" : "posed");
   const float speed = static_cast<float>(1 / workspace.viewport.zoom);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) { return placed(s, handle, {x, position_of(s, handle, layer).imag()}, layer); });
+  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
+    return placed(s, handle, {x, position_of(s, handle, layer).imag()}, layer);
+  });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) { return placed(s, handle, {position_of(s, handle, layer).real(), y}, layer); });
+  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
+    return placed(s, handle, {position_of(s, handle, layer).real(), y}, layer);
+  });
   if (!pin || layer == Layer::rest) return;
   bool turns = scene.pins[handle.index].angle.has_value();
   if (ImGui::Checkbox("Turns the picture", &turns)) {
@@ -75,7 +92,9 @@ void one_handle(Workspace& workspace, Handle handle) {
   }
   if (!workspace.scene().pins[handle.index].angle) return;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin", [&](const Scene& s, double degrees) { return turned(s, handle.index, degrees * kPi / 180); });
+  edit_number(
+      "degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin",
+      [&](const Scene& s, double degrees) { return turned(s, handle.index, degrees * kPi / 180); });
 }
 
 void selection_section(Workspace& workspace) {
@@ -101,29 +120,38 @@ void selection_section(Workspace& workspace) {
 void cage_section(Workspace& workspace) {
   const Scene& scene = workspace.scene();
   if (scene.has_cage())
-    ImGui::Text("%d cage points, %d pins", static_cast<int>(scene.rest.size()), static_cast<int>(scene.pins.size()));
+    ImGui::Text("%d cage points, %d pins", static_cast<int>(scene.rest.size()),
+                static_cast<int>(scene.pins.size()));
   else
     ImGui::TextDisabled("No cage yet.");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
   float margin = static_cast<float>(std::max(workspace.auto_cage_margin, -1.0));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px", ImGuiSliderFlags_AlwaysClamp)) workspace.auto_cage_margin = margin < 0 ? -1 : margin;
+  if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
+                         ImGuiSliderFlags_AlwaysClamp))
+    workspace.auto_cage_margin = margin < 0 ? -1 : margin;
   const Action& action = action_named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A cage around the largest opaque part of the picture, in place of the present one");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "A cage around the largest opaque part of the picture, in place of the present one");
 }
 
 void heat_section(Workspace& workspace, const HeatScale& heat) {
-  static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch", "view.checker"};
+  static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch",
+                                         "view.checker"};
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##view", action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
+  if (ImGui::BeginCombo("##view",
+                        action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
     for (const char* id : kIds) {
       const Action& action = action_named(id);
       ImGui::BeginDisabled(!action.enabled(workspace));
-      if (ImGui::Selectable(action.label.c_str(), action.checked(workspace))) run(action, workspace);
+      if (ImGui::Selectable(action.label.c_str(), action.checked(workspace)))
+        run(action, workspace);
       ImGui::EndDisabled();
     }
     ImGui::EndCombo();
@@ -140,7 +168,8 @@ void history_section(Workspace& workspace) {
   ImGui::BeginChild("history", {0, 0});
   for (size_t i = history.entries().size(); i-- > 0;) {
     const bool current = i == history.index();
-    if (i > history.index()) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    if (i > history.index())
+      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::PushID(static_cast<int>(i));
     const bool go = ImGui::Selectable(history.entries()[i].label.c_str(), current);
     ImGui::PopID();
@@ -159,9 +188,13 @@ void history_section(Workspace& workspace) {
 void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale) {
   const PanelSizes sizes = PanelSizes::at(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x - static_cast<float>(sizes.inspector), static_cast<float>(sizes.menu)});
-  ImGui::SetNextWindowSize({static_cast<float>(sizes.inspector), display.y - static_cast<float>(sizes.menu + sizes.status)});
-  ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::SetNextWindowPos(
+      {display.x - static_cast<float>(sizes.inspector), static_cast<float>(sizes.menu)});
+  ImGui::SetNextWindowSize({static_cast<float>(sizes.inspector),
+                            display.y - static_cast<float>(sizes.menu + sizes.status)});
+  ImGui::Begin("Inspector", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const auto section = [&](const char* title, auto draw) {
     ImGui::TextDisabled("%s", title);
     ImGui::PushID(title);

@@ -9,53 +9,69 @@ ImVec2 px(const Workspace& workspace, Complex z) {
   return {static_cast<float>(at.real()), static_cast<float>(at.imag())};
 }
 
-void stroke(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color, const OverlayStyle& style) {
+void stroke(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+            const OverlayStyle& style) {
   const float width = static_cast<float>(style.scale);
   const ImDrawFlags flags = closed ? ImDrawFlags_Closed : 0;
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline, flags, 3.5f * width);
+  list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline, flags,
+                   3.5f * width);
   list.AddPolyline(line.data(), static_cast<int>(line.size()), color, flags, 1.8f * width);
 }
 
-void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color, const OverlayStyle& style) {
+void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
+               const OverlayStyle& style) {
   std::vector<ImVec2> line;
   for (const Complex& z : outline_of(cage, 24)) line.push_back(px(workspace, z));
   if (line.size() > 1) stroke(list, line, true, color, style);
 }
 
-void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered, ImU32 color, const OverlayStyle& style) {
+void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered,
+                      ImU32 color, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = (hovered ? 6.5f : 5.0f) * s;
   const ImU32 fill = selected ? style.colors.selected : hovered ? style.colors.hover : color;
   if (vertex) {
     list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, style.colors.outline, 2 * s);
-    list.AddRectFilled({at.x - r + 1.5f * s, at.y - r + 1.5f * s}, {at.x + r - 1.5f * s, at.y + r - 1.5f * s}, fill, 1.5f * s);
-    if (selected) list.AddRectFilled({at.x - 1.8f * s, at.y - 1.8f * s}, {at.x + 1.8f * s, at.y + 1.8f * s}, color);
+    list.AddRectFilled({at.x - r + 1.5f * s, at.y - r + 1.5f * s},
+                       {at.x + r - 1.5f * s, at.y + r - 1.5f * s}, fill, 1.5f * s);
+    if (selected)
+      list.AddRectFilled({at.x - 1.8f * s, at.y - 1.8f * s}, {at.x + 1.8f * s, at.y + 1.8f * s},
+                         color);
   } else {
     list.AddCircleFilled(at, 0.9f * r, style.colors.outline);
     list.AddCircleFilled(at, 0.9f * r - 1.3f * s, fill);
   }
 }
 
-void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered, const OverlayStyle& style) {
+void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
+              const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = (hovered ? 8.5f : 7.0f) * s;
   list.AddCircleFilled(at, r, style.colors.outline);
-  list.AddCircleFilled(at, r - 1.5f * s, selected ? style.colors.selected : hovered ? style.colors.hover : style.colors.pin);
+  list.AddCircleFilled(at, r - 1.5f * s,
+                       selected  ? style.colors.selected
+                       : hovered ? style.colors.hover
+                                 : style.colors.pin);
   list.AddCircleFilled(at, 2.4f * s, selected ? style.colors.pin : IM_COL32(60, 40, 0, 255));
   if (pin.angle) {
     const float angle = static_cast<float>(*pin.angle);
-    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)}, style.colors.outline, 4 * s);
-    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)}, style.colors.pin, 2 * s);
+    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)},
+                 style.colors.outline, 4 * s);
+    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)},
+                 style.colors.pin, 2 * s);
   }
 }
 
-void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture, const OverlayStyle& style) {
+void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+                  const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (!gesture.line.empty()) {
     std::vector<ImVec2> line;
     for (const Complex& z : gesture.line) line.push_back(px(workspace, z));
-    if (gesture.line_end) line.push_back(gesture.closes ? line[0] : px(workspace, *gesture.line_end));
+    if (gesture.line_end)
+      line.push_back(gesture.closes ? line[0] : px(workspace, *gesture.line_end));
     stroke(list, line, false, style.colors.rest, style);
     for (size_t i = 0; i < gesture.line.size(); ++i)
-      draw_cage_handle(list, line[i], true, false, i == 0 && gesture.closes, style.colors.rest, style);
+      draw_cage_handle(list, line[i], true, false, i == 0 && gesture.closes, style.colors.rest,
+                       style);
   }
   if (gesture.insertion) {
     const ImVec2 at = px(workspace, *gesture.insertion);
@@ -65,8 +81,10 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     list.AddLine({at.x, at.y - 3 * s}, {at.x, at.y + 3 * s}, IM_COL32_BLACK, 1.5f * s);
   }
   if (gesture.marquee) {
-    const ImVec2 a(static_cast<float>(gesture.marquee->left), static_cast<float>(gesture.marquee->bottom));
-    const ImVec2 b(static_cast<float>(gesture.marquee->right), static_cast<float>(gesture.marquee->top));
+    const ImVec2 a(static_cast<float>(gesture.marquee->left),
+                   static_cast<float>(gesture.marquee->bottom));
+    const ImVec2 b(static_cast<float>(gesture.marquee->right),
+                   static_cast<float>(gesture.marquee->top));
     list.AddRectFilled(a, b, (style.colors.accent & 0x00ffffff) | 0x30000000);
     list.AddRect(a, b, style.colors.accent, 0, 0, 1.2f * s);
   }
@@ -80,7 +98,8 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
 
 }  // namespace
 
-void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture, const OverlayStyle& style) {
+void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
+                  const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Scene& scene = workspace.scene();
   const Layer layer = workspace.show_original ? Layer::rest : workspace.layer;
@@ -105,36 +124,49 @@ void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& 
   const float s = static_cast<float>(style.scale), r = 16 * s;
   list.AddCircle(at, r, style.colors.outline, 0, 6 * s);
   list.AddCircle(at, r, style.colors.warning, 0, 3 * s);
-  list.AddLine({at.x - 6 * s, at.y - 6 * s}, {at.x + 6 * s, at.y + 6 * s}, style.colors.warning, 3 * s);
-  list.AddLine({at.x - 6 * s, at.y + 6 * s}, {at.x + 6 * s, at.y - 6 * s}, style.colors.warning, 3 * s);
+  list.AddLine({at.x - 6 * s, at.y - 6 * s}, {at.x + 6 * s, at.y + 6 * s}, style.colors.warning,
+               3 * s);
+  list.AddLine({at.x - 6 * s, at.y + 6 * s}, {at.x + 6 * s, at.y - 6 * s}, style.colors.warning,
+               3 * s);
 }
 
-void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values, const OverlayStyle& style) {
+void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values,
+                 const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Viewport& view = workspace.viewport;
-  const float s = static_cast<float>(style.scale), width = 220 * s, bar = 14 * s, line = ImGui::GetTextLineHeight();
-  const float left = static_cast<float>(view.left) + 16 * s, top = static_cast<float>(view.top + view.height) - 16 * s - bar - 2 * line - 12 * s;
-  list.AddRectFilled({left - 10 * s, top - 8 * s}, {left + width + 10 * s, top + bar + 2 * line + 12 * s}, style.colors.panel, 6 * s);
+  const float s = static_cast<float>(style.scale), width = 220 * s, bar = 14 * s,
+              line = ImGui::GetTextLineHeight();
+  const float left = static_cast<float>(view.left) + 16 * s,
+              top = static_cast<float>(view.top + view.height) - 16 * s - bar - 2 * line - 12 * s;
+  list.AddRectFilled({left - 10 * s, top - 8 * s},
+                     {left + width + 10 * s, top + bar + 2 * line + 12 * s}, style.colors.panel,
+                     6 * s);
   list.AddText({left, top}, style.colors.text, scale.label.c_str());
   const float y = top + line + 4 * s;
   constexpr int kSteps = 64;
   for (int i = 0; i < kSteps; ++i) {
     const Color c = heat_color((i + 0.5) / kSteps, scale.diverging);
-    list.AddRectFilled({left + width * i / kSteps, y}, {left + width * (i + 1) / kSteps + 1, y + bar}, ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1}));
+    list.AddRectFilled({left + width * i / kSteps, y},
+                       {left + width * (i + 1) / kSteps + 1, y + bar},
+                       ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1}));
   }
   for (const double t : {0.0, 0.5, 1.0}) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", scale.low + t * (scale.high - scale.low));
     const float size = ImGui::CalcTextSize(text).x;
-    list.AddText({left + static_cast<float>(t) * (width - size), y + bar + 2 * s}, style.colors.text, text);
+    list.AddText({left + static_cast<float>(t) * (width - size), y + bar + 2 * s},
+                 style.colors.text, text);
   }
-  if (!workspace.map.has_map() || values.size() != workspace.map.map().f.size() || values.size() == 0) return;
+  if (!workspace.map.has_map() || values.size() != workspace.map.map().f.size() ||
+      values.size() == 0)
+    return;
   Index worst = 0;
   double most = -1;
   for (Index i = 0; i < values.size(); ++i)
     if (const double here = std::abs(values[i]); here > most) most = here, worst = i;
   if (most < 1e-6) return;
-  const Complex at = workspace.at_rest() ? workspace.map.prepared()->mesh->vertices[worst] : workspace.map.map().f[worst];
+  const Complex at = workspace.at_rest() ? workspace.map.prepared()->mesh->vertices[worst]
+                                         : workspace.map.map().f[worst];
   const ImVec2 p = px(workspace, at);
   char text[48];
   std::snprintf(text, sizeof text, "worst %.3g", values[worst]);

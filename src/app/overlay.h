@@ -12,12 +12,14 @@ struct OverlayStyle {
 };
 
 /// Draws the shown layer's cage and pins and the tool's gesture into ImGui's background.
-void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture, const OverlayStyle& style);
+void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
+                  const OverlayStyle& style);
 
 /// Marks a place that a message is about.
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style);
 
 /// The colour bar of a heat map, and a marker at its worst place.
-void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values, const OverlayStyle& style);
+void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values,
+                 const OverlayStyle& style);
 
 }  // namespace holomorph

@@ -14,13 +14,16 @@ PanelSizes PanelSizes::at(double scale) {
 
 namespace {
 
-constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 void action_item(const Action& action, Workspace& workspace) {
   const std::string keys = action.keys.empty() ? "" : text_of(action.keys[0]);
   const bool checked = action.checked && action.checked(workspace);
-  if (ImGui::MenuItem(action.label.c_str(), keys.c_str(), checked, action.enabled(workspace))) run(action, workspace);
+  if (ImGui::MenuItem(action.label.c_str(), keys.c_str(), checked, action.enabled(workspace)))
+    run(action, workspace);
 }
 
 void menu_of(const char* name, Workspace& workspace) {
@@ -35,7 +38,8 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
   if (!ImGui::BeginMainMenuBar()) return answer;
   for (const char* name : {"File", "Edit", "Tools", "Cage", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;
-    if (std::string_view(name) == "File" && ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
+    if (std::string_view(name) == "File" &&
+        ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
       for (const Path& path : preferences.recent)
         if (ImGui::MenuItem(path.c_str())) answer.open = path;
       ImGui::EndMenu();
@@ -44,7 +48,8 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
       ImGui::SetNextItemWidth(160);
-      ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d", ImGuiSliderFlags_AlwaysClamp);
+      ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
+                       ImGuiSliderFlags_AlwaysClamp);
     }
     if (std::string_view(name) == "View") {
       ImGui::Separator();
@@ -55,7 +60,8 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
       if (ImGui::BeginMenu("Size of the interface")) {
         for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
           char label[32];
-          std::snprintf(label, sizeof label, scale == 0 ? "As the display" : "%.0f %%", 100 * scale);
+          std::snprintf(label, sizeof label, scale == 0 ? "As the display" : "%.0f %%",
+                        100 * scale);
           if (ImGui::MenuItem(label, "", preferences.ui_scale == scale)) {
             preferences.ui_scale = scale;
             answer.style_changed = true;
@@ -66,9 +72,13 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     }
     ImGui::EndMenu();
   }
-  const std::string title = workspace.document.empty() ? "" : workspace.document.title() + (workspace.document.modified() ? " *" : "");
+  const std::string title =
+      workspace.document.empty()
+          ? ""
+          : workspace.document.title() + (workspace.document.modified() ? " *" : "");
   const float width = ImGui::CalcTextSize(title.c_str()).x;
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX() + 20, (ImGui::GetWindowWidth() - width) / 2));
+  ImGui::SetCursorPosX(
+      std::max(ImGui::GetCursorPosX() + 20, (ImGui::GetWindowWidth() - width) / 2));
   ImGui::TextDisabled("%s", title.c_str());
   ImGui::EndMainMenuBar();
   return answer;
@@ -79,10 +89,12 @@ void draw_toolbar(Workspace& workspace, double scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float s = static_cast<float>(scale);
   ImGui::SetNextWindowPos({0, static_cast<float>(sizes.menu)});
-  ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar), display.y - static_cast<float>(sizes.menu + sizes.status)});
+  ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar),
+                            display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "", "cage.from_picture", "cage.rest", "", "edit.undo", "edit.redo", "", "view.fit", "help.keys"}) {
+  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "", "cage.from_picture",
+                         "cage.rest", "", "edit.undo", "edit.redo", "", "view.fit", "help.keys"}) {
     if (!*id) {
       ImGui::Dummy({0, 2 * s});
       ImGui::Separator();
@@ -90,14 +102,16 @@ void draw_toolbar(Workspace& workspace, double scale) {
       continue;
     }
     const Action& action = action_named(id);
-    const bool on = action.checked && action.checked(workspace), enabled = action.enabled(workspace);
+    const bool on = action.checked && action.checked(workspace),
+               enabled = action.enabled(workspace);
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     ImGui::BeginDisabled(!enabled);
     const std::string face = std::string(*action.icon ? action.icon : "\uf0b2") + "###" + id;
     if (ImGui::Button(face.c_str(), {40 * s, 38 * s})) run(action, workspace);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", label_with_keys(action).c_str());
   }
   ImGui::End();
   ImGui::PopStyleVar();
@@ -127,14 +141,16 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   char right[240] = "";
   int used = 0;
   const auto add = [&](const char* format, auto... values) {
-    used += std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
+    used +=
+        std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
     used = std::min(used, static_cast<int>(sizeof right) - 1);
   };
   if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
   if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.viewport.zoom);
   if (map.has_map()) {
     add("%s: ", method_named(workspace.scene().method).label.c_str());
-    add("%s, %.2f ms%s   ", map.map().status == SampledMap::Status::exact ? "exact" : "", map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
+    add("%s, %.2f ms%s   ", map.map().status == SampledMap::Status::exact ? "exact" : "",
+        map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
   }
   if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
   const float width = ImGui::CalcTextSize(right).x;
@@ -149,22 +165,27 @@ void draw_cage_offer(Workspace& workspace, double scale) {
   if (!workspace.document.image() || workspace.scene().has_cage()) return;
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
-  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2), static_cast<float>(view.top + view.height) - 24 * s}, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
+                           static_cast<float>(view.top + view.height) - 24 * s},
+                          ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("Cage offer", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("This picture needs a cage before it can bend.");
-  if (ImGui::Button("\uf0d0  Make from picture", {190 * s, 0})) run(action_named("cage.from_picture"), workspace);
+  if (ImGui::Button("\uf0d0  Make from picture", {190 * s, 0}))
+    run(action_named("cage.from_picture"), workspace);
   ImGui::SameLine();
   if (ImGui::Button("\uf040  Draw it (P)", {150 * s, 0})) workspace.tool = ToolId::pen;
   ImGui::SetNextItemWidth(190 * s);
-  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
 
-PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, const std::vector<Sample>& samples,
-                         const std::vector<Path>& recoverable, double scale) {
+PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
+                         const std::vector<Sample>& samples, const std::vector<Path>& recoverable,
+                         double scale) {
   PanelAnswer answer;
   const float s = static_cast<float>(scale);
   const PanelSizes sizes = PanelSizes::at(scale);
@@ -178,7 +199,8 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, c
   ImGui::SetWindowFontScale(1);
   ImGui::TextDisabled("Bend a picture: give it a cage, then drag cage points and pins.");
   ImGui::Dummy({0, 8 * s});
-  if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s})) run(action_named("file.open"), workspace);
+  if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s}))
+    run(action_named("file.open"), workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("or drop a file on this window");
@@ -208,10 +230,13 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, c
     if (ImGui::Button("##tile", {tile, tile})) answer.open = sample.scene;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (sample.thumbnail.id()) {
-      const float w = static_cast<float>(sample.thumbnail.width()), h = static_cast<float>(sample.thumbnail.height());
+      const float w = static_cast<float>(sample.thumbnail.width()),
+                  h = static_cast<float>(sample.thumbnail.height());
       const float fit = (tile - 24 * s) / std::max(w, h);
       const ImVec2 corner(at.x + (tile - w * fit) / 2, at.y + (tile - h * fit) / 2);
-      list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(sample.thumbnail.id())), corner, {corner.x + w * fit, corner.y + h * fit});
+      list.AddImage(
+          reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(sample.thumbnail.id())), corner,
+          {corner.x + w * fit, corner.y + h * fit});
     }
     ImGui::TextUnformatted(sample.title.c_str());
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + tile);
@@ -226,7 +251,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, c
     ImGui::Dummy({0, 10 * s});
     ImGui::TextUnformatted("Recent");
     for (size_t i = 0; i < std::min<size_t>(preferences.recent.size(), 6); ++i)
-      if (ImGui::Selectable(preferences.recent[i].c_str(), false, 0, {std::min(display.x - 100 * s, 640 * s), 0})) answer.open = preferences.recent[i];
+      if (ImGui::Selectable(preferences.recent[i].c_str(), false, 0,
+                            {std::min(display.x - 100 * s, 640 * s), 0}))
+        answer.open = preferences.recent[i];
   }
   ImGui::End();
   ImGui::PopStyleVar();
@@ -239,7 +266,9 @@ bool draw_help(double scale) {
   ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(760 * s, display.x - 40), std::min(600 * s, display.y - 60)});
   bool open = true;
-  ImGui::Begin("Keys and mouse", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
+  ImGui::Begin(
+      "Keys and mouse", &open,
+      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
   static constexpr const char* kMouse[][2] = {
       {"Drag a point or pin", "move it; Shift keeps the axis"},
       {"Drag on empty canvas", "select with a box; Shift adds"},
@@ -281,9 +310,11 @@ bool draw_palette(Workspace& workspace, std::string& text, bool opening, double 
   ImGui::Begin("Find an action", nullptr, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
   if (opening) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
   const auto lower = [](std::string t) {
-    std::transform(t.begin(), t.end(), t.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(t.begin(), t.end(), t.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return t;
   };
   const Action* chosen = nullptr;
@@ -301,8 +332,9 @@ bool draw_palette(Workspace& workspace, std::string& text, bool opening, double 
       ImGui::TextDisabled("%s", text_of(action.keys[0]).c_str());
     }
   }
-  const bool left = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) ||
-                    (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
+  const bool left =
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) ||
+      (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
   ImGui::End();
   if (chosen) run(*chosen, workspace);
   return !chosen && !left;

@@ -12,10 +12,10 @@ namespace holomorph {
 
 /// What a panel can ask of the editor beyond actions.
 struct PanelAnswer {
-  std::optional<Path> open;      ///< a recent file or a sample
-  std::optional<Path> recover;   ///< an autosave
-  std::optional<Path> discard;   ///< an autosave to delete
-  bool style_changed = false;    ///< theme or scale in the preferences
+  std::optional<Path> open;     ///< a recent file or a sample
+  std::optional<Path> recover;  ///< an autosave
+  std::optional<Path> discard;  ///< an autosave to delete
+  bool style_changed = false;   ///< theme or scale in the preferences
 };
 
 /// Sizes of the panels in window px for a scale of the display.
@@ -33,7 +33,7 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale);
 struct StatusLine {
   std::string hint;
   std::optional<Complex> cursor;
-  bool draft = false;       ///< a drag is going on or the map is being prepared
+  bool draft = false;  ///< a drag is going on or the map is being prepared
   bool by_operator = false;
 };
 void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale);
@@ -44,13 +44,15 @@ struct Sample {
   std::string title, text;
   Texture thumbnail;
 };
-PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences, const std::vector<Sample>& samples,
-                         const std::vector<Path>& recoverable, double scale);
+PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
+                         const std::vector<Sample>& samples, const std::vector<Path>& recoverable,
+                         double scale);
 
 /// The two buttons for a picture without a cage.
 void draw_cage_offer(Workspace& workspace, double scale);
 
-/// The overlay of keys and mouse (F1), and the search over all actions. Both return false when closed.
+/// The overlay of keys and mouse (F1), and the search over all actions. Both return false when
+/// closed.
 bool draw_help(double scale);
 bool draw_palette(Workspace& workspace, std::string& text, bool opening, double scale);
 

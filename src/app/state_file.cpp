@@ -9,20 +9,24 @@ void write_state_file(const Path& path, const Workspace& workspace, bool gesture
   static constexpr const char* kTools[] = {"select", "pen", "pin"};
   const Viewport& view = workspace.viewport;
   char text[900];
-  std::snprintf(text, sizeof text,
-                "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
-                " \"center\": [%.17g, %.17g], \"zoom\": %.17g,\n"
-                " \"tool\": \"%s\", \"layer\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
-                " \"cage_points\": %d, \"pins\": %d, \"selected\": %d, \"history\": %d, \"step\": %d,\n"
-                " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s}\n",
-                view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(), view.zoom,
-                kTools[static_cast<int>(workspace.tool)], workspace.layer == Layer::rest ? "rest" : "pose",
-                kViewNames[static_cast<size_t>(workspace.view)], workspace.scene().method.c_str(),
-                static_cast<int>(workspace.scene().rest.size()), static_cast<int>(workspace.scene().pins.size()),
-                static_cast<int>(workspace.selection.size()), static_cast<int>(workspace.document.history().entries().size()),
-                static_cast<int>(workspace.document.history().index()), workspace.document.modified() ? "true" : "false",
-                workspace.map.busy() ? "true" : "false", gesture ? "true" : "false",
-                workspace.document.empty() ? "true" : "false", workspace.map.error() ? "true" : "false");
+  std::snprintf(
+      text, sizeof text,
+      "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
+      " \"center\": [%.17g, %.17g], \"zoom\": %.17g,\n"
+      " \"tool\": \"%s\", \"layer\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
+      " \"cage_points\": %d, \"pins\": %d, \"selected\": %d, \"history\": %d, \"step\": %d,\n"
+      " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s}\n",
+      view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
+      view.zoom, kTools[static_cast<int>(workspace.tool)],
+      workspace.layer == Layer::rest ? "rest" : "pose",
+      kViewNames[static_cast<size_t>(workspace.view)], workspace.scene().method.c_str(),
+      static_cast<int>(workspace.scene().rest.size()),
+      static_cast<int>(workspace.scene().pins.size()), static_cast<int>(workspace.selection.size()),
+      static_cast<int>(workspace.document.history().entries().size()),
+      static_cast<int>(workspace.document.history().index()),
+      workspace.document.modified() ? "true" : "false", workspace.map.busy() ? "true" : "false",
+      gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
+      workspace.map.error() ? "true" : "false");
   static std::string last;
   if (text == last) return;
   last = text;

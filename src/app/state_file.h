@@ -5,8 +5,9 @@
 
 namespace holomorph {
 
-/// Writes the state when it differs from what the file was last given. Plane points are found in the
-/// window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y - center_y) zoom.
+/// Writes the state when it differs from what the file was last given. Plane points are found in
+/// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
+/// center_y) zoom.
 void write_state_file(const Path& path, const Workspace& workspace, bool gesture);
 
 }  // namespace holomorph

@@ -7,13 +7,15 @@ namespace holomorph {
 namespace {
 
 ImVec4 rgb(unsigned hex, float alpha = 1) {
-  return {static_cast<float>(hex >> 16 & 255) / 255, static_cast<float>(hex >> 8 & 255) / 255, static_cast<float>(hex & 255) / 255, alpha};
+  return {static_cast<float>(hex >> 16 & 255) / 255, static_cast<float>(hex >> 8 & 255) / 255,
+          static_cast<float>(hex & 255) / 255, alpha};
 }
 
 bool add_fonts(float size) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
-  static const ImWchar text[] = {0x20, 0x24f, 0x370, 0x3ff, 0x2010, 0x2044, 0x20ac, 0x20ac, 0x2190, 0x2193, 0};
+  static const ImWchar text[] = {0x20,   0x24f,  0x370,  0x3ff,  0x2010, 0x2044,
+                                 0x20ac, 0x20ac, 0x2190, 0x2193, 0};
   static const ImWchar icons[] = {0xf000, 0xf2e0, 0};
   const bool has_text = std::filesystem::exists(HOLOMORPH_FONT_FILE);
   if (has_text) {
@@ -54,7 +56,8 @@ bool apply_theme(double scale, bool light) {
   style.ScaleAllSizes(s);
   ImVec4* c = style.Colors;
   const unsigned accent = light ? 0x2f6fde : 0x5b9bff;
-  const unsigned window = light ? 0xf4f4f5 : 0x26272b, frame = light ? 0xe1e2e6 : 0x36383e, hover = light ? 0xd3d6dd : 0x44474f;
+  const unsigned window = light ? 0xf4f4f5 : 0x26272b, frame = light ? 0xe1e2e6 : 0x36383e,
+                 hover = light ? 0xd3d6dd : 0x44474f;
   c[ImGuiCol_WindowBg] = rgb(window);
   c[ImGuiCol_MenuBarBg] = rgb(light ? 0xe9e9ec : 0x1e1f22);
   c[ImGuiCol_PopupBg] = rgb(light ? 0xffffff : 0x2b2c31);

@@ -19,24 +19,38 @@ namespace {
 
 constexpr int kFramesPerEvent = 3;
 
-Window* self(GLFWwindow* window) { return static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+Window* self(GLFWwindow* window) {
+  return static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
 
 /// The key as the user's layout prints it.
 int printed_key(int key, int scancode) {
   switch (key) {
-    case GLFW_KEY_TAB: return static_cast<int>(Key::tab);
-    case GLFW_KEY_ESCAPE: return static_cast<int>(Key::escape);
+    case GLFW_KEY_TAB:
+      return static_cast<int>(Key::tab);
+    case GLFW_KEY_ESCAPE:
+      return static_cast<int>(Key::escape);
     case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER: return static_cast<int>(Key::enter);
-    case GLFW_KEY_BACKSPACE: return static_cast<int>(Key::backspace);
-    case GLFW_KEY_DELETE: return static_cast<int>(Key::del);
-    case GLFW_KEY_LEFT: return static_cast<int>(Key::left);
-    case GLFW_KEY_RIGHT: return static_cast<int>(Key::right);
-    case GLFW_KEY_UP: return static_cast<int>(Key::up);
-    case GLFW_KEY_DOWN: return static_cast<int>(Key::down);
-    case GLFW_KEY_F1: return static_cast<int>(Key::f1);
-    case GLFW_KEY_SPACE: return static_cast<int>(Key::space);
-    default: break;
+    case GLFW_KEY_KP_ENTER:
+      return static_cast<int>(Key::enter);
+    case GLFW_KEY_BACKSPACE:
+      return static_cast<int>(Key::backspace);
+    case GLFW_KEY_DELETE:
+      return static_cast<int>(Key::del);
+    case GLFW_KEY_LEFT:
+      return static_cast<int>(Key::left);
+    case GLFW_KEY_RIGHT:
+      return static_cast<int>(Key::right);
+    case GLFW_KEY_UP:
+      return static_cast<int>(Key::up);
+    case GLFW_KEY_DOWN:
+      return static_cast<int>(Key::down);
+    case GLFW_KEY_F1:
+      return static_cast<int>(Key::f1);
+    case GLFW_KEY_SPACE:
+      return static_cast<int>(Key::space);
+    default:
+      break;
   }
   const char* name = glfwGetKeyName(key, scancode);
   if (!name || name[0] == 0 || name[1] != 0) return 0;
@@ -54,7 +68,8 @@ bool has_display() {
 Window::Window(int width, int height, double ui_scale, bool light) {
   std::string reason = "unknown reason";
   glfwSetErrorCallback(nullptr);
-  if (!glfwInit()) throw Error(ErrorKind::failed, "no window can be opened here: there is no display");
+  if (!glfwInit())
+    throw Error(ErrorKind::failed, "no window can be opened here: there is no display");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -77,7 +92,9 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
   // Installed before ImGui's, which call these in turn.
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) { self(w)->add_key(key, scancode, action, mods); });
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    self(w)->add_key(key, scancode, action, mods);
+  });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { self(w)->add_character(code); });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w)->wake(); });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w)->wake(); });
@@ -157,7 +174,8 @@ void Window::add_key(int key, int scancode, int action, int mods) {
   if (printed == 0 || printed == '+' || printed == '?') return;  // those come as characters
   Shortcut shortcut;
   shortcut.key = printed;
-  shortcut.mods = {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0};
+  shortcut.mods = {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0,
+                   (mods & GLFW_MOD_ALT) != 0};
   keys_.push_back(shortcut);
 }
 
@@ -166,14 +184,26 @@ void Window::add_character(unsigned code) {
   if (code == '?' || code == '+') keys_.push_back(Shortcut(static_cast<char>(code)));
 }
 
-std::vector<Shortcut> Window::take_keys() { return std::exchange(keys_, {}); }
-std::vector<Path> Window::take_drops() { return std::exchange(drops_, {}); }
-bool Window::take_close() { return std::exchange(close_, false); }
+std::vector<Shortcut> Window::take_keys() {
+  return std::exchange(keys_, {});
+}
+std::vector<Path> Window::take_drops() {
+  return std::exchange(drops_, {});
+}
+bool Window::take_close() {
+  return std::exchange(close_, false);
+}
 
-bool Window::is_down(char key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }  // GLFW's codes are ASCII
-bool Window::is_down(Key key) const { return key == Key::space && glfwGetKey(window_, GLFW_KEY_SPACE) == GLFW_PRESS; }
+bool Window::is_down(char key) const {
+  return glfwGetKey(window_, key) == GLFW_PRESS;
+}  // GLFW's codes are ASCII
+bool Window::is_down(Key key) const {
+  return key == Key::space && glfwGetKey(window_, GLFW_KEY_SPACE) == GLFW_PRESS;
+}
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(window_, title.c_str());
+}
 
 namespace {
 template <class Get>
@@ -184,9 +214,17 @@ std::pair<int, int> size_of(GLFWwindow* window, Get get) {
 }
 }  // namespace
 
-int Window::width() const { return size_of(window_, glfwGetWindowSize).first; }
-int Window::height() const { return size_of(window_, glfwGetWindowSize).second; }
-int Window::framebuffer_width() const { return size_of(window_, glfwGetFramebufferSize).first; }
-int Window::framebuffer_height() const { return size_of(window_, glfwGetFramebufferSize).second; }
+int Window::width() const {
+  return size_of(window_, glfwGetWindowSize).first;
+}
+int Window::height() const {
+  return size_of(window_, glfwGetWindowSize).second;
+}
+int Window::framebuffer_width() const {
+  return size_of(window_, glfwGetFramebufferSize).first;
+}
+int Window::framebuffer_height() const {
+  return size_of(window_, glfwGetFramebufferSize).second;
+}
 
 }  // namespace holomorph

@@ -12,7 +12,8 @@ struct GLFWwindow;
 
 namespace holomorph {
 
-/// Owns the window, its OpenGL context and ImGui. Throws Error{failed} without a display or OpenGL 3.3.
+/// Owns the window, its OpenGL context and ImGui. Throws Error{failed} without a display or
+/// OpenGL 3.3.
 class Window {
  public:
   Window(int width, int height, double ui_scale, bool light);
@@ -45,7 +46,7 @@ class Window {
   bool is_down(Key key) const;
   void set_title(const std::string& title);
 
-  int width() const;   ///< in window px
+  int width() const;  ///< in window px
   int height() const;
   int framebuffer_width() const;
   int framebuffer_height() const;

@@ -25,7 +25,9 @@ LoadedScene load(const Path& path) {
 
 void require_cage(const Scene& scene, const Path& path) {
   if (!scene.has_cage())
-    throw Error(ErrorKind::bad_input, path.string() + ": /cage/rest: the scene has no cage yet; draw one in the editor or make one with 'holomorph new'");
+    throw Error(ErrorKind::bad_input, path.string() +
+                                          ": /cage/rest: the scene has no cage yet; draw one in "
+                                          "the editor or make one with 'holomorph new'");
 }
 
 /// The scene's map at points, in full precision; NaN outside the cage.
@@ -38,7 +40,8 @@ SampledMap map_at(const Scene& scene, const Points& points) {
   method_named(scene.method).prepare(rest, nullptr)->deform(pose_of(scene), map, true);
   const Complex nowhere(NAN, NAN);
   for (size_t i = 0; i < points.size(); ++i)
-    if (winding_number(corners, points[i]) == 0 && nearest_on_polygon(corners, points[i]).distance > on_edge) {
+    if (winding_number(corners, points[i]) == 0 &&
+        nearest_on_polygon(corners, points[i]).distance > on_edge) {
       const Index at = static_cast<Index>(i);
       map.f[at] = map.fz[at] = map.fzbar[at] = nowhere;
     }
@@ -55,8 +58,9 @@ void run(const MapCommand& command) {
   std::string out = "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n";
   for (Index i = 0; i < map.f.size(); ++i) {
     char line[200];
-    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(), map.f[i].imag(),
-                  map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(), map.fzbar[i].imag());
+    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(),
+                  map.f[i].imag(), map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(),
+                  map.fzbar[i].imag());
     // printf writes some NaN with a sign, which no reader expects.
     for (std::string_view rest = line; !rest.empty();) {
       if (rest.starts_with("-nan")) rest.remove_prefix(1);
@@ -74,12 +78,16 @@ void run(const CoordinatesCommand& command) {
   const Scene scene = load(command.scene).scene;
   require_cage(scene, command.scene);
   const Points points = points_of_csv(read_file(command.points), command.points.string());
-  if (command.order > 12) throw Error(ErrorKind::bad_input, "the order of a derivative is at most 12");
+  if (command.order > 12)
+    throw Error(ErrorKind::bad_input, "the order of a derivative is at most 12");
   // Columns are the pose's control points: the rest cage at the pose's degrees.
   for (Index i = 0; i < scene.rest.size(); ++i)
     if (scene.rest.degree(i) > scene.pose.degree(i))
-      throw Error(ErrorKind::bad_input, command.scene.string() + ": /cage/rest/" + std::to_string(i) + ": the rest segment's degree is above the posed one's");
-  write_file(command.out, npy_of(cauchy_coordinates(elevated_to(scene.rest, scene.pose), points, command.order)));
+      throw Error(ErrorKind::bad_input, command.scene.string() + ": /cage/rest/" +
+                                            std::to_string(i) +
+                                            ": the rest segment's degree is above the posed one's");
+  write_file(command.out, npy_of(cauchy_coordinates(elevated_to(scene.rest, scene.pose), points,
+                                                    command.order)));
 }
 
 void run(const RenderCommand& command) {
@@ -90,8 +98,8 @@ void run(const RenderCommand& command) {
   options.crop = command.crop;
   const RasterResult result = picture_of(loaded.scene, loaded.image.get(), options);
   write_file(command.out, encode_png(result.image));
-  std::fprintf(stderr, "%s: %d x %d pixels, lower left corner at %s\n", command.out.c_str(), result.image.width,
-               result.image.height, point_text(result.corner).c_str());
+  std::fprintf(stderr, "%s: %d x %d pixels, lower left corner at %s\n", command.out.c_str(),
+               result.image.width, result.image.height, point_text(result.corner).c_str());
 }
 
 void run(const InfoCommand& command) {
@@ -106,7 +114,8 @@ void run(const NewCommand& command) {
   const Points cage = auto_cage(*loaded.image, {command.vertices, command.margin});
   Scene scene = with_cage(std::move(loaded.scene), cage);
   const Path folder = std::filesystem::absolute(command.out).lexically_normal().parent_path();
-  const Path relative = std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);
+  const Path relative =
+      std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);
   if (!relative.empty()) scene.image->file = relative.generic_string();
   write_file(command.out, json_of(scene));
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(), cage.size());
@@ -117,7 +126,9 @@ void run(const ExportCommand& command) {
   const std::string& format = command.format;
   if (format == "png") return run(RenderCommand{command.scene, command.out, 1, "image", false});
   if (format != "svg" && format != "obj" && format != "npy")
-    throw Error(ErrorKind::bad_input, "format '" + format + "' is not available in this version; choose one of: obj, svg, npy, png");
+    throw Error(ErrorKind::bad_input,
+                "format '" + format +
+                    "' is not available in this version; choose one of: obj, svg, npy, png");
   require_cage(loaded.scene, command.scene);
   if (format == "svg") return write_file(command.out, svg_of(loaded.scene));
   const auto prepared = prepared_map(loaded.scene, Precision::full, MeshOptions{});
@@ -126,13 +137,15 @@ void run(const ExportCommand& command) {
   const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
   if (format == "npy") return write_file(command.out, npy_of(positions));
   const auto& image = loaded.scene.image;
-  write_file(command.out, obj_of(*prepared->mesh, positions, image ? image->width : 0, image ? image->height : 0));
+  write_file(command.out, obj_of(*prepared->mesh, positions, image ? image->width : 0,
+                                 image ? image->height : 0));
 }
 
 void run(const BenchCommand& command) {
-  const std::vector<bench::Result> results = bench::measured(command.filter, [](const bench::Result& result) {
-    std::fprintf(stderr, "%s\n", bench::line_of(result).c_str());
-  });
+  const std::vector<bench::Result> results =
+      bench::measured(command.filter, [](const bench::Result& result) {
+        std::fprintf(stderr, "%s\n", bench::line_of(result).c_str());
+      });
   std::cout << (command.json ? bench::json_of(results) : bench::table_of(results));
 }
 

@@ -19,17 +19,20 @@ void on_run(CLI::App* app, const Command& command, bool& done) {
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app{"Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
+  CLI::App app{
+      "Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
   app.set_version_flag("--version", HOLOMORPH_VERSION);
   EditorOptions editor;
   app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
-  app.add_option("--state", editor.state_file, "Write what the editor shows to this file whenever it changes (for scripts)");
+  app.add_option("--state", editor.state_file,
+                 "Write what the editor shows to this file whenever it changes (for scripts)");
   app.require_subcommand(0, 1);
   app.fallthrough(false);
   bool done = false;
 
   MapCommand map;
-  auto* sub = app.add_subcommand("map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im");
+  auto* sub =
+      app.add_subcommand("map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im");
   sub->add_option("SCENE", map.scene)->required();
   sub->add_option("--points", map.points, "CSV file of points")->required();
   sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
@@ -48,8 +51,10 @@ int run_program(int argc, char** argv) {
   sub->add_option("SCENE", render.scene)->required();
   sub->add_option("--out", render.out, "PNG file to write")->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
-  sub->add_option("--view", render.view, "image, angle, area, stretch or checker")->capture_default_str();
-  sub->add_flag("--crop", render.crop, "Keep the picture's rectangle; otherwise nothing is cut off");
+  sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
+      ->capture_default_str();
+  sub->add_flag("--crop", render.crop,
+                "Keep the picture's rectangle; otherwise nothing is cut off");
   on_run(sub, render, done);
 
   InfoCommand info;
@@ -62,8 +67,10 @@ int run_program(int argc, char** argv) {
   sub = app.add_subcommand("new", "Make a scene with a cage from a picture's alpha");
   sub->add_option("IMAGE", fresh.image)->required();
   sub->add_option("--out", fresh.out, "Scene to write")->required();
-  sub->add_option("--vertices", fresh.vertices, "Wanted number of cage vertices")->capture_default_str();
-  sub->add_option("--margin", fresh.margin, "Distance from the content in pixels; default 2 % of the longer side");
+  sub->add_option("--vertices", fresh.vertices, "Wanted number of cage vertices")
+      ->capture_default_str();
+  sub->add_option("--margin", fresh.margin,
+                  "Distance from the content in pixels; default 2 % of the longer side");
   on_run(sub, fresh, done);
 
   ExportCommand out;

@@ -99,7 +99,8 @@ void erase_vertex(Cage& cage, Index vertex) {
   if (degree > 1) {
     // Parameters in proportion to the two chords, so that a cut made by insert_vertex heals.
     const Points left = cage.controls(before), right = cage.controls(vertex);
-    const double a = std::abs(left.back() - left.front()), b = std::abs(right.back() - right.front());
+    const double a = std::abs(left.back() - left.front()),
+                 b = std::abs(right.back() - right.front());
     const double share = a + b > 0 ? std::clamp(a / (a + b), 0.05, 0.95) : 0.5;
     constexpr int kSamples = 24;
     Points samples;
@@ -144,8 +145,8 @@ void check_rest_cage(const Cage& cage) {
   for (Index i = 0; i < cage.size(); ++i)
     for (const Complex& z : cage.segments[i])
       if (!is_finite(z))
-        throw Error(ErrorKind::bad_input,
-                    "rest cage segment " + std::to_string(i) + " has a coordinate that is no number");
+        throw Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i) +
+                                              " has a coordinate that is no number");
   for (Index i = 0; i < cage.size(); ++i)
     if (cage.vertex(i) == cage.vertex(i + 1))
       throw Error(ErrorKind::bad_input,

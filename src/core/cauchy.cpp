@@ -63,14 +63,17 @@ struct EdgeView {
 Complex times(Complex x, Complex y) {
   return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
 }
-Complex inverse(Complex x) { return std::conj(x) / std::norm(x); }
+Complex inverse(Complex x) {
+  return std::conj(x) / std::norm(x);
+}
 
 EdgeView edge_view(Complex a, Complex b, Complex z, bool on_edge) {
   const Complex to_start = a - z, to_end = b - z, unit = inverse(b - a);
   EdgeView view{-times(to_start, unit), times(to_end, unit), {}};
   const double rounding = 4 * std::numeric_limits<double>::epsilon() *
                           (std::abs(a) + std::abs(b) + std::abs(z)) / std::abs(b - a);
-  on_edge = on_edge || (std::abs(view.s.imag()) <= rounding && view.s.real() > 0 && view.s.real() < 1);
+  on_edge =
+      on_edge || (std::abs(view.s.imag()) <= rounding && view.s.real() > 0 && view.s.real() < 1);
   if (on_edge) {
     view.s = view.s.real();
     view.q = view.q.real();
@@ -170,7 +173,8 @@ class RowBuilder {
     for (int m = 0; m <= cage_.degree(edge); ++m) row[column(edge, m)] += values[m];
   }
 
-  /// The limit at a vertex: the logarithms of the two edges cancel up to the ratio of their lengths.
+  /// The limit at a vertex: the logarithms of the two edges cancel up to the ratio of their
+  /// lengths.
   VectorXc vertex_row(Index vertex, VectorXc& row) const {
     const Index n = cage_.size(), before = (vertex + n - 1) % n;
     if (order_ > 0) {
@@ -185,7 +189,8 @@ class RowBuilder {
     const int degree_before = cage_.degree(before), degree = cage_.degree(vertex);
     for (int m = 0; m < degree_before; ++m)
       row[column(before, m)] -= 1.0 / (turn * static_cast<double>(degree_before - m));
-    for (int m = 1; m <= degree; ++m) row[column(vertex, m)] += 1.0 / (turn * static_cast<double>(m));
+    for (int m = 1; m <= degree; ++m)
+      row[column(vertex, m)] += 1.0 / (turn * static_cast<double>(m));
     row[column(vertex, 0)] += vertex_limit(cage_.vertex(vertex - 1), z, cage_.vertex(vertex + 1)) +
                               (harmonic_number(degree_before) - harmonic_number(degree)) / turn;
     return row;
@@ -271,9 +276,11 @@ std::array<Complex, 2> linear_edge_coordinates(Complex a, Complex b, Complex z, 
   }
   const Complex factor = inverse(2 * kPi * kI);
   if (order == 0)
-    return {times(factor, times(view.q, view.log) - 1.0), times(factor, times(view.s, view.log) + 1.0)};
+    return {times(factor, times(view.q, view.log) - 1.0),
+            times(factor, times(view.s, view.log) + 1.0)};
   const Complex pole = inverse(-view.s) - inverse(view.q), slope = times(factor, inverse(b - a));
-  return {times(slope, times(view.q, pole) - view.log), times(slope, times(view.s, pole) + view.log)};
+  return {times(slope, times(view.q, pole) - view.log),
+          times(slope, times(view.s, pole) + view.log)};
 }
 
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
@@ -285,7 +292,8 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> poi
   return rows(cage, static_cast<Index>(points.size()), order,
               [&](const RowBuilder& builder, Index i, bool clockwise) {
                 const Index segment = points[i].segment;
-                const Complex z = points[i].t == 0 ? cage.vertex(segment) : position_of(cage, points[i]);
+                const Complex z =
+                    points[i].t == 0 ? cage.vertex(segment) : position_of(cage, points[i]);
                 return builder.row(z, clockwise ? cage.size() - 1 - segment : segment);
               });
 }

@@ -14,7 +14,8 @@ namespace {
 
 const kernel::Table& table_of(Kernel choice) {
 #ifdef HOLOMORPH_HAS_AVX2
-  static const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+  static const bool avx512 = __builtin_cpu_supports("avx512f") &&
+                             __builtin_cpu_supports("avx512dq") &&
                              __builtin_cpu_supports("avx512vl");
   if (choice == Kernel::automatic && avx512 && has_avx2()) return kernel::kAvx512;
   if (choice == Kernel::avx2 || (choice == Kernel::automatic && has_avx2())) return kernel::kAvx2;
@@ -22,17 +23,25 @@ const kernel::Table& table_of(Kernel choice) {
   return kernel::kPortable;
 }
 
-auto join_of(const kernel::Table& table, float) { return table.join_float; }
-auto join_of(const kernel::Table& table, double) { return table.join_double; }
-auto product_of(const kernel::Table& table, float) { return table.product_float; }
-auto product_of(const kernel::Table& table, double) { return table.product_double; }
+auto join_of(const kernel::Table& table, float) {
+  return table.join_float;
+}
+auto join_of(const kernel::Table& table, double) {
+  return table.join_double;
+}
+auto product_of(const kernel::Table& table, float) {
+  return table.product_float;
+}
+auto product_of(const kernel::Table& table, double) {
+  return table.product_double;
+}
 
 /// One block of consecutive points and the columns that it fills.
 template <class T>
 class BlockFiller {
  public:
-  BlockFiller(std::span<const Complex> polygon, double farthest, int order, const kernel::Table& table,
-              PlanarMatrix<T>& out)
+  BlockFiller(std::span<const Complex> polygon, double farthest, int order,
+              const kernel::Table& table, PlanarMatrix<T>& out)
       : polygon_(polygon), order_(order), table_(table), out_(out) {
     for (size_t e = 0; e < polygon.size(); ++e) {
       const Complex a = polygon[e], side = polygon[(e + 1) % polygon.size()] - a;
@@ -40,7 +49,8 @@ class BlockFiller {
       const double rounding = 16 * std::numeric_limits<double>::epsilon() *
                               (std::abs(a) + std::abs(a + side) + farthest) / std::abs(side);
       const Complex b = polygon[(e + 1) % polygon.size()];
-      edges_.push_back({a.real(), a.imag(), b.real(), b.imag(), unit.real(), unit.imag(), rounding});
+      edges_.push_back(
+          {a.real(), a.imag(), b.real(), b.imag(), unit.real(), unit.imag(), rounding});
     }
   }
 
@@ -66,7 +76,8 @@ class BlockFiller {
       kernel::Halves& current = halves_[e % 2];
       const kernel::Halves& before = halves_[(e + 1) % 2];
       halves_of_edge(e, here, current);
-      join_of(table_, T{})(before, current, count, out_.re.col(e).data() + first, out_.im.col(e).data() + first);
+      join_of(table_, T{})(before, current, count, out_.re.col(e).data() + first,
+                           out_.im.col(e).data() + first);
     }
     for (Index i = 0; i < count; ++i)
       if (at_vertex_[i]) finish_vertex_row(here[i], first + i);
@@ -130,16 +141,16 @@ bool has_avx2() {
 }
 
 template <class T>
-PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
-                                    int order, Kernel choice) {
+PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon,
+                                    std::span<const Complex> points, int order, Kernel choice) {
   PlanarMatrix<T> result;
   polygon_coordinates(polygon, points, order, choice, result);
   return result;
 }
 
 template <class T>
-void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points, int order,
-                         Kernel choice, PlanarMatrix<T>& out) {
+void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
+                         int order, Kernel choice, PlanarMatrix<T>& out) {
   check(order == 0 || order == 1, "polygon_coordinates: order 0 or 1");
   if (signed_area(polygon) < 0) {  // the same first vertex, the others backwards
     Points turned(polygon.begin(), polygon.end());
@@ -160,7 +171,8 @@ void polygon_coordinates(std::span<const Complex> polygon, std::span<const Compl
 template <class T>
 void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, PlanarMatrix<T>& out,
               Kernel choice) {
-  check(matrix.cols() == factors.rows() && out.rows() == matrix.rows() && out.cols() == factors.cols(),
+  check(matrix.cols() == factors.rows() && out.rows() == matrix.rows() &&
+            out.cols() == factors.cols(),
         "multiply: shapes agree");
   const auto product = product_of(table_of(choice), T{});
   out.re.setZero();

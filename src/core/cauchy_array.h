@@ -1,8 +1,8 @@
 // Degree-1 Cauchy coordinates of many points at once, and products with them: the array path.
 //
 // Same values as cauchy.h to 1e-14. Away from an edge the coordinates are a power series in
-// Y = 1 / (2w)^2, w the offset from the edge's midpoint in edge lengths; near it one logarithm. Both
-// run without branches over blocks of points, so that the compiler vectorises them.
+// Y = 1 / (2w)^2, w the offset from the edge's midpoint in edge lengths; near it one logarithm.
+// Both run without branches over blocks of points, so that the compiler vectorises them.
 #pragma once
 
 #include <span>
@@ -39,13 +39,15 @@ bool has_avx2();
 /// Points that are near each other should be neighbours in the list. Cost: 2 to 6 ns per point and
 /// edge with AVX2.
 template <class T>
-PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
-                                    int order = 0, Kernel kernel = Kernel::automatic);
+PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon,
+                                    std::span<const Complex> points, int order = 0,
+                                    Kernel kernel = Kernel::automatic);
 
-/// The same into a matrix whose storage is used again: fresh memory costs as much as the coordinates.
+/// The same into a matrix whose storage is used again: fresh memory costs as much as the
+/// coordinates.
 template <class T>
-void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points, int order,
-                         Kernel kernel, PlanarMatrix<T>& out);
+void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
+                         int order, Kernel kernel, PlanarMatrix<T>& out);
 
 /// out = matrix * factors; out must be matrix.rows() x factors.cols(), factors.rows() the number of
 /// columns. Cost: 8 flops per entry and factor column, one pass over the matrix.

@@ -28,8 +28,8 @@ struct Halves {
 /// the edge or its end points; then on_edge marks them with 1 and their halves are not meaningful.
 using EdgeSeries = bool (*)(const Edge& edge, const Block& block, int order, Halves& out);
 
-/// A vertex's column: the end half of the edge before it plus the start half of its own edge, for the
-/// first `count` points.
+/// A vertex's column: the end half of the edge before it plus the start half of its own edge, for
+/// the first `count` points.
 template <class T>
 using Join = void (*)(const Halves& before, const Halves& own, long count, T* re, T* im);
 

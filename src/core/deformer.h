@@ -43,10 +43,11 @@ struct PosePin {
 
 /// Everything that forces precomputation. Value type.
 struct Rest {
-  Cage cage;                  ///< straight, each segment of its posed counterpart's degree
+  Cage cage;  ///< straight, each segment of its posed counterpart's degree
   std::vector<RestPin> pins;
-  Points samples;             ///< where the map is wanted, inside or on the cage
-  Points derivative_samples;  ///< where f_z and f_zbar are wanted, one per sample; empty: at samples
+  Points samples;  ///< where the map is wanted, inside or on the cage
+  Points
+      derivative_samples;  ///< where f_z and f_zbar are wanted, one per sample; empty: at samples
   Parameters parameters;
   Precision precision = Precision::single;
 };

@@ -27,7 +27,8 @@ bool MapReport::locally_injective() const {
 }
 
 MapReport report_of(const Mesh& mesh, const SampledMap& map) {
-  check(map.fz.size() == static_cast<Index>(mesh.vertices.size()), "report_of: derivatives per vertex");
+  check(map.fz.size() == static_cast<Index>(mesh.vertices.size()),
+        "report_of: derivatives per vertex");
   MapReport report;
   const Eigen::ArrayXd a = map.fz.cwiseAbs(), b = map.fzbar.cwiseAbs();
   report.max_k = a.minCoeff() > 0 ? (b / a).maxCoeff() : 1.0;

@@ -26,8 +26,8 @@ struct MapReport {
   /// the samples, not a proof.
   bool locally_injective() const;
 };
-/// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle on
-/// every triangle. Cost: linear, but for the crossing test of the boundary.
+/// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle
+/// on every triangle. Cost: linear, but for the crossing test of the boundary.
 MapReport report_of(const Mesh& mesh, const SampledMap& map);
 
 }  // namespace holomorph

@@ -15,12 +15,15 @@ namespace holomorph {
 /// What the canvas or a rendered picture shows.
 enum class View { image, angle, area, stretch, checker };
 
-inline constexpr std::array<const char*, 5> kViewNames{"image", "angle", "area", "stretch", "checker"};
+inline constexpr std::array<const char*, 5> kViewNames{"image", "angle", "area", "stretch",
+                                                       "checker"};
 /// The view of this name; throws Error listing the names.
 View view_named(const std::string& name);
 
 /// Whether a view shows a quantity of the map and so needs derivatives.
-inline bool is_heat(View view) { return view == View::angle || view == View::area || view == View::stretch; }
+inline bool is_heat(View view) {
+  return view == View::angle || view == View::area || view == View::stretch;
+}
 
 /// A range of values and the colours over it.
 struct HeatScale {

@@ -28,10 +28,10 @@ struct MeshOptions {
 };
 
 /// Meshes the inside of a simple polygon of either orientation: conforming Delaunay triangles,
-/// smaller near the boundary. Every cage vertex is a mesh vertex with the same coordinates. Slivers,
-/// collinear and nearly repeated vertices are fine: where the polygon itself is needle-sharp the
-/// triangles are too, and refinement stops at about three times the wanted number of vertices.
-/// Throws Error for what check_rest_cage refuses. Cost: about 4 us per vertex.
+/// smaller near the boundary. Every cage vertex is a mesh vertex with the same coordinates.
+/// Slivers, collinear and nearly repeated vertices are fine: where the polygon itself is
+/// needle-sharp the triangles are too, and refinement stops at about three times the wanted number
+/// of vertices. Throws Error for what check_rest_cage refuses. Cost: about 4 us per vertex.
 Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options = {});
 
 /// A point's triangle and barycentric coordinates in it.

@@ -1,7 +1,8 @@
 // The domain mesh by CGAL's Delaunay refinement; nothing else includes the mesher.
 //
-// Most vertices are laid out first, a graded triangular lattice inserted in one go, which is several
-// times faster than refining; refinement then finishes the seam between lattice and boundary.
+// Most vertices are laid out first, a graded triangular lattice inserted in one go, which is
+// several times faster than refining; refinement then finishes the seam between lattice and
+// boundary.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
@@ -20,17 +21,23 @@ namespace holomorph {
 namespace {
 
 using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Geometry, CGAL::Delaunay_mesh_vertex_base_2<Geometry>>;
+using Vertex =
+    CGAL::Triangulation_vertex_base_with_info_2<int, Geometry,
+                                                CGAL::Delaunay_mesh_vertex_base_2<Geometry>>;
 using Face = CGAL::Delaunay_mesh_face_base_2<Geometry>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>, CGAL::Exact_predicates_tag>;
 using Point = Geometry::Point_2;
 
-Point point_of(Complex z) { return {z.real(), z.imag()}; }
-Complex complex_of(const Point& p) { return {p.x(), p.y()}; }
+Point point_of(Complex z) {
+  return {z.real(), z.imag()};
+}
+Complex complex_of(const Point& p) {
+  return {p.x(), p.y()};
+}
 
-/// The wanted edge length at each place: `finest` at the boundary, growing to four times that inside.
-/// Distances to the boundary come from a grid, exact at its nodes and interpolated between.
+/// The wanted edge length at each place: `finest` at the boundary, growing to four times that
+/// inside. Distances to the boundary come from a grid, exact at its nodes and interpolated between.
 class Sizing {
  public:
   Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
@@ -41,7 +48,8 @@ class Sizing {
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c)
         distance_[static_cast<size_t>(r) * columns_ + c] = static_cast<float>(
-            nearest_on_polygon(polygon, Complex(box_.left + c * cell_, box_.bottom + r * cell_)).distance);
+            nearest_on_polygon(polygon, Complex(box_.left + c * cell_, box_.bottom + r * cell_))
+                .distance);
     set_scale(scale);
   }
 
@@ -54,7 +62,8 @@ class Sizing {
     const int c = static_cast<int>(x), r = static_cast<int>(y);
     const double u = x - c, v = y - r;
     const float* at = &distance_[static_cast<size_t>(r) * columns_ + c];
-    return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
+           v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
   }
   double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
   /// The lattice's step at z in units of the finest: the power of two below size.
@@ -103,8 +112,10 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
       if (q.size() > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
       return q.sine() < this->B ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
     }
-    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face, Quality& q) const {
-      const Complex a = complex_of(face->vertex(0)->point()), b = complex_of(face->vertex(1)->point()),
+    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face,
+                                          Quality& q) const {
+      const Complex a = complex_of(face->vertex(0)->point()),
+                    b = complex_of(face->vertex(1)->point()),
                     c = complex_of(face->vertex(2)->point());
       double ab = std::norm(b - a), bc = std::norm(c - b), ca = std::norm(a - c);
       const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
@@ -126,13 +137,14 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
   const Sizing* sizing_;
 };
 
-/// Points of a triangular lattice, thinned by powers of two where the sizing allows, that keep their
-/// distance from the boundary.
+/// Points of a triangular lattice, thinned by powers of two where the sizing allows, that keep
+/// their distance from the boundary.
 std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
   std::vector<Point> points;
   const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
   const Box& box = sizing.box();
-  const int rows = static_cast<int>(box.height() / row_height), columns = static_cast<int>(box.width() / step) + 1;
+  const int rows = static_cast<int>(box.height() / row_height),
+            columns = static_cast<int>(box.width() / step) + 1;
   std::vector<double> crossings;
   for (int r = 1; r <= rows; ++r) {
     const double y = box.bottom + r * row_height;
@@ -140,7 +152,8 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
       if ((a.imag() <= y) != (b.imag() <= y))
-        crossings.push_back(a.real() + (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
+        crossings.push_back(a.real() +
+                            (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
     }
     std::sort(crossings.begin(), crossings.end());
     size_t passed = 0;
@@ -150,7 +163,9 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
       if (passed % 2 == 0) continue;
       const int level = sizing.level(z);
       // A sub-lattice of even rows and columns is again a triangular lattice.
-      if (level > 1 && (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0)) continue;
+      if (level > 1 &&
+          (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
+        continue;
       if (sizing.distance(z) < 0.7 * step) continue;
       points.push_back(point_of(z));
     }
@@ -191,7 +206,8 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   for (size_t i = 0; i < used.size(); ++i) {
     const Complex z = complex_of(used[i]->point());
     order.push_back({hilbert_key(static_cast<unsigned>((z.real() - box.left) * scale),
-                                 static_cast<unsigned>((z.imag() - box.bottom) * scale)), i});
+                                 static_cast<unsigned>((z.imag() - box.bottom) * scale)),
+                     i});
   }
   std::sort(order.begin(), order.end());
   Mesh mesh;
@@ -202,13 +218,15 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   std::vector<int> next(mesh.vertices.size(), -1);
   for (const auto& face : cdt.finite_face_handles()) {
     if (!face->is_in_domain()) continue;
-    mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    mesh.triangles.push_back(
+        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     for (int k = 0; k < 3; ++k)
       if (!face->neighbor(k)->is_in_domain() || cdt.is_infinite(face->neighbor(k)))
         next[face->vertex((k + 1) % 3)->info()] = face->vertex((k + 2) % 3)->info();
   }
-  std::sort(mesh.triangles.begin(), mesh.triangles.end(),
-            [](const Triangle& a, const Triangle& b) { return *std::ranges::min_element(a) < *std::ranges::min_element(b); });
+  std::sort(mesh.triangles.begin(), mesh.triangles.end(), [](const Triangle& a, const Triangle& b) {
+    return *std::ranges::min_element(a) < *std::ranges::min_element(b);
+  });
   for (const auto& corner : corners) mesh.cage_vertices.push_back(corner->info());
   int v = mesh.cage_vertices[0];
   do {

@@ -7,13 +7,24 @@
 namespace holomorph {
 namespace {
 
-constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false}, kCtrlShift{true, true, false};
+constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false},
+    kCtrlShift{true, true, false};
 
-bool always(const Workspace&) { return true; }
-bool has_cage(const Workspace& w) { return w.scene().has_cage(); }
-bool has_content(const Workspace& w) { return w.scene().has_cage() || w.document.image(); }
-bool has_image(const Workspace& w) { return w.document.image() != nullptr; }
-bool has_selection(const Workspace& w) { return !w.selection.empty(); }
+bool always(const Workspace&) {
+  return true;
+}
+bool has_cage(const Workspace& w) {
+  return w.scene().has_cage();
+}
+bool has_content(const Workspace& w) {
+  return w.scene().has_cage() || w.document.image();
+}
+bool has_image(const Workspace& w) {
+  return w.document.image() != nullptr;
+}
+bool has_selection(const Workspace& w) {
+  return !w.selection.empty();
+}
 
 template <Request request>
 void ask(Workspace& w) {
@@ -39,7 +50,8 @@ bool looks(const Workspace& w) {
 }
 
 void zoom_by(Workspace& w, double factor) {
-  w.viewport.zoom_at({w.viewport.left + w.viewport.width / 2, w.viewport.top + w.viewport.height / 2}, factor);
+  w.viewport.zoom_at(
+      {w.viewport.left + w.viewport.width / 2, w.viewport.top + w.viewport.height / 2}, factor);
 }
 
 void frame_selection(Workspace& w) {
@@ -86,7 +98,9 @@ void switch_layer(Workspace& w) {
   w.prune_selection();
 }
 
-void reset_selection(Workspace& w) { w.commit(w.selection.empty() ? "Reset pose" : "Reset selection", reset(w.scene(), w.selection)); }
+void reset_selection(Workspace& w) {
+  w.commit(w.selection.empty() ? "Reset pose" : "Reset selection", reset(w.scene(), w.selection));
+}
 
 void free_pin_angles(Workspace& w) {
   Scene scene = w.scene();
@@ -96,12 +110,18 @@ void free_pin_angles(Workspace& w) {
 }
 bool has_turned_pin(const Workspace& w) {
   for (const Handle& handle : w.selection)
-    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.layer) && w.scene().pins[handle.index].angle) return true;
+    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.layer) &&
+        w.scene().pins[handle.index].angle)
+      return true;
   return false;
 }
 
-bool can_undo(const Workspace& w) { return !w.preview && w.document.history().can_undo(); }
-bool can_redo(const Workspace& w) { return !w.preview && w.document.history().can_redo(); }
+bool can_undo(const Workspace& w) {
+  return !w.preview && w.document.history().can_undo();
+}
+bool can_redo(const Workspace& w) {
+  return !w.preview && w.document.history().can_redo();
+}
 void undo(Workspace& w) {
   w.document.undo();
   w.prune_selection();
@@ -112,65 +132,233 @@ void redo(Workspace& w) {
 }
 
 // Glyphs of Font Awesome 4.
-constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5", *kUndo = "\uf0e2",
-                     *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040", *kPin = "\uf08d",
-                     *kMagic = "\uf0d0", *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
+constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
+                     *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
+                     *kPen = "\uf040", *kPin = "\uf08d", *kMagic = "\uf0d0", *kFit = "\uf065",
+                     *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
 
 std::vector<Action> table() {
   return {
       {"file.new", "New", kNew, "File", {{'N', kCtrl}}, always, ask<Request::new_scene>},
       {"file.open", "Open...", kOpen, "File", {{'O', kCtrl}}, always, ask<Request::open>},
       {"file.save", "Save", kSave, "File", {{'S', kCtrl}}, has_content, ask<Request::save>},
-      {"file.save_as", "Save as...", "", "File", {{'S', kCtrlShift}}, has_content, ask<Request::save_as>},
-      {"file.export", "Export PNG...", kExport, "File", {{'E', kCtrl}}, has_content, ask<Request::export_picture>},
-      {"file.export_again", "Export again", "", "File", {{'E', kCtrlShift}}, has_content, ask<Request::export_again>},
+      {"file.save_as",
+       "Save as...",
+       "",
+       "File",
+       {{'S', kCtrlShift}},
+       has_content,
+       ask<Request::save_as>},
+      {"file.export",
+       "Export PNG...",
+       kExport,
+       "File",
+       {{'E', kCtrl}},
+       has_content,
+       ask<Request::export_picture>},
+      {"file.export_again",
+       "Export again",
+       "",
+       "File",
+       {{'E', kCtrlShift}},
+       has_content,
+       ask<Request::export_again>},
       {"file.quit", "Quit", "", "File", {{'Q', kCtrl}}, always, ask<Request::quit>},
 
       {"edit.undo", "Undo", kUndo, "Edit", {{'Z', kCtrl}}, can_undo, undo},
       {"edit.redo", "Redo", kRedo, "Edit", {{'Z', kCtrlShift}, {'Y', kCtrl}}, can_redo, redo},
       {"edit.select_all", "Select all", "", "Edit", {{'A', kCtrl}}, has_cage, select_all},
-      {"edit.select_none", "Select none", "", "Edit", {{'D', kCtrl}}, has_selection, [](Workspace& w) { w.selection.clear(); }},
-      {"edit.delete", "Delete selection", kTrash, "Edit", {Key::del, Key::backspace}, has_selection, erase_selection},
+      {"edit.select_none",
+       "Select none",
+       "",
+       "Edit",
+       {{'D', kCtrl}},
+       has_selection,
+       [](Workspace& w) { w.selection.clear(); }},
+      {"edit.delete",
+       "Delete selection",
+       kTrash,
+       "Edit",
+       {Key::del, Key::backspace},
+       has_selection,
+       erase_selection},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
       {"edit.nudge_left", "Nudge left", "", "", {Key::left}, has_selection, nudge<-1, 0, 10>},
       {"edit.nudge_right", "Nudge right", "", "", {Key::right}, has_selection, nudge<1, 0, 10>},
       {"edit.nudge_up", "Nudge up", "", "", {Key::up}, has_selection, nudge<0, 1, 10>},
       {"edit.nudge_down", "Nudge down", "", "", {Key::down}, has_selection, nudge<0, -1, 10>},
-      {"edit.nudge_left_10", "Nudge left by 10", "", "", {{Key::left, kShift}}, has_selection, nudge<-1, 0, 100>},
-      {"edit.nudge_right_10", "Nudge right by 10", "", "", {{Key::right, kShift}}, has_selection, nudge<1, 0, 100>},
-      {"edit.nudge_up_10", "Nudge up by 10", "", "", {{Key::up, kShift}}, has_selection, nudge<0, 1, 100>},
-      {"edit.nudge_down_10", "Nudge down by 10", "", "", {{Key::down, kShift}}, has_selection, nudge<0, -1, 100>},
-      {"edit.nudge_left_fine", "Nudge left by 0.1", "", "", {{Key::left, kCtrl}}, has_selection, nudge<-1, 0, 1>},
-      {"edit.nudge_right_fine", "Nudge right by 0.1", "", "", {{Key::right, kCtrl}}, has_selection, nudge<1, 0, 1>},
-      {"edit.nudge_up_fine", "Nudge up by 0.1", "", "", {{Key::up, kCtrl}}, has_selection, nudge<0, 1, 1>},
-      {"edit.nudge_down_fine", "Nudge down by 0.1", "", "", {{Key::down, kCtrl}}, has_selection, nudge<0, -1, 1>},
+      {"edit.nudge_left_10",
+       "Nudge left by 10",
+       "",
+       "",
+       {{Key::left, kShift}},
+       has_selection,
+       nudge<-1, 0, 100>},
+      {"edit.nudge_right_10",
+       "Nudge right by 10",
+       "",
+       "",
+       {{Key::right, kShift}},
+       has_selection,
+       nudge<1, 0, 100>},
+      {"edit.nudge_up_10",
+       "Nudge up by 10",
+       "",
+       "",
+       {{Key::up, kShift}},
+       has_selection,
+       nudge<0, 1, 100>},
+      {"edit.nudge_down_10",
+       "Nudge down by 10",
+       "",
+       "",
+       {{Key::down, kShift}},
+       has_selection,
+       nudge<0, -1, 100>},
+      {"edit.nudge_left_fine",
+       "Nudge left by 0.1",
+       "",
+       "",
+       {{Key::left, kCtrl}},
+       has_selection,
+       nudge<-1, 0, 1>},
+      {"edit.nudge_right_fine",
+       "Nudge right by 0.1",
+       "",
+       "",
+       {{Key::right, kCtrl}},
+       has_selection,
+       nudge<1, 0, 1>},
+      {"edit.nudge_up_fine",
+       "Nudge up by 0.1",
+       "",
+       "",
+       {{Key::up, kCtrl}},
+       has_selection,
+       nudge<0, 1, 1>},
+      {"edit.nudge_down_fine",
+       "Nudge down by 0.1",
+       "",
+       "",
+       {{Key::down, kCtrl}},
+       has_selection,
+       nudge<0, -1, 1>},
 
-      {"tool.select", "Select and move", kPointer, "Tools", {'V'}, always, choose<ToolId::select>, chosen<ToolId::select>},
-      {"tool.pen", "Pen: draw a cage, insert points", kPen, "Tools", {'P'}, always, choose<ToolId::pen>, chosen<ToolId::pen>},
+      {"tool.select",
+       "Select and move",
+       kPointer,
+       "Tools",
+       {'V'},
+       always,
+       choose<ToolId::select>,
+       chosen<ToolId::select>},
+      {"tool.pen",
+       "Pen: draw a cage, insert points",
+       kPen,
+       "Tools",
+       {'P'},
+       always,
+       choose<ToolId::pen>,
+       chosen<ToolId::pen>},
       {"tool.pin", "Pin", kPin, "Tools", {'N'}, always, choose<ToolId::pin>, chosen<ToolId::pin>},
 
       {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
-      {"cage.rest", "Show and edit the rest shape", "", "Cage", {Key::tab}, has_cage, switch_layer,
+      {"cage.rest",
+       "Show and edit the rest shape",
+       "",
+       "Cage",
+       {Key::tab},
+       has_cage,
+       switch_layer,
        [](const Workspace& w) { return w.layer == Layer::rest; }},
 
       {"view.image", "Picture", "", "View", {'1'}, always, look<View::image>, looks<View::image>},
-      {"view.angle", "Angle distortion", "", "View", {'2'}, has_cage, look<View::angle>, looks<View::angle>},
+      {"view.angle",
+       "Angle distortion",
+       "",
+       "View",
+       {'2'},
+       has_cage,
+       look<View::angle>,
+       looks<View::angle>},
       {"view.area", "Area", "", "View", {'3'}, has_cage, look<View::area>, looks<View::area>},
-      {"view.stretch", "Largest stretch", "", "View", {'4'}, has_cage, look<View::stretch>, looks<View::stretch>},
-      {"view.checker", "Checker", "", "View", {'5'}, has_cage, look<View::checker>, looks<View::checker>},
-      {"view.mesh", "Mesh", "", "View", {'M'}, has_cage, [](Workspace& w) { w.show_mesh = !w.show_mesh; },
+      {"view.stretch",
+       "Largest stretch",
+       "",
+       "View",
+       {'4'},
+       has_cage,
+       look<View::stretch>,
+       looks<View::stretch>},
+      {"view.checker",
+       "Checker",
+       "",
+       "View",
+       {'5'},
+       has_cage,
+       look<View::checker>,
+       looks<View::checker>},
+      {"view.mesh",
+       "Mesh",
+       "",
+       "View",
+       {'M'},
+       has_cage,
+       [](Workspace& w) { w.show_mesh = !w.show_mesh; },
        [](const Workspace& w) { return w.show_mesh; }},
-      {"view.overlays", "Cage and pins", "", "View", {'0'}, always, [](Workspace& w) { w.show_cage = !w.show_cage; },
+      {"view.overlays",
+       "Cage and pins",
+       "",
+       "View",
+       {'0'},
+       always,
+       [](Workspace& w) { w.show_cage = !w.show_cage; },
        [](const Workspace& w) { return w.show_cage; }},
       {"view.frame", "Frame selection", "", "View", {'F'}, has_content, frame_selection},
-      {"view.fit", "Fit all", kFit, "View", {{'F', kShift}, {'0', kCtrl}}, has_content, [](Workspace& w) { w.viewport.fit(w.content_box()); }},
-      {"view.actual", "100 %", "", "View", {{'1', kCtrl}}, has_content, [](Workspace& w) { zoom_by(w, 1 / w.viewport.zoom); }},
-      {"view.zoom_in", "Zoom in", "", "View", {'+', '=', {'+', kCtrl}, {'=', kCtrl}}, has_content, [](Workspace& w) { zoom_by(w, 1.25); }},
-      {"view.zoom_out", "Zoom out", "", "View", {'-', {'-', kCtrl}}, has_content, [](Workspace& w) { zoom_by(w, 0.8); }},
+      {"view.fit",
+       "Fit all",
+       kFit,
+       "View",
+       {{'F', kShift}, {'0', kCtrl}},
+       has_content,
+       [](Workspace& w) { w.viewport.fit(w.content_box()); }},
+      {"view.actual",
+       "100 %",
+       "",
+       "View",
+       {{'1', kCtrl}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 1 / w.viewport.zoom); }},
+      {"view.zoom_in",
+       "Zoom in",
+       "",
+       "View",
+       {'+', '=', {'+', kCtrl}, {'=', kCtrl}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 1.25); }},
+      {"view.zoom_out",
+       "Zoom out",
+       "",
+       "View",
+       {'-', {'-', kCtrl}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 0.8); }},
 
-      {"help.palette", "Find an action...", kSearch, "Help", {{'P', kCtrlShift}}, always, ask<Request::palette>},
-      {"help.keys", "Keys and mouse", kHelp, "Help", {Key::f1, '?', {'?', kShift}}, always, ask<Request::help>},
+      {"help.palette",
+       "Find an action...",
+       kSearch,
+       "Help",
+       {{'P', kCtrlShift}},
+       always,
+       ask<Request::palette>},
+      {"help.keys",
+       "Keys and mouse",
+       kHelp,
+       "Help",
+       {Key::f1, '?', {'?', kShift}},
+       always,
+       ask<Request::help>},
   };
 }
 
@@ -182,17 +370,28 @@ std::string text_of(const Shortcut& shortcut) {
   if (shortcut.mods.shift && shortcut.key != '?') text += "Shift+";
   if (shortcut.mods.alt) text += "Alt+";
   switch (static_cast<Key>(shortcut.key)) {
-    case Key::tab: return text + "Tab";
-    case Key::escape: return text + "Esc";
-    case Key::enter: return text + "Enter";
-    case Key::backspace: return text + "Backspace";
-    case Key::del: return text + "Del";
-    case Key::left: return text + "Left";
-    case Key::right: return text + "Right";
-    case Key::up: return text + "Up";
-    case Key::down: return text + "Down";
-    case Key::f1: return text + "F1";
-    case Key::space: return text + "Space";
+    case Key::tab:
+      return text + "Tab";
+    case Key::escape:
+      return text + "Esc";
+    case Key::enter:
+      return text + "Enter";
+    case Key::backspace:
+      return text + "Backspace";
+    case Key::del:
+      return text + "Del";
+    case Key::left:
+      return text + "Left";
+    case Key::right:
+      return text + "Right";
+    case Key::up:
+      return text + "Up";
+    case Key::down:
+      return text + "Down";
+    case Key::f1:
+      return text + "F1";
+    case Key::space:
+      return text + "Space";
   }
   return text + static_cast<char>(shortcut.key);
 }

@@ -7,11 +7,15 @@
 
 namespace holomorph {
 
-const Cage& cage_of(const Scene& scene, Layer layer) { return layer == Layer::rest ? scene.rest : scene.pose; }
+const Cage& cage_of(const Scene& scene, Layer layer) {
+  return layer == Layer::rest ? scene.rest : scene.pose;
+}
 
 namespace {
 
-Cage& cage_of(Scene& scene, Layer layer) { return layer == Layer::rest ? scene.rest : scene.pose; }
+Cage& cage_of(Scene& scene, Layer layer) {
+  return layer == Layer::rest ? scene.rest : scene.pose;
+}
 
 Complex& place(Scene& scene, Handle handle, Layer layer) {
   if (handle.kind == Handle::Kind::pin)
@@ -39,7 +43,8 @@ std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
   for (Index i = 0; i < cage.size(); ++i)
     for (int m = 0; m < cage.degree(i); ++m) handles.push_back({Handle::Kind::cage, i, m});
   if (method_named(scene.method).uses_pins)
-    for (Index i = 0; i < static_cast<Index>(scene.pins.size()); ++i) handles.push_back({Handle::Kind::pin, i, 0});
+    for (Index i = 0; i < static_cast<Index>(scene.pins.size()); ++i)
+      handles.push_back({Handle::Kind::pin, i, 0});
   return handles;
 }
 
@@ -71,7 +76,8 @@ Scene inserted(Scene scene, Index segment, double t) {
 Scene erased(Scene scene, const Selection& selection) {
   // From the highest number down, so that the remaining numbers stay valid.
   Index vertices = 0;
-  for (const Handle& handle : selection) vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
+  for (const Handle& handle : selection)
+    vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
   if (scene.rest.size() - vertices < 3 && vertices > 0)
     throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
   for (auto handle = selection.rbegin(); handle != selection.rend(); ++handle) {
@@ -116,7 +122,8 @@ Scene reset(Scene scene, const Selection& selection) {
 Scene with_method(Scene scene, const std::string& id) {
   const Method& method = method_named(id);
   std::erase_if(scene.parameters, [&](const auto& entry) {
-    return std::none_of(method.parameters.begin(), method.parameters.end(), [&](const ParameterSpec& spec) { return spec.key == entry.first; });
+    return std::none_of(method.parameters.begin(), method.parameters.end(),
+                        [&](const ParameterSpec& spec) { return spec.key == entry.first; });
   });
   scene.method = id;
   return scene;
@@ -138,8 +145,10 @@ CageHit nearest_on_cage(const Cage& cage, Complex z) {
     const int pieces = controls.size() == 2 ? 1 : 32;
     for (int k = 0; k < pieces; ++k) {
       const double t0 = static_cast<double>(k) / pieces, t1 = static_cast<double>(k + 1) / pieces;
-      const NearestPoint near = nearest_on_segment(bezier_point(controls, t0), bezier_point(controls, t1), z);
-      if (near.distance < best.distance) best = {i, t0 + near.t * (t1 - t0), near.point, near.distance};
+      const NearestPoint near =
+          nearest_on_segment(bezier_point(controls, t0), bezier_point(controls, t1), z);
+      if (near.distance < best.distance)
+        best = {i, t0 + near.t * (t1 - t0), near.point, near.distance};
     }
   }
   return best;

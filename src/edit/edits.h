@@ -13,7 +13,7 @@ namespace holomorph {
 struct Handle {
   enum class Kind { cage, pin };
   Kind kind = Kind::cage;
-  Index index = 0;    ///< segment or pin
+  Index index = 0;  ///< segment or pin
   int control = 0;
   auto operator<=>(const Handle&) const = default;
 };
@@ -40,8 +40,8 @@ Scene placed(Scene scene, Handle handle, Complex at, Layer layer);
 /// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
 Scene inserted(Scene scene, Index segment, double t);
 
-/// Without these handles: vertices (neighbours refit) and pins. At least three segments stay: throws
-/// Error otherwise.
+/// Without these handles: vertices (neighbours refit) and pins. At least three segments stay:
+/// throws Error otherwise.
 Scene erased(Scene scene, const Selection& selection);
 
 /// With a pin more; the method becomes one that uses pins.

@@ -24,7 +24,8 @@ class PenTool final : public Tool {
     if (input.mods.shift) pointer_ = constrained(input.position);
     if (!input.pressed) return;
     // The second click of a double-click would repeat the last point: it closes instead.
-    const bool repeated = std::abs(workspace.viewport.px_at_plane(line_.back()) - input.px) < kDragThresholdPx;
+    const bool repeated =
+        std::abs(workspace.viewport.px_at_plane(line_.back()) - input.px) < kDragThresholdPx;
     if (closes_ || (input.double_clicked && repeated && line_.size() >= 3))
       close(workspace);
     else if (!repeated)
@@ -73,10 +74,13 @@ class PenTool final : public Tool {
 
   std::string hint(const Workspace& workspace) const override {
     if (closes_) return "Click to close the cage";
-    if (!line_.empty()) return "Click the first point, press Enter or double-click to close; Backspace takes a point back; Esc cancels";
+    if (!line_.empty())
+      return "Click the first point, press Enter or double-click to close; Backspace takes a point "
+             "back; Esc cancels";
     if (!workspace.scene().has_cage()) return "Click around the picture to draw a cage";
     if (insertion_) return "Click to insert a point; rest and pose keep their shape";
-    return "Click an edge to insert a point; click elsewhere to draw another cage in place of this one";
+    return "Click an edge to insert a point; click elsewhere to draw another cage in place of this "
+           "one";
   }
 
  private:
@@ -93,7 +97,8 @@ class PenTool final : public Tool {
         return;
       }
       const CageHit hit = nearest_on_cage(cage_of(scene, workspace.layer), input.position);
-      if (hit.distance * workspace.viewport.zoom < workspace.handle_px && hit.t > 1e-3 && hit.t < 1 - 1e-3) {
+      if (hit.distance * workspace.viewport.zoom < workspace.handle_px && hit.t > 1e-3 &&
+          hit.t < 1 - 1e-3) {
         insertion_ = hit.point;
         if (!input.pressed) return;
         workspace.commit("Insert point", inserted(scene, hit.segment, hit.t));
@@ -105,7 +110,10 @@ class PenTool final : public Tool {
     if (!input.pressed) return;
     // A cage is drawn around the picture as it rests.
     if (scene.has_cage() && scene.pose != scene.rest) {
-      if (workspace.layer == Layer::pose) workspace.say("Drawing another cage on the picture at rest. Closing it replaces the cage; Ctrl+Z brings it back.");
+      if (workspace.layer == Layer::pose)
+        workspace.say(
+            "Drawing another cage on the picture at rest. Closing it replaces the cage; Ctrl+Z "
+            "brings it back.");
       workspace.layer = Layer::rest;
     }
     workspace.selection.clear();
@@ -136,7 +144,8 @@ class PenTool final : public Tool {
   /// In steps of 15 degrees from the last point.
   Complex constrained(Complex z) const {
     const Complex by = z - line_.back();
-    return line_.back() + std::polar(std::abs(by), std::round(std::arg(by) / (kPi / 12)) * (kPi / 12));
+    return line_.back() +
+           std::polar(std::abs(by), std::round(std::arg(by) / (kPi / 12)) * (kPi / 12));
   }
 
   Points line_;
@@ -148,6 +157,8 @@ class PenTool final : public Tool {
 
 }  // namespace
 
-std::unique_ptr<Tool> pen_tool() { return std::make_unique<PenTool>(); }
+std::unique_ptr<Tool> pen_tool() {
+  return std::make_unique<PenTool>();
+}
 
 }  // namespace holomorph

@@ -25,20 +25,24 @@ class PinTool final : public Tool {
       return;
     }
     if (!workspace.scene().has_cage()) {
-      workspace.say("Pins act inside a cage: draw one with P, or make one from the picture (Cage menu).");
+      workspace.say(
+          "Pins act inside a cage: draw one with P, or make one from the picture (Cage menu).");
       return;
     }
     const auto rest = workspace.rest_at(input.position);
     if (!rest) {
-      workspace.say(workspace.map.busy() ? "One moment, the map is being prepared." : "A pin goes on the picture, inside the cage.");
+      workspace.say(workspace.map.busy() ? "One moment, the map is being prepared."
+                                         : "A pin goes on the picture, inside the cage.");
       return;
     }
     const bool switches = !method_named(workspace.scene().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
     const Complex pose = workspace.layer == Layer::pose ? input.position : posed(*rest, workspace);
     workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose));
-    if (switches) workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
-    workspace.selection = {{Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
+    if (switches)
+      workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
+    workspace.selection = {
+        {Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
     drag_.start(input, workspace.selection, workspace.scene());
   }
 
@@ -60,13 +64,15 @@ class PinTool final : public Tool {
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return "Pins act inside a cage: draw one with P first";
-    return hover_ ? "Drag to move; Alt-click deletes" : "Click on the picture to set a pin, and drag it";
+    return hover_ ? "Drag to move; Alt-click deletes"
+                  : "Click on the picture to set a pin, and drag it";
   }
 
  private:
   void remove(Workspace& workspace) {
     try {
-      workspace.commit(hover_->kind == Handle::Kind::pin ? "Delete pin" : "Delete point", erased(workspace.scene(), {*hover_}));
+      workspace.commit(hover_->kind == Handle::Kind::pin ? "Delete pin" : "Delete point",
+                       erased(workspace.scene(), {*hover_}));
       workspace.selection.clear();
     } catch (const Error& error) {
       workspace.complain(error);
@@ -87,6 +93,8 @@ class PinTool final : public Tool {
 
 }  // namespace
 
-std::unique_ptr<Tool> pin_tool() { return std::make_unique<PinTool>(); }
+std::unique_ptr<Tool> pin_tool() {
+  return std::make_unique<PinTool>();
+}
 
 }  // namespace holomorph

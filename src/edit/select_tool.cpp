@@ -65,13 +65,16 @@ class SelectTool final : public Tool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return "Draw a cage with P, or make one from the picture (Cage menu)";
+    if (!workspace.scene().has_cage())
+      return "Draw a cage with P, or make one from the picture (Cage menu)";
     if (drag_.active()) return "Shift keeps the axis";
     if (turning_) return "Shift snaps to 15 degrees";
     if (over_ring_) return "Drag the ring to turn the picture around the pin";
     if (hover_) return "Drag to move; Shift-click adds to the selection; Alt-click deletes";
-    return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an edge inserts; Tab returns to the pose"
-                                          : "Drag points or pins; drag a box to select; double-click an edge inserts; Tab shows the rest";
+    return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
+                                            "edge inserts; Tab returns to the pose"
+                                          : "Drag points or pins; drag a box to select; "
+                                            "double-click an edge inserts; Tab shows the rest";
   }
 
  private:
@@ -88,7 +91,8 @@ class SelectTool final : public Tool {
 
   void remove(Handle handle, Workspace& workspace) {
     try {
-      workspace.commit(handle.kind == Handle::Kind::pin ? "Delete pin" : "Delete point", erased(workspace.scene(), {handle}));
+      workspace.commit(handle.kind == Handle::Kind::pin ? "Delete pin" : "Delete point",
+                       erased(workspace.scene(), {handle}));
       workspace.selection.clear();
     } catch (const Error& error) {
       workspace.complain(error);
@@ -97,8 +101,11 @@ class SelectTool final : public Tool {
   }
 
   void insert(const Input& input, Workspace& workspace) {
-    const CageHit hit = nearest_on_cage(cage_of(workspace.scene(), workspace.layer), input.position);
-    if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < 1e-3 || hit.t > 1 - 1e-3) return;
+    const CageHit hit =
+        nearest_on_cage(cage_of(workspace.scene(), workspace.layer), input.position);
+    if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < 1e-3 ||
+        hit.t > 1 - 1e-3)
+      return;
     workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t));
     workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
   }
@@ -123,7 +130,8 @@ class SelectTool final : public Tool {
   static std::optional<Index> ring_pin(const Workspace& workspace) {
     if (workspace.layer != Layer::pose || workspace.selection.size() != 1) return {};
     const Handle handle = *workspace.selection.begin();
-    if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Layer::pose)) return {};
+    if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Layer::pose))
+      return {};
     return handle.index;
   }
   Complex ring_center(const Workspace& workspace) const {
@@ -131,7 +139,8 @@ class SelectTool final : public Tool {
   }
   bool on_ring(const Input& input, const Workspace& workspace) const {
     const double radius = kRingRadius * workspace.handle_px;
-    return std::abs(std::abs(input.px - ring_center(workspace)) - radius) < 0.6 * workspace.handle_px;
+    return std::abs(std::abs(input.px - ring_center(workspace)) - radius) <
+           0.6 * workspace.handle_px;
   }
   double angle_to(const Input& input, const Workspace& workspace) const {
     return -std::arg(input.px - ring_center(workspace));
@@ -163,6 +172,8 @@ class SelectTool final : public Tool {
 
 }  // namespace
 
-std::unique_ptr<Tool> select_tool() { return std::make_unique<SelectTool>(); }
+std::unique_ptr<Tool> select_tool() {
+  return std::make_unique<SelectTool>();
+}
 
 }  // namespace holomorph

@@ -7,7 +7,9 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace, const std::str
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) moving_ = true;
   if (moving_) {
     Complex by = input.position - start_;
-    if (input.mods.shift) by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+    if (input.mods.shift)
+      by =
+          std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
     workspace.preview = moved(scene_, what_, by, workspace.layer);
   }
   if (!input.released && input.down) return false;

@@ -10,19 +10,20 @@ namespace holomorph {
 
 /// What a tool wants drawn besides the scene.
 struct ToolOverlay {
-  Points line;                          ///< an unfinished cage, in the plane
-  std::optional<Complex> line_end;      ///< where its next point would be
-  bool closes = false;                  ///< the next click closes it
-  std::optional<Box> marquee;           ///< in window px
+  Points line;                      ///< an unfinished cage, in the plane
+  std::optional<Complex> line_end;  ///< where its next point would be
+  bool closes = false;              ///< the next click closes it
+  std::optional<Box> marquee;       ///< in window px
   std::optional<Handle> hover;
-  std::optional<Complex> insertion;     ///< where a click inserts a point
-  std::optional<Index> ring;            ///< the pin that shows its rotation ring
+  std::optional<Complex> insertion;  ///< where a click inserts a point
+  std::optional<Index> ring;         ///< the pin that shows its rotation ring
 };
 
 inline constexpr double kDragThresholdPx = 3;
 inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
 
-/// One way of using the pointer. Objects live as long as the editor; state is an unfinished gesture.
+/// One way of using the pointer. Objects live as long as the editor; state is an unfinished
+/// gesture.
 class Tool {
  public:
   virtual ~Tool() = default;
@@ -41,8 +42,8 @@ std::unique_ptr<Tool> select_tool();
 std::unique_ptr<Tool> pen_tool();
 std::unique_ptr<Tool> pin_tool();
 
-/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by the
-/// tools that drag.
+/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by
+/// the tools that drag.
 class HandleDrag {
  public:
   void start(const Input& input, Selection what, const Scene& scene) {

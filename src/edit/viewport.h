@@ -7,18 +7,20 @@ namespace holomorph {
 
 /// The part of the plane that the canvas shows. Window px have x to the right and y down.
 struct Viewport {
-  Complex center;                    ///< plane point in the middle of the canvas
-  double zoom = 1;                   ///< window px per plane unit
+  Complex center;                                   ///< plane point in the middle of the canvas
+  double zoom = 1;                                  ///< window px per plane unit
   double left = 0, top = 0, width = 1, height = 1;  ///< the canvas in window px
 
   Complex px_at_plane(Complex z) const {
-    return {left + width / 2 + (z.real() - center.real()) * zoom, top + height / 2 - (z.imag() - center.imag()) * zoom};
+    return {left + width / 2 + (z.real() - center.real()) * zoom,
+            top + height / 2 - (z.imag() - center.imag()) * zoom};
   }
   Complex plane_at_px(Complex px) const {
     return center + Complex(px.real() - left - width / 2, -(px.imag() - top - height / 2)) / zoom;
   }
   bool contains_px(Complex px) const {
-    return px.real() >= left && px.real() < left + width && px.imag() >= top && px.imag() < top + height;
+    return px.real() >= left && px.real() < left + width && px.imag() >= top &&
+           px.imag() < top + height;
   }
   /// Zooms by a factor, keeping the plane point under `px` where it is.
   void zoom_at(Complex px, double factor) {

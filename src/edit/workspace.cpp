@@ -24,7 +24,9 @@ std::optional<Complex> Workspace::rest_at(Complex z) const {
   if (!map.has_map()) return {};
   const Mesh& mesh = *map.prepared()->mesh;
   const std::span<const Complex> positions =
-      at_rest() ? std::span<const Complex>(mesh.vertices) : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
+      at_rest()
+          ? std::span<const Complex>(mesh.vertices)
+          : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
   const auto found = locate(mesh, positions, z);
   if (!found) return {};
   return found->in(mesh, mesh.vertices);
@@ -57,7 +59,8 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   double distance = workspace.handle_px;
   const Scene& scene = workspace.scene();
   for (const Handle& handle : handles_of(scene, workspace.layer)) {
-    const double here = std::abs(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer)) - px);
+    const double here =
+        std::abs(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer)) - px);
     // A pin on a cage point's spot is picked first: it lies on top.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;

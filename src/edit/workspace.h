@@ -12,7 +12,18 @@
 namespace holomorph {
 
 /// What an action asks of the window, which alone can show dialogs.
-enum class Request { none, new_scene, open, save, save_as, export_picture, export_again, quit, help, palette };
+enum class Request {
+  none,
+  new_scene,
+  open,
+  save,
+  save_as,
+  export_picture,
+  export_again,
+  quit,
+  help,
+  palette
+};
 
 enum class ToolId { select, pen, pin };
 
@@ -37,11 +48,11 @@ struct Workspace {
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
-  double handle_px = 10;         ///< picking distance in window px, scaled with the display
+  double handle_px = 10;  ///< picking distance in window px, scaled with the display
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
   Request request = Request::none;
-  std::vector<Toast> toasts;     ///< taken over by the window
+  std::vector<Toast> toasts;  ///< taken over by the window
 
   /// The scene to show: the preview of a drag, or the document's.
   const Scene& scene() const { return preview ? *preview : document.scene(); }

@@ -13,11 +13,13 @@ RasterResult picture_of(const Scene& scene, const Image* source, const PictureOp
   job.pixels_per_unit = options.scale;
   job.crop = options.crop;
   if (!scene.has_cage()) {
-    if (options.view != View::image) throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
+    if (options.view != View::image)
+      throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
     return rasterized(job);
   }
   if (!source && options.view == View::image)
-    throw Error(ErrorKind::bad_input, "the scene has no picture; choose the view checker, angle, area or stretch");
+    throw Error(ErrorKind::bad_input,
+                "the scene has no picture; choose the view checker, angle, area or stretch");
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
   SampledMap map;
   prepared->deformer->deform(pose_of(scene), map, is_heat(options.view));

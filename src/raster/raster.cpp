@@ -1,6 +1,6 @@
 // Scan conversion by exact row crossings, computed alike from both sides of every edge, so that
-// neighbours neither overlap nor leave a gap. Pixels that a silhouette crosses are small pictures of
-// 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
+// neighbours neither overlap nor leave a gap. Pixels that a silhouette crosses are small pictures
+// of 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
 #include "raster/raster.h"
 
 #include <atomic>
@@ -15,10 +15,10 @@ namespace {
 using Float4 = float __attribute__((vector_size(16)));
 using Byte4 = std::uint8_t __attribute__((vector_size(4)));
 
-constexpr int kSub = 4;             ///< coverage samples per pixel side
-constexpr int kBand = 16;           ///< rows that one task draws
-constexpr int kMostTaps = 8;        ///< colour samples per pixel side when shrinking
-constexpr double kOnTexel = 1e-3;   ///< nearer than this to a texel's centre, the texel is copied
+constexpr int kSub = 4;            ///< coverage samples per pixel side
+constexpr int kBand = 16;          ///< rows that one task draws
+constexpr int kMostTaps = 8;       ///< colour samples per pixel side when shrinking
+constexpr double kOnTexel = 1e-3;  ///< nearer than this to a texel's centre, the texel is copied
 
 /// An output triangle and the affine map from output pixels back to its colours: source pixels, or
 /// for heat maps the value in the first coordinate.
@@ -28,7 +28,6 @@ struct Piece {
   int taps_x, taps_y;
   bool outside;  ///< part of the picture beyond the rest cage: drawn where the cage is not
 };
-
 
 Float4 load(const std::uint8_t* p) {
   Byte4 bytes;
@@ -57,7 +56,8 @@ class Sampler {
       const std::uint8_t* q = image_.at(c, r + 1);
       t[0] = load(p), t[1] = load(p + 4), t[2] = load(q), t[3] = load(q + 4);
     } else {
-      t[0] = texel(c, r), t[1] = texel(c + 1, r), t[2] = texel(c, r + 1), t[3] = texel(c + 1, r + 1);
+      t[0] = texel(c, r), t[1] = texel(c + 1, r), t[2] = texel(c, r + 1),
+      t[3] = texel(c + 1, r + 1);
     }
     Float4 sum{};
     for (int k = 0; k < 4; ++k) {
@@ -96,7 +96,8 @@ Float4 over(Float4 top, Float4 below) {
 }
 
 void store(Float4 color, std::uint8_t* out) {
-  for (int k = 0; k < 4; ++k) out[k] = static_cast<std::uint8_t>(std::clamp(color[k] + 0.5f, 0.0f, 255.0f));
+  for (int k = 0; k < 4; ++k)
+    out[k] = static_cast<std::uint8_t>(std::clamp(color[k] + 0.5f, 0.0f, 255.0f));
 }
 
 /// Where the edge from (ax, ay) to (bx, by) crosses height y; the same for both directions.
@@ -121,10 +122,14 @@ bool span_at(const Piece& piece, double y, double& left, double& right) {
 }
 
 /// The first whole number i with i + 0.5 >= x.
-int first_center(double x) { return static_cast<int>(std::ceil(x - 0.5)); }
+int first_center(double x) {
+  return static_cast<int>(std::ceil(x - 0.5));
+}
 
-/// Sorted crossings of closed polygons with a row: inside is between the first and second, and so on.
-void row_crossings(const std::vector<std::array<double, 4>>& edges, const std::vector<int>& candidates, double y, std::vector<double>& out) {
+/// Sorted crossings of closed polygons with a row: inside is between the first and second, and so
+/// on.
+void row_crossings(const std::vector<std::array<double, 4>>& edges,
+                   const std::vector<int>& candidates, double y, std::vector<double>& out) {
   out.clear();
   for (const int e : candidates) {
     const auto& [ax, ay, bx, by] = edges[e];
@@ -146,9 +151,12 @@ class Drawing {
   Image draw() {
     std::atomic<int> next{0};
     const auto work = [&] {
-      for (int band = next++; band < static_cast<int>(bands_.size()); band = next++) draw_band(band);
+      for (int band = next++; band < static_cast<int>(bands_.size()); band = next++)
+        draw_band(band);
     };
-    const int count = job_.threads > 0 ? job_.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int count = job_.threads > 0
+                          ? job_.threads
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     std::vector<std::thread> others;
     for (int i = 1; i < count; ++i) others.emplace_back(work);
     work();
@@ -167,7 +175,8 @@ class Drawing {
   Edge edge_of(Complex a, Complex b) const { return {out_x(a), out_y(a), out_x(b), out_y(b)}; }
 
   /// Adds a triangle at `at` whose corners have the source coordinates (u, v).
-  void add_piece(const std::array<Complex, 3>& at, const double u[3], const double v[3], bool outside) {
+  void add_piece(const std::array<Complex, 3>& at, const double u[3], const double v[3],
+                 bool outside) {
     Piece piece{};
     for (int k = 0; k < 3; ++k) piece.x[k] = out_x(at[k]), piece.y[k] = out_y(at[k]);
     const double ax = piece.x[1] - piece.x[0], ay = piece.y[1] - piece.y[0];
@@ -200,7 +209,8 @@ class Drawing {
     if (!job_.mesh) return;
     const std::vector<int>& loop = job_.mesh->boundary;
     for (size_t i = 0; i < loop.size(); ++i)
-      cage_.push_back(edge_of(job_.mesh->vertices[loop[i]], job_.mesh->vertices[loop[(i + 1) % loop.size()]]));
+      cage_.push_back(
+          edge_of(job_.mesh->vertices[loop[i]], job_.mesh->vertices[loop[(i + 1) % loop.size()]]));
   }
 
   void add_mesh() {
@@ -216,14 +226,16 @@ class Drawing {
       add_piece({job_.positions[t[0]], job_.positions[t[1]], job_.positions[t[2]]}, u, v, false);
     }
     for (size_t i = 0; i < mesh.boundary.size(); ++i)
-      silhouette_.push_back(edge_of(job_.positions[mesh.boundary[i]], job_.positions[mesh.boundary[(i + 1) % mesh.boundary.size()]]));
+      silhouette_.push_back(edge_of(job_.positions[mesh.boundary[i]],
+                                    job_.positions[mesh.boundary[(i + 1) % mesh.boundary.size()]]));
   }
 
   void bin() {
     bands_.resize((output_.height + kBand - 1) / kBand);
     const auto add = [&](double low, double high, int number, std::vector<int> Band::*list) {
       const int first = std::max(0, static_cast<int>(std::floor(low / kBand)));
-      const int last = std::min(static_cast<int>(bands_.size()) - 1, static_cast<int>(std::floor(high / kBand)));
+      const int last =
+          std::min(static_cast<int>(bands_.size()) - 1, static_cast<int>(std::floor(high / kBand)));
       for (int band = first; band <= last; ++band) (bands_[band].*list).push_back(number);
     };
     for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -231,37 +243,44 @@ class Drawing {
       add(low, high, static_cast<int>(i), &Band::pieces);
     }
     for (size_t i = 0; i < silhouette_.size(); ++i)
-      add(std::min(silhouette_[i][1], silhouette_[i][3]), std::max(silhouette_[i][1], silhouette_[i][3]), static_cast<int>(i), &Band::silhouette);
+      add(std::min(silhouette_[i][1], silhouette_[i][3]),
+          std::max(silhouette_[i][1], silhouette_[i][3]), static_cast<int>(i), &Band::silhouette);
     for (size_t i = 0; i < cage_.size(); ++i)
-      add(std::min(cage_[i][1], cage_[i][3]), std::max(cage_[i][1], cage_[i][3]), static_cast<int>(i), &Band::cage);
+      add(std::min(cage_[i][1], cage_[i][3]), std::max(cage_[i][1], cage_[i][3]),
+          static_cast<int>(i), &Band::cage);
   }
 
   /// What a band's pixels need besides the output: whether they are inside the rest cage, and the
   /// coverage samples of those that a silhouette crosses.
   struct Canvas {
     int first_row, rows, width;
-    std::vector<std::uint8_t> in_cage;      ///< per pixel centre
-    std::vector<int> slot;                  ///< per pixel: number in samples, or -1
+    std::vector<std::uint8_t> in_cage;  ///< per pixel centre
+    std::vector<int> slot;              ///< per pixel: number in samples, or -1
     std::vector<std::array<Float4, kSub * kSub>> samples;
     std::vector<std::uint16_t> sample_in_cage;  ///< per slot, a bit per sample
     std::vector<int> slot_pixel;
 
-    size_t at(int column, int row) const { return static_cast<size_t>(row - first_row) * width + column; }
+    size_t at(int column, int row) const {
+      return static_cast<size_t>(row - first_row) * width + column;
+    }
   };
 
   void mark(Canvas& canvas, const Edge& edge) const {
     const auto& [ax, ay, bx, by] = edge;
     const int low = std::max(canvas.first_row, static_cast<int>(std::floor(std::min(ay, by))));
-    const int high = std::min(canvas.first_row + canvas.rows - 1, static_cast<int>(std::floor(std::max(ay, by))));
+    const int high = std::min(canvas.first_row + canvas.rows - 1,
+                              static_cast<int>(std::floor(std::max(ay, by))));
     for (int row = low; row <= high; ++row) {
       double x0 = ax, x1 = bx;
       if (ay != by) {  // the part of the edge in this row
-        const double t0 = std::clamp((row - ay) / (by - ay), 0.0, 1.0), t1 = std::clamp((row + 1 - ay) / (by - ay), 0.0, 1.0);
+        const double t0 = std::clamp((row - ay) / (by - ay), 0.0, 1.0),
+                     t1 = std::clamp((row + 1 - ay) / (by - ay), 0.0, 1.0);
         x0 = ax + t0 * (bx - ax);
         x1 = ax + t1 * (bx - ax);
       }
       const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - 1e-9)));
-      const int right = std::min(canvas.width - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
+      const int right =
+          std::min(canvas.width - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
       for (int column = left; column <= right; ++column) {
         int& slot = canvas.slot[canvas.at(column, row)];
         if (slot >= 0) continue;
@@ -278,18 +297,21 @@ class Drawing {
     for (int row = canvas.first_row; row < canvas.first_row + canvas.rows; ++row) {
       row_crossings(cage_, edges, row + 0.5, at);
       for (size_t i = 0; i + 1 < at.size(); i += 2) {
-        const int left = std::max(0, first_center(at[i])), right = std::min(canvas.width, first_center(at[i + 1]));
+        const int left = std::max(0, first_center(at[i])),
+                  right = std::min(canvas.width, first_center(at[i + 1]));
         for (int c = left; c < right; ++c) canvas.in_cage[canvas.at(c, row)] = 1;
       }
     }
     for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
-      const int pixel = canvas.slot_pixel[slot], column = pixel % canvas.width, row = canvas.first_row + pixel / canvas.width;
+      const int pixel = canvas.slot_pixel[slot], column = pixel % canvas.width,
+                row = canvas.first_row + pixel / canvas.width;
       for (int sy = 0; sy < kSub; ++sy) {
         row_crossings(cage_, edges, row + (sy + 0.5) / kSub, at);
         for (int sx = 0; sx < kSub; ++sx) {
           const double x = column + (sx + 0.5) / kSub;
           const auto before = std::upper_bound(at.begin(), at.end(), x) - at.begin();
-          if (before % 2) canvas.sample_in_cage[slot] |= static_cast<std::uint16_t>(1u << (sy * kSub + sx));
+          if (before % 2)
+            canvas.sample_in_cage[slot] |= static_cast<std::uint16_t>(1u << (sy * kSub + sx));
         }
       }
     }
@@ -297,10 +319,12 @@ class Drawing {
 
   Float4 color_at(const Piece& piece, int column, int row) const {
     const double x = column + 0.5, y = row + 0.5;
-    const double u = piece.u0 + piece.ux * x + piece.uy * y, v = piece.v0 + piece.vx * x + piece.vy * y;
+    const double u = piece.u0 + piece.ux * x + piece.uy * y,
+                 v = piece.v0 + piece.vx * x + piece.vy * y;
     if (job_.view == View::checker) {
       const bool light = (static_cast<int>(std::floor(std::clamp(u / 16, -1e6, 1e6))) +
-                          static_cast<int>(std::floor(std::clamp(v / 16, -1e6, 1e6)))) & 1;
+                          static_cast<int>(std::floor(std::clamp(v / 16, -1e6, 1e6)))) &
+                         1;
       return light ? Float4{235, 235, 235, 255} : Float4{70, 90, 120, 255};
     }
     if (is_heat(job_.view)) {
@@ -313,7 +337,8 @@ class Drawing {
     for (int ty = 0; ty < piece.taps_y; ++ty)
       for (int tx = 0; tx < piece.taps_x; ++tx) {
         const double dx = (tx + 0.5) / piece.taps_x - 0.5, dy = (ty + 0.5) / piece.taps_y - 0.5;
-        Float4 color = sampler.at(u + piece.ux * dx + piece.uy * dy, v + piece.vx * dx + piece.vy * dy);
+        Float4 color =
+            sampler.at(u + piece.ux * dx + piece.uy * dy, v + piece.vx * dx + piece.vy * dy);
         const float alpha = color[3];
         color[3] = 1;
         sum += alpha * color;
@@ -325,15 +350,18 @@ class Drawing {
   void draw_piece(const Piece& piece, Canvas& canvas) {
     const auto [low, high] = std::minmax({piece.y[0], piece.y[1], piece.y[2]});
     const int first = std::max(canvas.first_row, static_cast<int>(std::floor(low)));
-    const int last = std::min(canvas.first_row + canvas.rows - 1, static_cast<int>(std::floor(high)));
+    const int last =
+        std::min(canvas.first_row + canvas.rows - 1, static_cast<int>(std::floor(high)));
     const double step_x = 1.0 / kSub;
     for (int row = first; row <= last; ++row) {
       double left = 0, right = 0;
       if (span_at(piece, row + 0.5, left, right)) {
-        const int begin = std::max(0, first_center(left)), end = std::min(canvas.width, first_center(right));
+        const int begin = std::max(0, first_center(left)),
+                  end = std::min(canvas.width, first_center(right));
         const size_t base = canvas.at(0, row);
         for (int column = begin; column < end; ++column) {
-          if (canvas.slot[base + column] >= 0 || (piece.outside && canvas.in_cage[base + column])) continue;
+          if (canvas.slot[base + column] >= 0 || (piece.outside && canvas.in_cage[base + column]))
+            continue;
           std::uint8_t* out = output_.at(column, row);
           const Float4 color = color_at(piece, column, row);
           store(out[3] == 0 ? color : over(color, load(out)), out);
@@ -351,7 +379,8 @@ class Drawing {
         most = std::max(most, rights[sy]);
       }
       if (!any) continue;
-      const int begin = std::max(0, static_cast<int>(std::floor(least))), end = std::min(canvas.width - 1, static_cast<int>(std::floor(most)));
+      const int begin = std::max(0, static_cast<int>(std::floor(least))),
+                end = std::min(canvas.width - 1, static_cast<int>(std::floor(most)));
       for (int column = begin; column <= end; ++column) {
         const int slot = canvas.slot[canvas.at(column, row)];
         if (slot < 0) continue;
@@ -372,7 +401,14 @@ class Drawing {
 
   void draw_band(int number) {
     const Band& band = bands_[number];
-    Canvas canvas{number * kBand, std::min(kBand, output_.height - number * kBand), output_.width, {}, {}, {}, {}, {}};
+    Canvas canvas{number * kBand,
+                  std::min(kBand, output_.height - number * kBand),
+                  output_.width,
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
     const size_t pixels = static_cast<size_t>(canvas.rows) * canvas.width;
     canvas.in_cage.assign(pixels, 0);
     canvas.slot.assign(pixels, -1);
@@ -382,7 +418,9 @@ class Drawing {
     for (const int p : band.pieces) draw_piece(pieces_[p], canvas);
     for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
       const auto& samples = canvas.samples[slot];
-      const bool alike = std::all_of(samples.begin(), samples.end(), [&](Float4 s) { return std::memcmp(&s, &samples[0], sizeof s) == 0; });
+      const bool alike = std::all_of(samples.begin(), samples.end(), [&](Float4 s) {
+        return std::memcmp(&s, &samples[0], sizeof s) == 0;
+      });
       Float4 sum{};
       for (Float4 sample : samples) {
         const float alpha = sample[3];
@@ -421,15 +459,22 @@ void trim(Image& image, Frame& frame, const Frame& least) {
     return true;
   };
   int top = 0, bottom = image.height, left = 0, right = image.width;
-  const auto stay = [&](int frame_side, int least_side) { return least.width == 0 || frame_side < least_side; };
+  const auto stay = [&](int frame_side, int least_side) {
+    return least.width == 0 || frame_side < least_side;
+  };
   while (top < bottom && stay(frame.top + top, least.top) && row_empty(top)) ++top;
-  while (bottom > top && stay(-(frame.top + bottom), -(least.top + least.height)) && row_empty(bottom - 1)) --bottom;
+  while (bottom > top && stay(-(frame.top + bottom), -(least.top + least.height)) &&
+         row_empty(bottom - 1))
+    --bottom;
   while (left < right && stay(frame.left + left, least.left) && column_empty(left)) ++left;
-  while (right > left && stay(-(frame.left + right), -(least.left + least.width)) && column_empty(right - 1)) --right;
+  while (right > left && stay(-(frame.left + right), -(least.left + least.width)) &&
+         column_empty(right - 1))
+    --right;
   if (right - left == image.width && bottom - top == image.height) return;
   Image cut(right - left, bottom - top);
   for (int r = 0; r < cut.height; ++r)
-    if (cut.width > 0) std::memcpy(cut.at(0, r), image.at(left, r + top), static_cast<size_t>(cut.width) * 4);
+    if (cut.width > 0)
+      std::memcpy(cut.at(0, r), image.at(left, r + top), static_cast<size_t>(cut.width) * 4);
   frame = {frame.left + left, frame.top + top, cut.width, cut.height};
   image = std::move(cut);
 }
@@ -437,13 +482,16 @@ void trim(Image& image, Frame& frame, const Frame& least) {
 }  // namespace
 
 RasterResult rasterized(const RasterJob& job) {
-  check(!job.mesh || job.positions.size() == job.mesh->vertices.size(), "a position for each mesh vertex");
+  check(!job.mesh || job.positions.size() == job.mesh->vertices.size(),
+        "a position for each mesh vertex");
   const double scale = job.pixels_per_unit;
-  if (!(scale > 0) || !std::isfinite(scale)) throw Error(ErrorKind::bad_input, "the scale must be a positive number");
+  if (!(scale > 0) || !std::isfinite(scale))
+    throw Error(ErrorKind::bad_input, "the scale must be a positive number");
   const double height = job.source ? job.source->height : 0;
   Frame least{0, 0, 0, 0};
   if (job.source)
-    least = {0, 0, std::max(1, static_cast<int>(std::lround(job.source->width * scale))), std::max(1, static_cast<int>(std::lround(height * scale)))};
+    least = {0, 0, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
+             std::max(1, static_cast<int>(std::lround(height * scale)))};
   double left = least.left, top = least.top, right = least.width, bottom = least.height;
   if (job.mesh && !(job.crop && job.source)) {
     Box box = box_of(job.positions);
@@ -455,9 +503,12 @@ RasterResult rasterized(const RasterJob& job) {
   }
   constexpr double kLargest = 16384;
   if (!(right - left <= kLargest && bottom - top <= kLargest))
-    throw Error(ErrorKind::bad_input, "the picture would have more than 16384 pixels a side; choose a smaller scale");
-  if (right <= left || bottom <= top) throw Error(ErrorKind::bad_input, "there is nothing to draw: no picture and no cage");
-  Frame frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left), static_cast<int>(bottom - top)};
+    throw Error(ErrorKind::bad_input,
+                "the picture would have more than 16384 pixels a side; choose a smaller scale");
+  if (right <= left || bottom <= top)
+    throw Error(ErrorKind::bad_input, "there is nothing to draw: no picture and no cage");
+  Frame frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
+              static_cast<int>(bottom - top)};
   Drawing drawing(job, frame.left / scale, height - frame.top / scale, frame.width, frame.height);
   Image image = drawing.draw();
   if (!job.crop) trim(image, frame, least);

@@ -12,15 +12,15 @@ namespace holomorph {
 /// What to draw. The mesh's vertices are taken to `positions`; `source` is sampled once, at rest
 /// coordinates. What lies outside the rest cage stays where it is.
 struct RasterJob {
-  const Mesh* mesh = nullptr;                ///< null: the source alone
-  std::span<const Complex> positions;        ///< per mesh vertex
-  const Image* source = nullptr;             ///< may be null for heat maps and checkers
+  const Mesh* mesh = nullptr;          ///< null: the source alone
+  std::span<const Complex> positions;  ///< per mesh vertex
+  const Image* source = nullptr;       ///< may be null for heat maps and checkers
   View view = View::image;
-  Eigen::VectorXd heat;                      ///< per mesh vertex, for heat views
+  Eigen::VectorXd heat;  ///< per mesh vertex, for heat views
   HeatScale scale;
-  double pixels_per_unit = 1;                ///< output pixels per image pixel
-  bool crop = false;                         ///< keep the source's rectangle; else nothing is cut off
-  int threads = 0;                           ///< 0: as many as the machine has cores
+  double pixels_per_unit = 1;  ///< output pixels per image pixel
+  bool crop = false;           ///< keep the source's rectangle; else nothing is cut off
+  int threads = 0;             ///< 0: as many as the machine has cores
 };
 
 /// A picture and where its lower left corner lies in the plane.

@@ -27,7 +27,8 @@ GLuint compiled(GLenum kind, const std::string& source) {
 
 GLuint linked() {
   const GLuint program = glCreateProgram();
-  const GLuint vertex = compiled(GL_VERTEX_SHADER, kWarpVert), fragment = compiled(GL_FRAGMENT_SHADER, kImageFrag);
+  const GLuint vertex = compiled(GL_VERTEX_SHADER, kWarpVert),
+               fragment = compiled(GL_FRAGMENT_SHADER, kImageFrag);
   glAttachShader(program, vertex);
   glAttachShader(program, fragment);
   const char* read_back[] = {"warped"};
@@ -46,7 +47,8 @@ GLuint linked() {
 }
 
 /// Averages blocks of factor x factor pixels, weighted by alpha, and premultiplies.
-std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_t* pixels, int factor) {
+std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_t* pixels,
+                                        int factor) {
   const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
   std::vector<std::uint8_t> out(static_cast<size_t>(w) * h * 4);
   for (int r = 0; r < h; ++r)
@@ -58,7 +60,9 @@ std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_
           for (int k = 0; k < 3; ++k) sum[k] += (p[k] * p[3] + 127) / 255;
           sum[3] += p[3];
         }
-      for (int k = 0; k < 4; ++k) out[4 * (static_cast<size_t>(r) * w + c) + k] = static_cast<std::uint8_t>((sum[k] + count / 2) / count);
+      for (int k = 0; k < 4; ++k)
+        out[4 * (static_cast<size_t>(r) * w + c) + k] =
+            static_cast<std::uint8_t>((sum[k] + count / 2) / count);
     }
   return out;
 }
@@ -85,7 +89,8 @@ constexpr int kPicture = 0, kColors = 1, kMatrix = 2, kControls = 3;  // texture
 struct Renderer::Objects {
   GLuint program = linked();
   GLuint vertex_array = 0, quad_array = 0;
-  GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0, feedback = 0;
+  GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
+         feedback = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0;
   double width = 0, height = 0;  ///< the picture's, in plane units
@@ -96,11 +101,17 @@ struct Renderer::Objects {
 
 Renderer::Renderer() {
   if (epoxy_gl_version() < 33)
-    throw Error(ErrorKind::failed, "OpenGL 3.3 is needed; this display offers " + std::to_string(epoxy_gl_version() / 10) + "." + std::to_string(epoxy_gl_version() % 10));
+    throw Error(ErrorKind::failed, "OpenGL 3.3 is needed; this display offers " +
+                                       std::to_string(epoxy_gl_version() / 10) + "." +
+                                       std::to_string(epoxy_gl_version() % 10));
   gl_ = std::make_unique<Objects>();
   Objects& gl = *gl_;
-  for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix, &gl.controls, &gl.feedback}) glGenBuffers(1, buffer);
-  for (GLuint* texture : {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture}) glGenTextures(1, texture);
+  for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix,
+                         &gl.controls, &gl.feedback})
+    glGenBuffers(1, buffer);
+  for (GLuint* texture :
+       {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture})
+    glGenTextures(1, texture);
   glGenVertexArrays(1, &gl.vertex_array);
   glGenVertexArrays(1, &gl.quad_array);
 
@@ -131,8 +142,12 @@ Renderer::Renderer() {
 
 Renderer::~Renderer() {
   Objects& gl = *gl_;
-  for (const GLuint buffer : {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix, gl.controls, gl.feedback}) glDeleteBuffers(1, &buffer);
-  for (const GLuint texture : {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture}) glDeleteTextures(1, &texture);
+  for (const GLuint buffer :
+       {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix, gl.controls, gl.feedback})
+    glDeleteBuffers(1, &buffer);
+  for (const GLuint texture :
+       {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture})
+    glDeleteTextures(1, &texture);
   glDeleteVertexArrays(1, &gl.vertex_array);
   glDeleteVertexArrays(1, &gl.quad_array);
   glDeleteProgram(gl.program);
@@ -165,8 +180,10 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
   }
   const double left = 0, right = width, bottom = 0, top = height;
-  const float corners[] = {static_cast<float>(left), static_cast<float>(bottom), static_cast<float>(right), static_cast<float>(bottom),
-                           static_cast<float>(left), static_cast<float>(top),    static_cast<float>(right), static_cast<float>(top)};
+  const float corners[] = {static_cast<float>(left),  static_cast<float>(bottom),
+                           static_cast<float>(right), static_cast<float>(bottom),
+                           static_cast<float>(left),  static_cast<float>(top),
+                           static_cast<float>(right), static_cast<float>(top)};
   upload(gl.quad, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
   return factor;
 }
@@ -185,19 +202,22 @@ void Renderer::set_mesh(const Mesh* mesh) {
   upload(gl.position, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STREAM_DRAW);
   upload(gl.value, GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float), GL_STREAM_DRAW);
   glBindVertexArray(gl.vertex_array);
-  upload(gl.triangles, GL_ELEMENT_ARRAY_BUFFER, mesh->triangles.data(), mesh->triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
+  upload(gl.triangles, GL_ELEMENT_ARRAY_BUFFER, mesh->triangles.data(),
+         mesh->triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
   glBindVertexArray(0);
 }
 
 void Renderer::set_positions(std::span<const Complex> positions) {
-  check(static_cast<GLsizei>(positions.size()) == gl_->vertex_count, "a position for each mesh vertex");
+  check(static_cast<GLsizei>(positions.size()) == gl_->vertex_count,
+        "a position for each mesh vertex");
   const std::vector<float> flat = pairs(positions);
   upload(gl_->position, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
 }
 
 void Renderer::set_heat(const Eigen::VectorXf& positions) {
   check(positions.size() == gl_->vertex_count, "a heat value for each mesh vertex");
-  upload(gl_->value, GL_ARRAY_BUFFER, positions.data(), static_cast<size_t>(positions.size()) * sizeof(float), GL_STREAM_DRAW);
+  upload(gl_->value, GL_ARRAY_BUFFER, positions.data(),
+         static_cast<size_t>(positions.size()) * sizeof(float), GL_STREAM_DRAW);
 }
 
 bool Renderer::set_operator(const PlanarMatrix<float>* matrix) {
@@ -233,13 +253,16 @@ void Renderer::set_controls(const VectorXc& controls) {
 
 namespace {
 
-int mode_of(Placement placement) { return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2; }
+int mode_of(Placement placement) {
+  return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2;
+}
 
 }  // namespace
 
 void Renderer::draw(const Frame& frame) {
   Objects& gl = *gl_;
-  const int left = static_cast<int>(frame.canvas_left), width = static_cast<int>(frame.canvas_width);
+  const int left = static_cast<int>(frame.canvas_left),
+            width = static_cast<int>(frame.canvas_width);
   const int height = static_cast<int>(frame.canvas_height);
   const int bottom = frame.window_height - static_cast<int>(frame.canvas_top) - height;
   glViewport(left, bottom, width, height);
@@ -260,10 +283,18 @@ void Renderer::draw(const Frame& frame) {
 
   glUseProgram(gl.program);
   const double sx = 2 * frame.zoom / width, sy = 2 * frame.zoom / height;
-  const float to_clip[9] = {static_cast<float>(sx), 0, 0, 0, static_cast<float>(sy), 0,
-                            static_cast<float>(-sx * frame.center.real()), static_cast<float>(-sy * frame.center.imag()), 1};
+  const float to_clip[9] = {static_cast<float>(sx),
+                            0,
+                            0,
+                            0,
+                            static_cast<float>(sy),
+                            0,
+                            static_cast<float>(-sx * frame.center.real()),
+                            static_cast<float>(-sy * frame.center.imag()),
+                            1};
   glUniformMatrix3fv(gl.at("to_clip"), 1, GL_FALSE, to_clip);
-  glUniform2f(gl.at("picture_size"), static_cast<float>(std::max(gl.width, 1.0)), static_cast<float>(std::max(gl.height, 1.0)));
+  glUniform2f(gl.at("picture_size"), static_cast<float>(std::max(gl.width, 1.0)),
+              static_cast<float>(std::max(gl.height, 1.0)));
   glUniform1i(gl.at("picture"), kPicture);
   glUniform1i(gl.at("colors"), kColors);
   glUniform1i(gl.at("operator_matrix"), kMatrix);
@@ -286,7 +317,9 @@ void Renderer::draw(const Frame& frame) {
     glDrawElements(GL_TRIANGLES, gl.index_count, GL_UNSIGNED_INT, nullptr);
   };
   const bool picture = gl.width > 0;
-  const Placement placement = frame.placement == Placement::by_operator && gl.columns == 0 ? Placement::positions : frame.placement;
+  const Placement placement = frame.placement == Placement::by_operator && gl.columns == 0
+                                  ? Placement::positions
+                                  : frame.placement;
 
   if (picture) {  // what shows through where the picture is transparent
     mode(Placement::at_rest);
@@ -350,7 +383,8 @@ std::vector<Complex> Renderer::placed_vertices(Placement placement) {
   glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.matrix_texture : 0);
   glActiveTexture(GL_TEXTURE0 + kControls);
   glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.controls_texture : 0);
-  upload(gl.feedback, GL_TRANSFORM_FEEDBACK_BUFFER, nullptr, flat.size() * sizeof(float), GL_STREAM_READ);
+  upload(gl.feedback, GL_TRANSFORM_FEEDBACK_BUFFER, nullptr, flat.size() * sizeof(float),
+         GL_STREAM_READ);
   glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, gl.feedback);
   glEnable(GL_RASTERIZER_DISCARD);
   glBindVertexArray(gl.vertex_array);
@@ -359,7 +393,8 @@ std::vector<Complex> Renderer::placed_vertices(Placement placement) {
   glEndTransformFeedback();
   glDisable(GL_RASTERIZER_DISCARD);
   glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, gl.feedback);
-  glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(flat.size() * sizeof(float)), flat.data());
+  glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0,
+                     static_cast<GLsizeiptr>(flat.size() * sizeof(float)), flat.data());
   glBindVertexArray(0);
   glUseProgram(0);
   std::vector<Complex> placed;

@@ -16,15 +16,16 @@ enum class Placement { at_rest, positions, by_operator };
 
 /// One drawing of the canvas. Window px have x to the right and y down.
 struct Frame {
-  int window_width = 1, window_height = 1;        ///< of the framebuffer
+  int window_width = 1, window_height = 1;  ///< of the framebuffer
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
-  Complex center;                                 ///< plane point in the canvas' middle
-  double zoom = 1;                                ///< framebuffer px per plane unit
+  Complex center;   ///< plane point in the canvas' middle
+  double zoom = 1;  ///< framebuffer px per plane unit
   View view = View::image;
-  bool diverging = false;                         ///< the heat map's colours
+  bool diverging = false;  ///< the heat map's colours
   Placement placement = Placement::positions;
-  bool wireframe = false;                         ///< the mesh's edges over it
-  Color background{0.2f, 0.2f, 0.2f}, backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
+  bool wireframe = false;  ///< the mesh's edges over it
+  Color background{0.2f, 0.2f, 0.2f},
+      backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
 };
 
 /// Owns the GL objects. Needs a current OpenGL 3.3 core context during construction, calls and
@@ -36,8 +37,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor by
-  /// which it had to be reduced for this driver, 1 when not at all.
+  /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor
+  /// by which it had to be reduced for this driver, 1 when not at all.
   int set_picture(int width, int height, const std::uint8_t* pixels);
   /// The mesh at rest; positions and operator start afresh. Null takes it away.
   void set_mesh(const Mesh* mesh);

@@ -9,7 +9,8 @@
 
 namespace holomorph {
 
-Texture::Texture(int width, int height, const std::uint8_t* pixels) : width_(width), height_(height) {
+Texture::Texture(int width, int height, const std::uint8_t* pixels)
+    : width_(width), height_(height) {
   glGenTextures(1, &id_);
   glBindTexture(GL_TEXTURE_2D, id_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -39,7 +40,8 @@ void read_framebuffer(int width, int height, std::uint8_t* pixels) {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
   const size_t row = static_cast<size_t>(width) * 4;
-  for (int r = 0; r < height; ++r) std::memcpy(pixels + r * row, &upside_down[(height - 1 - r) * row], row);
+  for (int r = 0; r < height; ++r)
+    std::memcpy(pixels + r * row, &upside_down[(height - 1 - r) * row], row);
 }
 
 }  // namespace holomorph

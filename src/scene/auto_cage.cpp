@@ -52,12 +52,14 @@ void keep_largest_part(Grid<std::uint8_t>& mask) {
 
 Grid<std::uint8_t> content_of(const Image& image) {
   Grid<std::uint8_t> mask(image.width, image.height, 0);
-  for (size_t i = 0; i < mask.cells.size(); ++i) mask.cells[i] = image.pixels[4 * i + 3] > kOpaqueAlpha;
+  for (size_t i = 0; i < mask.cells.size(); ++i)
+    mask.cells[i] = image.pixels[4 * i + 3] > kOpaqueAlpha;
   return mask;
 }
 
 /// One line of the exact squared Euclidean distance transform: the lower envelope of parabolas.
-void transform_line(const std::vector<double>& f, std::vector<double>& d, std::vector<int>& site, std::vector<double>& bound) {
+void transform_line(const std::vector<double>& f, std::vector<double>& d, std::vector<int>& site,
+                    std::vector<double>& bound) {
   const int n = static_cast<int>(f.size());
   int k = -1;
   for (int q = 0; q < n; ++q) {
@@ -65,7 +67,8 @@ void transform_line(const std::vector<double>& f, std::vector<double>& d, std::v
     double s = -1e20;
     while (k >= 0) {
       const int p = site[k];
-      s = ((f[q] + static_cast<double>(q) * q) - (f[p] + static_cast<double>(p) * p)) / (2.0 * (q - p));
+      s = ((f[q] + static_cast<double>(q) * q) - (f[p] + static_cast<double>(p) * p)) /
+          (2.0 * (q - p));
       if (s > bound[k]) break;
       --k;
     }
@@ -113,11 +116,14 @@ Points level_curve(const Grid<double>& field, double level) {
   for (int r = 0; r + 1 < h; ++r)
     for (int c = 0; c + 1 < w; ++c) {
       // Corners counter-clockwise with r upwards: lower left, lower right, upper right, upper left.
-      const bool corner[4] = {inside(c, r + 1), inside(c + 1, r + 1), inside(c + 1, r), inside(c, r)};
-      const int edge[4] = {horizontal(c, r + 1), vertical(c + 1, r), horizontal(c, r), vertical(c, r)};
+      const bool corner[4] = {inside(c, r + 1), inside(c + 1, r + 1), inside(c + 1, r),
+                              inside(c, r)};
+      const int edge[4] = {horizontal(c, r + 1), vertical(c + 1, r), horizontal(c, r),
+                           vertical(c, r)};
       int leaving[2], entering[2], outs = 0, ins = 0;
       for (int k = 0; k < 4; ++k) {
-        if (corner[k] && !corner[(k + 1) % 4]) entering[ins++] = k;   // the curve enters the cell here
+        if (corner[k] && !corner[(k + 1) % 4])
+          entering[ins++] = k;  // the curve enters the cell here
         if (!corner[k] && corner[(k + 1) % 4]) leaving[outs++] = k;
       }
       for (int k = 0; k < ins; ++k) {
@@ -165,7 +171,8 @@ std::vector<std::uint8_t> largest_part(const Image& image) {
 
 Points auto_cage(const Image& image, const AutoCageOptions& options) {
   if (options.vertices < 3 || options.vertices > 500)
-    throw Error(ErrorKind::bad_input, "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
+    throw Error(ErrorKind::bad_input,
+                "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
   const int longest = std::max(image.width, image.height);
   if (!std::isfinite(options.margin) || options.margin > 4.0 * longest)
     throw Error(ErrorKind::bad_input, "the margin is larger than four times the picture");
@@ -177,19 +184,23 @@ Points auto_cage(const Image& image, const AutoCageOptions& options) {
   // Cells of `scale` pixels: a cell with any pixel of the part counts whole.
   constexpr int kMostCells = 768;
   const int scale = (longest + kMostCells - 1) / kMostCells;
-  // Distances are roots of whole numbers; a level between them never passes through a cell's centre,
-  // where a level curve could touch itself.
+  // Distances are roots of whole numbers; a level between them never passes through a cell's
+  // centre, where a level curve could touch itself.
   constexpr double kBetween = 0.0073;
-  const double level = std::max(margin / scale, 1.6) + kBetween, kept_level = std::max(0.45 * level, 0.75) + kBetween;
+  const double level = std::max(margin / scale, 1.6) + kBetween,
+               kept_level = std::max(0.45 * level, 0.75) + kBetween;
   const int border = static_cast<int>(std::ceil(level)) + 3;
-  Grid<std::uint8_t> cells((image.width - 1) / scale + 1 + 2 * border, (image.height - 1) / scale + 1 + 2 * border, 0);
+  Grid<std::uint8_t> cells((image.width - 1) / scale + 1 + 2 * border,
+                           (image.height - 1) / scale + 1 + 2 * border, 0);
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c)
-      if (part[static_cast<size_t>(r) * image.width + c]) cells(border + c / scale, border + r / scale) = 1;
+      if (part[static_cast<size_t>(r) * image.width + c])
+        cells(border + c / scale, border + r / scale) = 1;
   const Grid<double> field = distance_field(cells);
   Points outline = level_curve(field, level), kept = level_curve(field, kept_level);
   const auto in_plane = [&](Complex z) {  // cell centres to image pixels, y up
-    return Complex((z.real() - border + 0.5) * scale, image.height + (z.imag() + border - 0.5) * scale);
+    return Complex((z.real() - border + 0.5) * scale,
+                   image.height + (z.imag() + border - 0.5) * scale);
   };
   std::transform(outline.begin(), outline.end(), outline.begin(), in_plane);
   std::transform(kept.begin(), kept.end(), kept.begin(), in_plane);

@@ -10,8 +10,8 @@ namespace holomorph {
 inline constexpr int kOpaqueAlpha = 8;
 
 struct AutoCageOptions {
-  int vertices = 30;    ///< wanted number of cage vertices, 3 to 500
-  double margin = -1;   ///< distance from the content in pixels; negative: 2 % of the longer side
+  int vertices = 30;   ///< wanted number of cage vertices, 3 to 500
+  double margin = -1;  ///< distance from the content in pixels; negative: 2 % of the longer side
 };
 
 /// A simple counter-clockwise polygon around the largest connected part of a picture's content
@@ -21,8 +21,8 @@ struct AutoCageOptions {
 /// Throws Error for options out of range. Cost: 0.1 to 0.3 s; large pictures are reduced for it.
 Points auto_cage(const Image& image, const AutoCageOptions& options = {});
 
-/// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty when
-/// there is no content.
+/// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty
+/// when there is no content.
 std::vector<std::uint8_t> largest_part(const Image& image);
 
 /// The scene with this cage at rest and in pose; pins keep their places.

@@ -25,14 +25,19 @@ std::string fresh_id() {
 Path image_path_of(const Scene& scene, const Path& scene_path) {
   if (!scene.image) return {};
   const Path file(scene.image->file);
-  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file).lexically_normal();
+  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file)
+      .lexically_normal();
 }
 
-Path autosave_path(const Path& folder, const std::string& id) { return folder / (id + ".json"); }
+Path autosave_path(const Path& folder, const std::string& id) {
+  return folder / (id + ".json");
+}
 
 }  // namespace
 
-bool is_scene_path(const Path& path) { return path.extension() == ".json"; }
+bool is_scene_path(const Path& path) {
+  return path.extension() == ".json";
+}
 
 LoadedScene load_scene(const Path& path) {
   LoadedScene loaded;
@@ -59,15 +64,20 @@ LoadedScene scene_of_image(const Path& path) {
   const std::string bytes = read_file(path);
   LoadedScene loaded;
   loaded.image = std::make_shared<const Image>(decode_image(bytes, path.string()));
-  loaded.scene.image = ImageReference{fs::absolute(path).string(), loaded.image->width, loaded.image->height, sha256_hex(bytes), ""};
+  loaded.scene.image = ImageReference{fs::absolute(path).string(), loaded.image->width,
+                                      loaded.image->height, sha256_hex(bytes), ""};
   return loaded;
 }
 
 Document::Document() : id_(fresh_id()), history_(Scene{}, "New") {}
 
 Document::Document(LoadedScene loaded, Path path)
-    : id_(fresh_id()), history_(loaded.scene), image_(std::move(loaded.image)),
-      image_path_(image_path_of(loaded.scene, path)), path_(std::move(path)), saved_(loaded.scene),
+    : id_(fresh_id()),
+      history_(loaded.scene),
+      image_(std::move(loaded.image)),
+      image_path_(image_path_of(loaded.scene, path)),
+      path_(std::move(path)),
+      saved_(loaded.scene),
       warning_(std::move(loaded.warning)) {}
 
 Document Document::open(const Path& path) {
@@ -86,13 +96,16 @@ std::string Document::title() const {
   return image_path_.empty() ? "Untitled" : image_path_.stem().string() + " (not saved)";
 }
 
-bool Document::commit(const std::string& label, Scene scene) { return history_.commit(label, std::move(scene)); }
+bool Document::commit(const std::string& label, Scene scene) {
+  return history_.commit(label, std::move(scene));
+}
 
 Scene Document::portable(const Path& folder) const {
   Scene scene = history_.current();
   if (scene.image && !image_path_.empty()) {
     const Path relative = image_path_.lexically_relative(fs::absolute(folder).lexically_normal());
-    scene.image->file = relative.empty() || folder.empty() ? image_path_.string() : relative.generic_string();
+    scene.image->file =
+        relative.empty() || folder.empty() ? image_path_.string() : relative.generic_string();
   }
   return scene;
 }
@@ -120,7 +133,8 @@ std::vector<Path> recoverable(const Path& folder) {
   std::vector<std::pair<fs::file_time_type, Path>> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".json" || entry.path().filename().string().starts_with(".")) continue;
+    if (entry.path().extension() != ".json" || entry.path().filename().string().starts_with("."))
+      continue;
     const long owner = std::atol(entry.path().stem().c_str());
     if (owner > 0 && owner != ::getpid() && ::kill(static_cast<pid_t>(owner), 0) == 0) continue;
     if (owner == ::getpid()) continue;

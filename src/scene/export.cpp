@@ -35,7 +35,8 @@ void append(std::string& bytes, double x) {
 }  // namespace
 
 std::string npy_of(const MatrixXc& matrix) {
-  std::string bytes = npy_header("<c16", static_cast<size_t>(matrix.rows()), static_cast<size_t>(matrix.cols()));
+  std::string bytes =
+      npy_header("<c16", static_cast<size_t>(matrix.rows()), static_cast<size_t>(matrix.cols()));
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < matrix.cols(); ++j) {
       append(bytes, matrix(i, j).real());
@@ -53,11 +54,14 @@ std::string npy_of(std::span<const Complex> positions) {
   return bytes;
 }
 
-std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width, int image_height) {
+std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
+                   int image_height) {
   std::string out = "# The warped mesh: positions in image pixels, y up.\n";
-  for (const Complex& z : positions) out += "v " + number(z.real()) + " " + number(z.imag()) + " 0\n";
+  for (const Complex& z : positions)
+    out += "v " + number(z.real()) + " " + number(z.imag()) + " 0\n";
   const double w = std::max(image_width, 1), h = std::max(image_height, 1);
-  for (const Complex& z : mesh.vertices) out += "vt " + number(z.real() / w) + " " + number(z.imag() / h) + "\n";
+  for (const Complex& z : mesh.vertices)
+    out += "vt " + number(z.real() / w) + " " + number(z.imag() / h) + "\n";
   for (const Triangle& t : mesh.triangles) {
     out += "f";
     for (const int v : t) out += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1);
@@ -83,12 +87,15 @@ std::string svg_of(const Scene& scene) {
     if (c.size() == 4) path += " C " + point(c[1]) + " " + point(c[2]) + " " + point(c[3]);
     for (int k = 1; c.size() > 4 && k <= 64; ++k) path += " L " + point(bezier_point(c, k / 64.0));
   }
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) + "\" height=\"" +
-                    number(box.height()) + "\" viewBox=\"" + number(box.left) + " " + number(height - box.top) + " " +
-                    number(box.width()) + " " + number(box.height()) + "\">\n";
-  if (!path.empty()) svg += "  <path d=\"" + path + " Z\" fill=\"none\" stroke=\"#1a7f37\" stroke-width=\"2\"/>\n";
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
+                    "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
+                    " " + number(height - box.top) + " " + number(box.width()) + " " +
+                    number(box.height()) + "\">\n";
+  if (!path.empty())
+    svg += "  <path d=\"" + path + " Z\" fill=\"none\" stroke=\"#1a7f37\" stroke-width=\"2\"/>\n";
   for (const Pin& pin : scene.pins)
-    svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" + number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
+    svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
+           number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
   return svg + "</svg>\n";
 }
 
@@ -109,10 +116,12 @@ Points points_of_csv(const std::string& text, const std::string& name) {
       good = good && end != at && std::isfinite(x);
       at = end;
     }
-    good = good && line.find_first_not_of(' ', static_cast<size_t>(at - line.c_str())) == std::string::npos;
+    good = good &&
+           line.find_first_not_of(' ', static_cast<size_t>(at - line.c_str())) == std::string::npos;
     if (!good && number == 1) continue;
     if (!good)
-      throw Error(ErrorKind::bad_input, name + ": line " + std::to_string(number) + ": two finite numbers x,y are wanted");
+      throw Error(ErrorKind::bad_input, name + ": line " + std::to_string(number) +
+                                            ": two finite numbers x,y are wanted");
     points.push_back({pair[0], pair[1]});
   }
   return points;

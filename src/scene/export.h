@@ -13,7 +13,8 @@ std::string npy_of(const MatrixXc& matrix);
 std::string npy_of(std::span<const Complex> positions);
 
 /// The warped mesh as Wavefront OBJ: positions in image pixels, texture coordinates of the picture.
-std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width, int image_height);
+std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
+                   int image_height);
 
 /// The posed cage as one SVG path over a drawing of the picture's size (degrees above three are
 /// drawn as fine polylines), pins as circles.

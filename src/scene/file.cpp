@@ -24,7 +24,8 @@ std::string read_file(const Path& path, size_t limit) {
   if (!std::filesystem::is_regular_file(status))
     throw Error(ErrorKind::bad_input, path.string() + ": this is not a regular file");
   if (std::filesystem::file_size(path, error) > limit)
-    throw Error(ErrorKind::bad_input, path.string() + ": the file is larger than " + std::to_string(limit >> 20) + " MB");
+    throw Error(ErrorKind::bad_input,
+                path.string() + ": the file is larger than " + std::to_string(limit >> 20) + " MB");
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file) throw Error(ErrorKind::bad_input, path.string() + ": the file cannot be read");
@@ -52,7 +53,9 @@ void write_file(const Path& wanted, const std::string& bytes) {
   if (std::filesystem::is_directory(wanted, error))
     throw Error(ErrorKind::bad_input, wanted.string() + ": this is a directory; name a file");
   // A link keeps pointing where it points: its target is what gets replaced.
-  const Path resolved = std::filesystem::is_symlink(wanted, error) ? std::filesystem::canonical(wanted, error) : wanted;
+  const Path resolved = std::filesystem::is_symlink(wanted, error)
+                            ? std::filesystem::canonical(wanted, error)
+                            : wanted;
   const Path path = resolved.empty() ? wanted : resolved;
   const Path directory = path.has_parent_path() ? path.parent_path() : Path(".");
   std::string name = (directory / ("." + path.filename().string() + ".XXXXXX")).string();
@@ -85,7 +88,8 @@ void write_file(const Path& wanted, const std::string& bytes) {
 std::string sha256_hex(const std::string& bytes) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned int length = 0;
-  check(EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) == 1, "SHA-256 is available");
+  check(EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) == 1,
+        "SHA-256 is available");
   std::string hex;
   for (unsigned int i = 0; i < length; ++i) {
     constexpr char kDigits[] = "0123456789abcdef";

@@ -8,8 +8,8 @@ namespace holomorph {
 
 using Path = std::filesystem::path;
 
-/// The bytes of a regular file. Throws Error{bad_input} when it is missing, a directory, unreadable or
-/// larger than `limit` bytes.
+/// The bytes of a regular file. Throws Error{bad_input} when it is missing, a directory, unreadable
+/// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
 /// Replaces the file's content or leaves it as it was: writes beside it, flushes to disk, renames.

@@ -16,7 +16,9 @@ class History {
     Scene scene;
   };
 
-  explicit History(Scene scene, std::string label = "Open") { entries_.push_back({std::move(label), std::move(scene)}); }
+  explicit History(Scene scene, std::string label = "Open") {
+    entries_.push_back({std::move(label), std::move(scene)});
+  }
 
   /// Adds a scene after the current one; what had been undone is forgotten. A scene equal to the
   /// current one is not added: returns false.

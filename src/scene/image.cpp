@@ -17,26 +17,34 @@ Image decode_image(const std::string& bytes, const std::string& name) {
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-    throw Error(ErrorKind::bad_input, name + ": this is no picture that can be read (PNG, JPEG, BMP, TGA, GIF or PSD)");
+    throw Error(ErrorKind::bad_input,
+                name + ": this is no picture that can be read (PNG, JPEG, BMP, TGA, GIF or PSD)");
   if (width > kLargest || height > kLargest)
-    throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " + std::to_string(height) +
-                                          " pixels; at most " + std::to_string(kLargest) + " a side can be opened");
+    throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
+                                          std::to_string(height) + " pixels; at most " +
+                                          std::to_string(kLargest) + " a side can be opened");
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
-  if (!pixels) throw Error(ErrorKind::bad_input, name + ": the picture is damaged (" + stbi_failure_reason() + ")");
+  if (!pixels)
+    throw Error(ErrorKind::bad_input,
+                name + ": the picture is damaged (" + stbi_failure_reason() + ")");
   Image image(width, height);
   std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size());
   return image;
 }
 
-Image load_image(const Path& path) { return decode_image(read_file(path), path.string()); }
+Image load_image(const Path& path) {
+  return decode_image(read_file(path), path.string());
+}
 
 std::string encode_png(const Image& image) {
   std::string bytes;
   const auto append = [](void* out, void* data, int size) {
-    static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+    static_cast<std::string*>(out)->append(static_cast<const char*>(data),
+                                           static_cast<size_t>(size));
   };
-  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.pixels.data(), 4 * image.width))
+  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.pixels.data(),
+                              4 * image.width))
     throw Error(ErrorKind::failed, "the picture could not be encoded as PNG");
   return bytes;
 }

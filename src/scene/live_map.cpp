@@ -8,7 +8,9 @@ namespace holomorph {
 namespace {
 
 double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace
@@ -20,23 +22,29 @@ bool same_rest(const Scene& a, const Scene& b) {
   if (!method_named(a.method).uses_pins) return true;
   if (a.pins.size() != b.pins.size()) return false;
   for (size_t i = 0; i < a.pins.size(); ++i)
-    if (a.pins[i].rest != b.pins[i].rest || a.pins[i].angle.has_value() != b.pins[i].angle.has_value()) return false;
+    if (a.pins[i].rest != b.pins[i].rest ||
+        a.pins[i].angle.has_value() != b.pins[i].angle.has_value())
+      return false;
   return true;
 }
 
-std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision, const MeshOptions& options,
-                                          const PreparedMap* previous) {
+std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision,
+                                          const MeshOptions& options, const PreparedMap* previous) {
   const double start = now_ms();
   auto prepared = std::make_unique<PreparedMap>();
   prepared->rest = rest_of(scene, precision);
   prepared->method = scene.method;
   const Points polygon = vertices_of(scene.rest);
   const bool same_cage = previous && previous->mesh && vertices_of(previous->rest.cage) == polygon;
-  prepared->mesh = same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(polygon, options));
+  prepared->mesh =
+      same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(polygon, options));
   prepared->rest.samples = prepared->mesh->vertices;
-  prepared->rest.derivative_samples = same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
+  prepared->rest.derivative_samples =
+      same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
   const bool same_method = previous && previous->method == scene.method;
-  prepared->deformer = method_named(scene.method).prepare(prepared->rest, same_method ? previous->deformer.get() : nullptr);
+  prepared->deformer =
+      method_named(scene.method)
+          .prepare(prepared->rest, same_method ? previous->deformer.get() : nullptr);
   prepared->milliseconds = now_ms() - start;
   return prepared;
 }
@@ -68,7 +76,8 @@ void LiveMap::work() {
     } catch (const Error& error) {
       failure = error;
     } catch (const std::exception& error) {
-      failure = Error(ErrorKind::failed, std::string("the map could not be prepared: ") + error.what());
+      failure =
+          Error(ErrorKind::failed, std::string("the map could not be prepared: ") + error.what());
     }
     lock.lock();
     working_ = false;

@@ -12,7 +12,8 @@
 
 namespace holomorph {
 
-/// A domain mesh and a deformer over it: what a rest needs prepared. Immutable but for the deformer.
+/// A domain mesh and a deformer over it: what a rest needs prepared. Immutable but for the
+/// deformer.
 struct PreparedMap {
   Rest rest;  ///< with samples
   std::string method;
@@ -21,13 +22,14 @@ struct PreparedMap {
   double milliseconds = 0;  ///< what preparing took
 };
 
-/// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh of
-/// the same cage, the method's precomputation. Throws Error.
-std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision, const MeshOptions& options,
+/// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh
+/// of the same cage, the method's precomputation. Throws Error.
+std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision,
+                                          const MeshOptions& options,
                                           const PreparedMap* previous = nullptr);
 
-/// Follows a scene. update() never waits: while a changed rest is prepared on the worker the last map
-/// stays; errors are kept for showing and leave the last map, too.
+/// Follows a scene. update() never waits: while a changed rest is prepared on the worker the last
+/// map stays; errors are kept for showing and leave the last map, too.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {});
@@ -64,8 +66,8 @@ class LiveMap {
   std::shared_ptr<PreparedMap> shown_;
   SampledMap map_;
   std::optional<Error> error_;
-  std::optional<Scene> requested_;      ///< the scene whose rest was last asked for
-  std::optional<Scene> posed_;          ///< the scene that map_ shows
+  std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
+  std::optional<Scene> posed_;      ///< the scene that map_ shows
   bool posed_derivatives_ = false, busy_ = false;
   double pose_milliseconds_ = 0;
   unsigned preparation_ = 0;

@@ -16,11 +16,15 @@ Path folder(const char* variable, const char* fallback) {
   return Path(home && *home ? home : "/tmp") / fallback / "holomorph";
 }
 
-Path preferences_path() { return folder("XDG_CONFIG_HOME", ".config") / "preferences.json"; }
+Path preferences_path() {
+  return folder("XDG_CONFIG_HOME", ".config") / "preferences.json";
+}
 
 }  // namespace
 
-Path autosave_folder() { return folder("XDG_STATE_HOME", ".local/state") / "autosave"; }
+Path autosave_folder() {
+  return folder("XDG_STATE_HOME", ".local/state") / "autosave";
+}
 
 Preferences load_preferences() {
   Preferences preferences;
@@ -28,7 +32,8 @@ Preferences load_preferences() {
     const auto json = nlohmann::json::parse(read_file(preferences_path()));
     preferences.light_theme = json.value("light_theme", false);
     preferences.ui_scale = std::clamp(json.value("ui_scale", 0.0), 0.0, 4.0);
-    for (const auto& path : json.value("recent", std::vector<std::string>{})) preferences.recent.push_back(path);
+    for (const auto& path : json.value("recent", std::vector<std::string>{}))
+      preferences.recent.push_back(path);
   } catch (const std::exception&) {
     return Preferences{};
   }

@@ -37,7 +37,8 @@ double pin_distance(const PreparedMap& prepared, const Scene& scene) {
   SampledMap map;
   method_named(prepared.method).prepare(rest, nullptr)->deform(pose_of(scene), map, false);
   double sum = 0;
-  for (size_t i = 0; i < targets.size(); ++i) sum += std::norm(map.f[static_cast<Index>(i)] - targets[i]);
+  for (size_t i = 0; i < targets.size(); ++i)
+    sum += std::norm(map.f[static_cast<Index>(i)] - targets[i]);
   return std::sqrt(sum / static_cast<double>(targets.size()));
 }
 
@@ -45,10 +46,14 @@ double pin_distance(const PreparedMap& prepared, const Scene& scene) {
 
 const char* name_of(SampledMap::Status status) {
   switch (status) {
-    case SampledMap::Status::exact: return "exact";
-    case SampledMap::Status::iterating: return "iterating";
-    case SampledMap::Status::certified: return "certified";
-    case SampledMap::Status::infeasible: return "infeasible";
+    case SampledMap::Status::exact:
+      return "exact";
+    case SampledMap::Status::iterating:
+      return "iterating";
+    case SampledMap::Status::certified:
+      return "certified";
+    case SampledMap::Status::infeasible:
+      return "infeasible";
   }
   return "";
 }
@@ -61,7 +66,8 @@ SceneReport report_of(const Scene& scene) {
   SampledMap again;
   prepared->deformer->deform(pose_of(scene), again, false);
   SceneReport report;
-  report.pose_milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  report.pose_milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   report.method = scene.method;
   report.status = name_of(map.status);
   report.note = map.note;
@@ -73,7 +79,8 @@ SceneReport report_of(const Scene& scene) {
   report.prepare_milliseconds = prepared->milliseconds;
   report.map = report_of(*prepared->mesh, map);
   const double length = perimeter(vertices_of(scene.rest)) / (2 * kPi);
-  report.smoothness_energy = smoothness(*prepared->mesh, prepared->rest.derivative_samples, map, length);
+  report.smoothness_energy =
+      smoothness(*prepared->mesh, prepared->rest.derivative_samples, map, length);
   report.pin_rms = pin_distance(*prepared, scene);
   return report;
 }
@@ -106,21 +113,23 @@ std::string json_of(const SceneReport& report) {
 
 std::string text_of(const SceneReport& report) {
   char text[1200];
-  std::snprintf(text, sizeof text,
-                "method           %s\nstatus           %s%s%s\niterations       %d\n"
-                "energies         smoothness %.4g, pins rms %.4g px\n"
-                "time             prepare %.1f ms, pose %.2f ms\n"
-                "max k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n"
-                "zeros of f'      %zu\nturning number   %.3f\nsimple boundary  %s\n"
-                "flipped          %d of %d triangles\nfolds            %s\ncertified        %s\n"
-                "cage, pins       %d vertices, %d pins\nmesh             %d vertices, %d triangles\n",
-                report.method.c_str(), report.status.c_str(), report.note.empty() ? "" : ": ", report.note.c_str(),
-                report.iterations, report.smoothness_energy, report.pin_rms, report.prepare_milliseconds,
-                report.pose_milliseconds, report.map.max_k, report.map.min_sigma, report.map.max_sigma,
-                report.map.zeros.size(), report.map.turning_number, report.map.simple_boundary ? "yes" : "no",
-                report.map.flipped_triangles, report.mesh_triangles,
-                report.map.locally_injective() ? "none found" : "yes", report.status == "certified" ? "yes" : "no",
-                report.cage_vertices, report.pins, report.mesh_vertices, report.mesh_triangles);
+  std::snprintf(
+      text, sizeof text,
+      "method           %s\nstatus           %s%s%s\niterations       %d\n"
+      "energies         smoothness %.4g, pins rms %.4g px\n"
+      "time             prepare %.1f ms, pose %.2f ms\n"
+      "max k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n"
+      "zeros of f'      %zu\nturning number   %.3f\nsimple boundary  %s\n"
+      "flipped          %d of %d triangles\nfolds            %s\ncertified        %s\n"
+      "cage, pins       %d vertices, %d pins\nmesh             %d vertices, %d triangles\n",
+      report.method.c_str(), report.status.c_str(), report.note.empty() ? "" : ": ",
+      report.note.c_str(), report.iterations, report.smoothness_energy, report.pin_rms,
+      report.prepare_milliseconds, report.pose_milliseconds, report.map.max_k, report.map.min_sigma,
+      report.map.max_sigma, report.map.zeros.size(), report.map.turning_number,
+      report.map.simple_boundary ? "yes" : "no", report.map.flipped_triangles,
+      report.mesh_triangles, report.map.locally_injective() ? "none found" : "yes",
+      report.status == "certified" ? "yes" : "no", report.cage_vertices, report.pins,
+      report.mesh_vertices, report.mesh_triangles);
   return text;
 }
 

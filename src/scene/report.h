@@ -17,7 +17,8 @@ struct SceneReport {
   MapReport map;
 };
 
-/// Prepares the scene's map in full precision and measures it. Throws Error for a scene without a cage.
+/// Prepares the scene's map in full precision and measures it. Throws Error for a scene without a
+/// cage.
 SceneReport report_of(const Scene& scene);
 
 /// The same as readable lines, or as JSON with the keys of the specification.

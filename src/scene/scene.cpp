@@ -7,7 +7,8 @@ namespace holomorph {
 
 Rest rest_of(const Scene& scene, Precision precision) {
   if (!scene.has_cage())
-    throw Error(ErrorKind::bad_input, "the scene has no cage yet; draw one, or make one with 'holomorph new'");
+    throw Error(ErrorKind::bad_input,
+                "the scene has no cage yet; draw one, or make one with 'holomorph new'");
   Rest rest;
   rest.cage = elevated_to(scene.rest, scene.pose);
   if (method_named(scene.method).uses_pins)

@@ -1,4 +1,5 @@
-// One reader object carries the file's name and the JSON pointer, so that every error can say where.
+// One reader object carries the file's name and the JSON pointer, so that every error can say
+// where.
 #include "scene/scene_json.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr double kLargest = 1e8;       ///< coordinates beyond this are no picture's
+constexpr double kLargest = 1e8;  ///< coordinates beyond this are no picture's
 constexpr size_t kMostSegments = 5000;
 constexpr size_t kHighestDegree = 32;
 
@@ -22,7 +23,8 @@ class Reader {
       : value_(value), name_(std::move(name)), pointer_(std::move(pointer)) {}
 
   [[noreturn]] void fail(const std::string& reason, std::optional<Complex> where = {}) const {
-    throw Error(ErrorKind::bad_input, name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
+    throw Error(ErrorKind::bad_input,
+                name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
   }
 
   const Reader& object() const {
@@ -39,7 +41,9 @@ class Reader {
     if (!has(key)) fail(std::string("the key '") + key + "' is missing");
     return {value_.at(key), name_, pointer_ + "/" + key};
   }
-  Reader operator[](size_t i) const { return {value_.at(i), name_, pointer_ + "/" + std::to_string(i)}; }
+  Reader operator[](size_t i) const {
+    return {value_.at(i), name_, pointer_ + "/" + std::to_string(i)};
+  }
 
   double number() const {
     if (!value_.is_number()) fail("a number is wanted here, not " + kind());
@@ -50,7 +54,8 @@ class Reader {
   int whole(int lowest, int highest) const {
     const double n = number();
     if (n != std::floor(n) || n < lowest || n > highest)
-      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) + " is wanted here");
+      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
+           " is wanted here");
     return static_cast<int>(n);
   }
   std::string text() const {
@@ -61,7 +66,8 @@ class Reader {
     array();
     if (size() != 2) fail("a point [x, y] is wanted here");
     const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
-    if (std::abs(z.real()) > kLargest || std::abs(z.imag()) > kLargest) fail("the coordinates are larger than 1e8");
+    if (std::abs(z.real()) > kLargest || std::abs(z.imag()) > kLargest)
+      fail("the coordinates are larger than 1e8");
     return z;
   }
   /// A parameter: a number, or a switch as 0 or 1.
@@ -81,7 +87,9 @@ class Reader {
   }
 
  private:
-  std::string kind() const { return value_.is_null() ? "null" : std::string("a ") + value_.type_name(); }
+  std::string kind() const {
+    return value_.is_null() ? "null" : std::string("a ") + value_.type_name();
+  }
 
   const Json& value_;
   std::string name_, pointer_;
@@ -89,12 +97,14 @@ class Reader {
 
 Cage read_loop(const Reader& list) {
   list.array();
-  if (list.size() > kMostSegments) list.fail("more than " + std::to_string(kMostSegments) + " segments");
+  if (list.size() > kMostSegments)
+    list.fail("more than " + std::to_string(kMostSegments) + " segments");
   Cage cage;
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader segment = list[i].array();
     if (segment.size() == 0) segment.fail("a segment needs at least its first control point");
-    if (segment.size() > kHighestDegree) segment.fail("a segment's degree is at most " + std::to_string(kHighestDegree));
+    if (segment.size() > kHighestDegree)
+      segment.fail("a segment's degree is at most " + std::to_string(kHighestDegree));
     Points controls;
     for (size_t m = 0; m < segment.size(); ++m) controls.push_back(segment[m].point());
     cage.segments.push_back(std::move(controls));
@@ -158,17 +168,21 @@ void read_method(const Reader& reader, Scene& scene) {
     for (const std::string& key : values.keys()) {
       const auto spec = std::find_if(method.parameters.begin(), method.parameters.end(),
                                      [&](const ParameterSpec& s) { return s.key == key; });
-      if (spec == method.parameters.end()) values.fail("method '" + scene.method + "' has no parameter '" + key + "'");
+      if (spec == method.parameters.end())
+        values.fail("method '" + scene.method + "' has no parameter '" + key + "'");
       const double value = values[key.c_str()].value();
       if (value < spec->lowest || value > spec->highest)
-        values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " + Json(spec->highest).dump() + "]");
+        values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
+                                 Json(spec->highest).dump() + "]");
       scene.parameters[key] = value;
     }
   }
   scene.method_extra = reader.others({"id", "parameters"});
 }
 
-Json point_json(Complex z) { return Json::array({z.real(), z.imag()}); }
+Json point_json(Complex z) {
+  return Json::array({z.real(), z.imag()});
+}
 
 Json loop_json(const Cage& cage) {
   Json list = Json::array();
@@ -232,7 +246,9 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     reader.fail("this is not a Holomorph scene: \"format\": \"holomorph\" is missing");
   const int version = reader["version"].whole(1, 1 << 30);
   if (version > kVersion)
-    reader["version"].fail("the scene is of version " + std::to_string(version) + ", written by a newer program; this one reads up to version " + std::to_string(kVersion));
+    reader["version"].fail("the scene is of version " + std::to_string(version) +
+                           ", written by a newer program; this one reads up to version " +
+                           std::to_string(kVersion));
   Scene scene;
   if (reader.has("image")) scene.image = read_image(reader["image"]);
   read_cage(reader["cage"], scene);
@@ -253,7 +269,8 @@ std::string json_of(const Scene& scene) {
   if (scene.image) {
     Json image;
     image["file"] = scene.image->file;
-    if (scene.image->width > 0) image["size"] = Json::array({scene.image->width, scene.image->height});
+    if (scene.image->width > 0)
+      image["size"] = Json::array({scene.image->width, scene.image->height});
     if (!scene.image->sha256.empty()) image["sha256"] = scene.image->sha256;
     add_extra(image, scene.image->extra);
     document["image"] = std::move(image);

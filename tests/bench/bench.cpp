@@ -16,7 +16,9 @@ namespace holomorph::bench {
 namespace {
 
 double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 /// The median time of `work` in milliseconds, after one run that does not count.
@@ -45,7 +47,8 @@ Points wavy(int n, Complex center, double radius) {
 Scene scene_with(const Points& polygon) {
   Scene scene;
   scene.rest = scene.pose = polygon_cage(polygon);
-  for (Points& segment : scene.pose.segments) segment[0] += 20.0 * std::sin(segment[0] / 100.0).real();
+  for (Points& segment : scene.pose.segments)
+    segment[0] += 20.0 * std::sin(segment[0] / 100.0).real();
   return scene;
 }
 
@@ -57,7 +60,8 @@ Image gradient(int side) {
   for (int r = 0; r < side; ++r)
     for (int c = 0; c < side; ++c) {
       std::uint8_t* p = image.at(c, r);
-      p[0] = static_cast<std::uint8_t>(c), p[1] = static_cast<std::uint8_t>(r), p[2] = static_cast<std::uint8_t>(c ^ r);
+      p[0] = static_cast<std::uint8_t>(c), p[1] = static_cast<std::uint8_t>(r),
+      p[2] = static_cast<std::uint8_t>(c ^ r);
       p[3] = 255;
     }
   return image;
@@ -82,7 +86,8 @@ double coordinates_ns(Kernel kernel, int order, int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {kAsked});
   PlanarMatrix<float> out;
-  const double ms = median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices, order, kernel, out); });
+  const double ms =
+      median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices, order, kernel, out); });
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
@@ -92,7 +97,8 @@ double scalar_log_ns(int runs) {
   Complex sum = 0;
   const double ms = median_ms(runs, [&] {
     for (const Complex& z : mesh.vertices)
-      for (size_t e = 0; e < cage.size(); ++e) sum += std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z));
+      for (size_t e = 0; e < cage.size(); ++e)
+        sum += std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z));
   });
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100) + 1e-300 * std::abs(sum);
 }
@@ -123,7 +129,8 @@ double mesh_ms(int runs) {
 double add_pin_ms(int runs) {
   Scene scene = scene_with(wavy(100, {500, 500}, 350));
   scene.method = "pins";
-  for (int i = 0; i < 10; ++i) scene.pins.push_back({Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
+  for (int i = 0; i < 10; ++i)
+    scene.pins.push_back({Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
   const auto before = prepared_map(scene, Precision::single, {kAsked});
   scene.pins.push_back({{510, 520}, {510, 520}, {}, {}});
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}, before.get()); });
@@ -166,27 +173,38 @@ double memory_mb(int) {
 }
 
 const Entry kEntries[] = {
-    {"open: 2000 x 2000 picture, 32-vertex cage, resident memory without a window", "MB", 300, 1, memory_mb},
-    {"coordinates: degree 1, order 0, AVX2, 15k points x 100 edges, per point and edge", "ns", 4, 15,
-     [](int runs) { return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 0, runs); }},
-    {"coordinates: the same, widest instructions", "ns", 0, 15, [](int runs) { return coordinates_ns(Kernel::automatic, 0, runs); }},
-    {"coordinates: the same, portable", "ns", 0, 9, [](int runs) { return coordinates_ns(Kernel::portable, 0, runs); }},
+    {"open: 2000 x 2000 picture, 32-vertex cage, resident memory without a window", "MB", 300, 1,
+     memory_mb},
+    {"coordinates: degree 1, order 0, AVX2, 15k points x 100 edges, per point and edge", "ns", 4,
+     15,
+     [](int runs) {
+       return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 0, runs);
+     }},
+    {"coordinates: the same, widest instructions", "ns", 0, 15,
+     [](int runs) { return coordinates_ns(Kernel::automatic, 0, runs); }},
+    {"coordinates: the same, portable", "ns", 0, 9,
+     [](int runs) { return coordinates_ns(Kernel::portable, 0, runs); }},
     {"coordinates: order 1, AVX2, per point and edge", "ns", 0, 9,
-     [](int runs) { return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 1, runs); }},
-    {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0, 9, scalar_log_ns},
+     [](int runs) {
+       return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 1, runs);
+     }},
+    {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0,
+     9, scalar_log_ns},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
     {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
     {"pins: one pin more at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
-    {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15, [](int runs) { return export_ms(runs, 2); }},
+    {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
+     [](int runs) { return export_ms(runs, 2); }},
     {"export: the same, one core", "ms", 0, 9, [](int runs) { return export_ms(runs, 1); }},
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
 };
 
 }  // namespace
 
-std::vector<Result> measured(const std::string& filter, const std::function<void(const Result&)>& report) {
+std::vector<Result> measured(const std::string& filter,
+                             const std::function<void(const Result&)>& report) {
   std::vector<Result> results;
   for (const Entry& entry : kEntries) {
     if (std::string(entry.name).find(filter) == std::string::npos) continue;
@@ -198,10 +216,12 @@ std::vector<Result> measured(const std::string& filter, const std::function<void
 
 std::string line_of(const Result& result) {
   char text[200];
-  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median, result.unit.c_str());
+  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
+                result.unit.c_str());
   std::string line = text;
   if (result.goal > 0) {
-    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal, result.median <= result.goal ? "" : ", missed");
+    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal,
+                  result.median <= result.goal ? "" : ", missed");
     line += text;
   }
   return line;
@@ -217,9 +237,11 @@ std::string json_of(const std::vector<Result>& results) {
   std::string json = "[\n";
   for (size_t i = 0; i < results.size(); ++i) {
     char text[320];
-    std::snprintf(text, sizeof text, "  {\"name\": \"%s\", \"unit\": \"%s\", \"median\": %.6g, \"goal\": %g, \"runs\": %d}%s\n",
-                  results[i].name.c_str(), results[i].unit.c_str(), results[i].median, results[i].goal, results[i].runs,
-                  i + 1 < results.size() ? "," : "");
+    std::snprintf(
+        text, sizeof text,
+        "  {\"name\": \"%s\", \"unit\": \"%s\", \"median\": %.6g, \"goal\": %g, \"runs\": %d}%s\n",
+        results[i].name.c_str(), results[i].unit.c_str(), results[i].median, results[i].goal,
+        results[i].runs, i + 1 < results.size() ? "," : "");
     json += text;
   }
   return json + "]\n";

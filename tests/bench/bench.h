@@ -14,7 +14,8 @@ struct Result {
 };
 
 /// Runs every benchmark whose name contains `filter`; `report` is told each result as it comes.
-std::vector<Result> measured(const std::string& filter, const std::function<void(const Result&)>& report);
+std::vector<Result> measured(const std::string& filter,
+                             const std::function<void(const Result&)>& report);
 
 std::string line_of(const Result& result);
 std::string table_of(const std::vector<Result>& results);

@@ -25,8 +25,12 @@ json golden(const std::string& name) {
   return json::parse(file);
 }
 
-Complex complex_at(const json& flat, size_t i) { return {flat[2 * i].get<double>(), flat[2 * i + 1].get<double>()}; }
-bool exists(const json& flat, size_t i) { return !flat[2 * i].is_null(); }
+Complex complex_at(const json& flat, size_t i) {
+  return {flat[2 * i].get<double>(), flat[2 * i + 1].get<double>()};
+}
+bool exists(const json& flat, size_t i) {
+  return !flat[2 * i].is_null();
+}
 
 Points polygon_of(const json& data) {
   Points polygon;
@@ -59,7 +63,8 @@ Points star(int n, double ripple, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> radius(1 - ripple, 1 + ripple);
   Points polygon;
-  for (int i = 0; i < n; ++i) polygon.push_back(100.0 * radius(random) * std::exp(kI * (2 * kPi * i / n)));
+  for (int i = 0; i < n; ++i)
+    polygon.push_back(100.0 * radius(random) * std::exp(kI * (2 * kPi * i / n)));
   return polygon;
 }
 
@@ -100,7 +105,8 @@ TEST_CASE("Cauchy coordinates of every degree and order equal the golden values"
           }
           worst = std::max(worst, error / scale);
         }
-        INFO(name << " " << query["kind"] << " z=" << z << " order " << order << " error " << worst);
+        INFO(name << " " << query["kind"] << " z=" << z << " order " << order << " error "
+                  << worst);
         CHECK(worst <= kGolden);
       }
     }
@@ -117,13 +123,15 @@ TEST_CASE("Cauchy coordinates at vertices are the limits from inside, for mixed 
       for (Index v = 0; v < cage.size(); ++v) {
         const Complex exact = complex_at(query["bezier_shared"], v);
         INFO(name << " vertex " << query["vertex"] << " column " << v);
-        CHECK(std::abs(row[cage.control_offset(v)] - exact) <= kGolden * std::max(1e-3, std::abs(exact)));
+        CHECK(std::abs(row[cage.control_offset(v)] - exact) <=
+              kGolden * std::max(1e-3, std::abs(exact)));
       }
       for (Index e = 0; e < cage.size(); ++e)
         for (int m = 1; m < cage.degree(e); ++m)
           if (exists(query["bezier"]["0"][e], m)) {
             const Complex exact = complex_at(query["bezier"]["0"][e], m);
-            CHECK(std::abs(row[cage.control_offset(e) + m] - exact) <= kGolden * std::max(1e-3, std::abs(exact)));
+            CHECK(std::abs(row[cage.control_offset(e) + m] - exact) <=
+                  kGolden * std::max(1e-3, std::abs(exact)));
           }
       CHECK_FALSE(row_at(cage, query, 1).allFinite());
     }
@@ -146,10 +154,12 @@ TEST_CASE("The map of target control points and its derivatives equal the golden
         for (Index e = 0; e < cage.size(); ++e) {
           const json& exact = query["bezier"][std::to_string(order)][e];
           for (int m = 0; m <= cage.degree(e); ++m)
-            if (exists(exact, m)) scale += std::abs(complex_at(exact, m) * complex_at(data["target"][e], m));
+            if (exists(exact, m))
+              scale += std::abs(complex_at(exact, m) * complex_at(data["target"][e], m));
         }
         const Complex image = (row.transpose() * target)(0);
-        const Complex exact{query["map"][order][0].get<double>(), query["map"][order][1].get<double>()};
+        const Complex exact{query["map"][order][0].get<double>(),
+                            query["map"][order][1].get<double>()};
         INFO(name << " " << query["kind"] << " order " << order);
         CHECK(std::abs(image - exact) <= kGolden * std::max(scale, std::abs(exact)));
       }
@@ -174,15 +184,19 @@ TEST_CASE("Degree 1 gives the regular coordinates C, D and D2, by both paths") {
           if (!vertex && order < 2) {
             const bool limit = query["kind"] == "edge_limit";
             const Index before = (j + n - 1) % n;
-            scale = std::abs(edge_coordinates(polygon[before], polygon[j], 1, z, order, limit && query["edge"] == before)[1]) +
-                    std::abs(edge_coordinates(polygon[j], polygon[(j + 1) % n], 1, z, order, limit && query["edge"] == j)[0]);
+            scale = std::abs(edge_coordinates(polygon[before], polygon[j], 1, z, order,
+                                              limit && query["edge"] == before)[1]) +
+                    std::abs(edge_coordinates(polygon[j], polygon[(j + 1) % n], 1, z, order,
+                                              limit && query["edge"] == j)[0]);
           }
           INFO(name << " " << query["kind"] << " order " << order << " z=" << z << " j=" << j);
           CHECK(std::abs(row[j] - exact) <= kGolden * std::max(scale, vertex ? 1e-3 : 0.0));
           if (order < 2 && query["kind"] != "edge_limit") {
             for (const Kernel choice : {Kernel::portable, Kernel::automatic}) {
-              const auto array = polygon_coordinates<double>(polygon, std::span(&z, 1), order, choice);
-              CHECK(std::abs(array(0, j) - exact) <= kGolden * std::max(scale, vertex ? 1e-3 : 0.0));
+              const auto array =
+                  polygon_coordinates<double>(polygon, std::span(&z, 1), order, choice);
+              CHECK(std::abs(array(0, j) - exact) <=
+                    kGolden * std::max(scale, vertex ? 1e-3 : 0.0));
             }
           }
         }
@@ -201,12 +215,14 @@ TEST_CASE("Generalized coordinates of Weber and Gotsman are moments of degree 2"
       for (int order = 0; order < 2; ++order)
         for (size_t e = 0; e < n; ++e) {
           const bool on_edge = query["kind"] == "edge_limit" && query["edge"] == e;
-          const VectorXc M = edge_coordinates(polygon[e], polygon[(e + 1) % n], 2, z, order, on_edge);
+          const VectorXc M =
+              edge_coordinates(polygon[e], polygon[(e + 1) % n], 2, z, order, on_edge);
           const json& exact = query["generalized"][std::to_string(order)];
           const double scale = M.cwiseAbs().maxCoeff();
           CHECK(std::abs(2.0 * M[1] - complex_at(exact["CE"], e)) <= 2 * kGolden * scale);
           CHECK(std::abs(M[0] - M[1] / 2.0 - complex_at(exact["CVp"], e)) <= 2 * kGolden * scale);
-          CHECK(std::abs(M[2] - M[1] / 2.0 - complex_at(exact["CVm"], (e + 1) % n)) <= 2 * kGolden * scale);
+          CHECK(std::abs(M[2] - M[1] / 2.0 - complex_at(exact["CVm"], (e + 1) % n)) <=
+                2 * kGolden * scale);
         }
     }
   }
@@ -292,30 +308,33 @@ TEST_CASE("The array path equals the stable formula, and AVX2 equals portable, t
   for (const int n : {3, 10, 100}) {
     const Points polygon = star(n, 0.3, 17);
     Points points = random_points(1000, 110, 23);
-    points.push_back(polygon[1]);                          // a vertex
-    points.push_back(0.5 * (polygon[0] + polygon[1]));     // an edge, as well as rounding allows
+    points.push_back(polygon[1]);                       // a vertex
+    points.push_back(0.5 * (polygon[0] + polygon[1]));  // an edge, as well as rounding allows
     for (int order = 0; order < 2; ++order) {
       const MatrixXc exact = cauchy_coordinates(polygon_cage(polygon), points, order);
       const auto portable = polygon_coordinates<double>(polygon, points, order, Kernel::portable);
-      for (const Kernel choice : {has_avx2() ? Kernel::avx2 : Kernel::portable, Kernel::automatic}) {
-      const auto fast = polygon_coordinates<double>(polygon, points, order, choice);
-      for (Index i = 0; i < exact.rows(); ++i) {
-        if (!exact.row(i).allFinite()) {
-          CHECK_FALSE(std::isfinite(fast.re.row(i).sum()));
-          continue;
+      for (const Kernel choice :
+           {has_avx2() ? Kernel::avx2 : Kernel::portable, Kernel::automatic}) {
+        const auto fast = polygon_coordinates<double>(polygon, points, order, choice);
+        for (Index i = 0; i < exact.rows(); ++i) {
+          if (!exact.row(i).allFinite()) {
+            CHECK_FALSE(std::isfinite(fast.re.row(i).sum()));
+            continue;
+          }
+          // Coordinates are sums of edge halves, which may cancel.
+          double scale = exact.row(i).cwiseAbs().maxCoeff();
+          for (int e = 0; e < n; ++e)
+            if (points[i] != polygon[e] && points[i] != polygon[(e + 1) % n])
+              scale = std::max(
+                  scale, edge_coordinates(polygon[e], polygon[(e + 1) % n], 1, points[i], order)
+                             .cwiseAbs()
+                             .maxCoeff());
+          const double tolerance = 1e-14 * scale;
+          CHECK((portable.re.row(i) - exact.row(i).real()).cwiseAbs().maxCoeff() <= tolerance);
+          CHECK((portable.im.row(i) - exact.row(i).imag()).cwiseAbs().maxCoeff() <= tolerance);
+          CHECK((portable.re.row(i) - fast.re.row(i)).cwiseAbs().maxCoeff() <= tolerance);
+          CHECK((portable.im.row(i) - fast.im.row(i)).cwiseAbs().maxCoeff() <= tolerance);
         }
-        // Coordinates are sums of edge halves, which may cancel.
-        double scale = exact.row(i).cwiseAbs().maxCoeff();
-        for (int e = 0; e < n; ++e)
-          if (points[i] != polygon[e] && points[i] != polygon[(e + 1) % n])
-            scale = std::max(scale, edge_coordinates(polygon[e], polygon[(e + 1) % n], 1, points[i], order)
-                                        .cwiseAbs().maxCoeff());
-        const double tolerance = 1e-14 * scale;
-        CHECK((portable.re.row(i) - exact.row(i).real()).cwiseAbs().maxCoeff() <= tolerance);
-        CHECK((portable.im.row(i) - exact.row(i).imag()).cwiseAbs().maxCoeff() <= tolerance);
-        CHECK((portable.re.row(i) - fast.re.row(i)).cwiseAbs().maxCoeff() <= tolerance);
-        CHECK((portable.im.row(i) - fast.im.row(i)).cwiseAbs().maxCoeff() <= tolerance);
-      }
       }
     }
   }

@@ -19,7 +19,8 @@ TEST_CASE("Splitting and raising the degree leave a curve where it is") {
     CHECK(halves.before.back() == halves.after.front());
     for (const double u : {0.0, 0.25, 0.5, 1.0}) {
       CHECK(std::abs(bezier_point(halves.before, u) - bezier_point(kCubic, u * t)) < 1e-12);
-      CHECK(std::abs(bezier_point(halves.after, u) - bezier_point(kCubic, t + u * (1 - t))) < 1e-12);
+      CHECK(std::abs(bezier_point(halves.after, u) - bezier_point(kCubic, t + u * (1 - t))) <
+            1e-12);
       CHECK(std::abs(bezier_point(elevated(kCubic, 7), u) - bezier_point(kCubic, u)) < 1e-12);
     }
   }
@@ -75,7 +76,7 @@ TEST_CASE("A self-crossing is found with its place, a simple polygon has none") 
   CHECK(crossing->first == 0);
   CHECK(crossing->second == 2);
   CHECK(std::abs(crossing->point - Complex(5, 5)) < 1e-12);
-  CHECK(self_crossing(Points{{0, 0}, {10, 0}, {4, 0}, {4, 8}}));           // folds back on itself
+  CHECK(self_crossing(Points{{0, 0}, {10, 0}, {4, 0}, {4, 8}}));             // folds back on itself
   CHECK(self_crossing(Points{{0, 0}, {10, 0}, {10, 10}, {5, 0}, {0, 10}}));  // touches an edge
 }
 
@@ -84,7 +85,8 @@ TEST_CASE("Winding and turning numbers count turns") {
   CHECK(winding_number(square, {5, 5}) == 1);
   CHECK(winding_number(square, {15, 5}) == 0);
   Points twice;
-  for (int i = 0; i < 40; ++i) twice.push_back(std::polar(10.0 + 2 * std::cos(kPi * i / 20), 4 * kPi * i / 40));
+  for (int i = 0; i < 40; ++i)
+    twice.push_back(std::polar(10.0 + 2 * std::cos(kPi * i / 20), 4 * kPi * i / 40));
   CHECK(winding_number(twice, {0, 0}) == 2);
   CHECK(turning_number(twice) == Approx(2));
   CHECK(turning_number(square) == Approx(1));
@@ -102,9 +104,12 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK(message(polygon_cage(shapes::l_shape())).empty());
   CHECK(message(reversed(polygon_cage(shapes::l_shape()))).empty());
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {1, 0}})), Catch::Contains("at least three"));
-  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}})), Catch::Contains("(5, 5)"));
-  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {0, 0}, {10, 0}, {0, 10}})), Catch::Contains("no length"));
-  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {NAN, 0}, {0, 10}})), Catch::Contains("no number"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}})),
+             Catch::Contains("(5, 5)"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {0, 0}, {10, 0}, {0, 10}})),
+             Catch::Contains("no length"));
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {NAN, 0}, {0, 10}})),
+             Catch::Contains("no number"));
   Cage curved = polygon_cage(shapes::rectangle(5, 5));
   curved.segments[0].push_back({2, 9});
   CHECK_THAT(message(curved), Catch::Contains("curved"));

@@ -14,7 +14,8 @@ template <class F, class Fz, class Fzbar>
 SampledMap sampled(const Points& points, F f, Fz fz, Fzbar fzbar) {
   const Index n = static_cast<Index>(points.size());
   SampledMap map{VectorXc(n), VectorXc(n), VectorXc(n), {}, "", 0};
-  for (Index i = 0; i < n; ++i) map.f[i] = f(points[i]), map.fz[i] = fz(points[i]), map.fzbar[i] = fzbar(points[i]);
+  for (Index i = 0; i < n; ++i)
+    map.f[i] = f(points[i]), map.fz[i] = fz(points[i]), map.fzbar[i] = fzbar(points[i]);
   return map;
 }
 
@@ -22,23 +23,26 @@ SampledMap sampled(const Points& points, F f, Fz fz, Fzbar fzbar) {
 
 TEST_CASE("Distortion of an affine map is its singular values'") {
   const Complex a{1.5, 0.5}, b{0.3, -0.2};
-  const auto map = sampled({{0, 0}, {3, 4}}, [&](Complex z) { return a * z + b * std::conj(z); },
-                           [&](Complex) { return a; }, [&](Complex) { return b; });
+  const auto map = sampled(
+      {{0, 0}, {3, 4}}, [&](Complex z) { return a * z + b * std::conj(z); },
+      [&](Complex) { return a; }, [&](Complex) { return b; });
   Eigen::Matrix2d jacobian;
   jacobian << (a + b).real(), -(a - b).imag(), (a + b).imag(), (a - b).real();
   const Eigen::Vector2d sigma = (jacobian.transpose() * jacobian).eval().diagonal();
   const Distortion d = distortion_of(map);
   CHECK(std::exp2(d.area[0]) == Approx(jacobian.determinant()));
   CHECK(d.k[1] == Approx(std::abs(b) / std::abs(a)));
-  CHECK(d.stretch[0] == Approx(std::max(std::abs(a) + std::abs(b), 1 / (std::abs(a) - std::abs(b)))));
+  CHECK(d.stretch[0] ==
+        Approx(std::max(std::abs(a) + std::abs(b), 1 / (std::abs(a) - std::abs(b)))));
   CHECK(sigma.sum() == Approx(2 * (std::norm(a) + std::norm(b))));
 }
 
 TEST_CASE("The zeros of the derivative, the turning number and flips are found") {
   const Mesh mesh = domain_mesh(shapes::star(40, 0.05, 6), {2000});
   const Complex zero{215, 190};
-  const auto square = sampled(mesh.vertices, [&](Complex z) { return (z - zero) * (z - zero) / 100.0; },
-                              [&](Complex z) { return (z - zero) / 50.0; }, [](Complex) { return Complex(0); });
+  const auto square = sampled(
+      mesh.vertices, [&](Complex z) { return (z - zero) * (z - zero) / 100.0; },
+      [&](Complex z) { return (z - zero) / 50.0; }, [](Complex) { return Complex(0); });
   const MapReport report = report_of(mesh, square);
   REQUIRE(report.zeros.size() == 1);
   CHECK(std::abs(report.zeros[0] - zero) < 10);
@@ -46,12 +50,14 @@ TEST_CASE("The zeros of the derivative, the turning number and flips are found")
   CHECK_FALSE(report.simple_boundary);
   CHECK_FALSE(report.locally_injective());
 
-  const auto mirror = sampled(mesh.vertices, [](Complex z) { return std::conj(z); }, [](Complex) { return Complex(0); },
-                              [](Complex) { return Complex(1); });
+  const auto mirror = sampled(
+      mesh.vertices, [](Complex z) { return std::conj(z); }, [](Complex) { return Complex(0); },
+      [](Complex) { return Complex(1); });
   CHECK(report_of(mesh, mirror).flipped_triangles == static_cast<int>(mesh.triangles.size()));
 
-  const auto identity = sampled(mesh.vertices, [](Complex z) { return z; }, [](Complex) { return Complex(1); },
-                                [](Complex) { return Complex(0); });
+  const auto identity = sampled(
+      mesh.vertices, [](Complex z) { return z; }, [](Complex) { return Complex(1); },
+      [](Complex) { return Complex(0); });
   CHECK(report_of(mesh, identity).locally_injective());
   CHECK(report_of(mesh, identity).simple_boundary);
 }

@@ -12,11 +12,13 @@ using namespace holomorph;
 namespace {
 
 double triangle_area(const Mesh& mesh, const Triangle& t) {
-  return 0.5 * cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+  return 0.5 * cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                     mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-/// The theorem of every domain mesh: positive triangles whose areas sum to the polygon's, one closed
-/// boundary with the polygon's length, every cage vertex among the vertices, Euler's formula.
+/// The theorem of every domain mesh: positive triangles whose areas sum to the polygon's, one
+/// closed boundary with the polygon's length, every cage vertex among the vertices, Euler's
+/// formula.
 void check_partition(const Points& polygon, const MeshOptions& options) {
   const Mesh mesh = domain_mesh(polygon, options);
   double area = 0;
@@ -30,19 +32,23 @@ void check_partition(const Points& polygon, const MeshOptions& options) {
   CHECK(perimeter(boundary) == Approx(perimeter(polygon)).epsilon(1e-9));
   CHECK(signed_area(boundary) == Approx(area).epsilon(1e-9));
   REQUIRE(mesh.cage_vertices.size() == polygon.size());
-  for (size_t i = 0; i < polygon.size(); ++i) CHECK(mesh.vertices[mesh.cage_vertices[i]] == polygon[i]);
+  for (size_t i = 0; i < polygon.size(); ++i)
+    CHECK(mesh.vertices[mesh.cage_vertices[i]] == polygon[i]);
   std::set<std::pair<int, int>> edges;
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
   CHECK(static_cast<long>(mesh.vertices.size()) - static_cast<long>(edges.size()) +
-            static_cast<long>(mesh.triangles.size()) == 1);
-  CHECK(mesh.vertices.size() <= static_cast<size_t>(4 * options.vertices + 6 * polygon.size() + 100));
+            static_cast<long>(mesh.triangles.size()) ==
+        1);
+  CHECK(mesh.vertices.size() <=
+        static_cast<size_t>(4 * options.vertices + 6 * polygon.size() + 100));
 }
 
 }  // namespace
 
 TEST_CASE("The domain mesh partitions ordinary polygons with about the wanted number of vertices") {
-  for (const Points& polygon : {shapes::rectangle(300, 200), shapes::l_shape(), shapes::star(32, 0.2, 3), shapes::star(100, 0.05, 4)}) {
+  for (const Points& polygon : {shapes::rectangle(300, 200), shapes::l_shape(),
+                                shapes::star(32, 0.2, 3), shapes::star(100, 0.05, 4)}) {
     check_partition(polygon, {4000});
     const size_t count = domain_mesh(polygon, {4000}).vertices.size();
     CHECK(count > 2600);
@@ -58,17 +64,19 @@ TEST_CASE("Both orientations of a polygon give counter-clockwise triangles") {
 
 TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repeated vertices") {
   const MeshOptions options{1500};
-  check_partition({{0, 0}, {1000, 0}, {1000, 0.5}, {0, 0.4}}, options);             // sliver
-  check_partition({{0, 0}, {500, 1e-3}, {1000, 0}, {500, 300}}, options);           // almost collinear
+  check_partition({{0, 0}, {1000, 0}, {1000, 0.5}, {0, 0.4}}, options);    // sliver
+  check_partition({{0, 0}, {500, 1e-3}, {1000, 0}, {500, 300}}, options);  // almost collinear
   check_partition({{0, 0}, {250, 0}, {500, 0}, {750, 0}, {1000, 0}, {500, 300}}, options);
   check_partition({{0, 0}, {100, 0}, {100 + 1e-9, 1e-9}, {100, 100}, {0, 100}}, options);
   check_partition({{0, 0}, {100, 0}, {100, 1e-7}, {100, 2e-7}, {100, 100}, {0, 100}}, options);
-  check_partition({{0, 0}, {100, 50}, {0, 1}, {-100, 50}}, options);                // needle notch
+  check_partition({{0, 0}, {100, 50}, {0, 1}, {-100, 50}}, options);  // needle notch
   check_partition(shapes::comb(40), options);
   check_partition(shapes::star(500, 0.02, 8), options);
-  check_partition({{1e6, 1e6}, {1e6 + 10, 1e6}, {1e6 + 5, 1e6 + 8}}, options);       // far from the origin
-  check_partition({{0, 0}, {1e-3, 0}, {1e-3, 1e-3}, {0, 1e-3}}, options);            // tiny
-  for (unsigned seed = 1; seed <= 12; ++seed) check_partition(shapes::star(4 + 20 * static_cast<int>(seed), 0.6, seed), options);
+  check_partition({{1e6, 1e6}, {1e6 + 10, 1e6}, {1e6 + 5, 1e6 + 8}},
+                  options);                                                // far from the origin
+  check_partition({{0, 0}, {1e-3, 0}, {1e-3, 1e-3}, {0, 1e-3}}, options);  // tiny
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    check_partition(shapes::star(4 + 20 * static_cast<int>(seed), 0.6, seed), options);
 }
 
 TEST_CASE("A point is located with its weights, on top where the mesh overlaps") {

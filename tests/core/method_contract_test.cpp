@@ -15,7 +15,9 @@ struct Setup {
   Pose pose;
 };
 
-Complex bend(Complex z) { return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12); }
+Complex bend(Complex z) {
+  return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12);
+}
 
 /// A cage with two pins (one of them turning) where the method uses pins; posed by a bend.
 Setup setup(const Method& method, Precision precision, int degree = 1) {
@@ -32,7 +34,8 @@ Setup setup(const Method& method, Precision precision, int degree = 1) {
   s.pose.cage = s.rest.cage;
   for (Points& segment : s.pose.cage.segments)
     for (Complex& z : segment) z = bend(z);
-  for (const RestPin& pin : s.rest.pins) s.pose.pins.push_back({bend(pin.position) + Complex(5, -3), 0.3});
+  for (const RestPin& pin : s.rest.pins)
+    s.pose.pins.push_back({bend(pin.position) + Complex(5, -3), 0.3});
   return s;
 }
 
@@ -45,14 +48,17 @@ Pose mapped(const Rest& rest, Complex a, Complex b) {
 }
 
 /// Rounding of the operators, relative to displacements of the size of the picture.
-double tolerance(Precision precision) { return precision == Precision::full ? 1e-9 : 5e-4; }
+double tolerance(Precision precision) {
+  return precision == Precision::full ? 1e-9 : 5e-4;
+}
 
 template <class Check>
 void for_every_method(Check check) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
       for (const int degree : {1, 3}) {
-        INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", degree " << degree);
+        INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", degree "
+                       << degree);
         check(method, setup(method, precision, degree), tolerance(precision));
       }
 }
@@ -81,7 +87,8 @@ TEST_CASE("Contract: the rest pose gives the identity, to the last bit") {
 TEST_CASE("Contract: a similarity of the pose gives that similarity") {
   for_every_method([](const Method& method, const Setup& s, double tolerance) {
     Rest rest = s.rest;
-    for (RestPin& pin : rest.pins) pin.turns = false;  // a prescribed angle prescribes scale one, too
+    for (RestPin& pin : rest.pins)
+      pin.turns = false;  // a prescribed angle prescribes scale one, too
     const Complex a{0.4, 1.1}, b{30, -12};
     const SampledMap map = run(method, rest, mapped(rest, a, b));
     const VectorXc exact = (a * samples_of(rest)).array() + b;
@@ -117,10 +124,12 @@ TEST_CASE("Contract: derivatives agree with finite differences") {
     s.rest.samples.clear();
     s.rest.derivative_samples.clear();
     for (const Complex z : centers)
-      for (const Complex step : {Complex(h), Complex(-h), h * kI, -h * kI, Complex(0)}) s.rest.samples.push_back(z + step);
+      for (const Complex step : {Complex(h), Complex(-h), h * kI, -h * kI, Complex(0)})
+        s.rest.samples.push_back(z + step);
     const SampledMap map = run(method, s.rest, s.pose);
     for (Index i = 0; i < map.f.size(); i += 5) {
-      const Complex fx = (map.f[i] - map.f[i + 1]) / (2 * h), fy = (map.f[i + 2] - map.f[i + 3]) / (2 * h);
+      const Complex fx = (map.f[i] - map.f[i + 1]) / (2 * h),
+                    fy = (map.f[i + 2] - map.f[i + 3]) / (2 * h);
       CHECK(std::abs((fx - kI * fy) / 2.0 - map.fz[i + 4]) < 1e-6);
       CHECK(std::abs((fx + kI * fy) / 2.0 - map.fzbar[i + 4]) < 1e-6);
     }
@@ -137,7 +146,8 @@ TEST_CASE("Contract: the operator for the shader is the map") {
     deformer->deform(s.pose, map, false);
     const VectorXc controls = deformer->controls(s.pose);
     REQUIRE(matrix->cols() == controls.size());
-    const MatrixXc exact = matrix->re.cast<double>().cast<Complex>() + kI * matrix->im.cast<double>().cast<Complex>();
+    const MatrixXc exact =
+        matrix->re.cast<double>().cast<Complex>() + kI * matrix->im.cast<double>().cast<Complex>();
     CHECK((samples_of(s.rest) + exact * controls - map.f).cwiseAbs().maxCoeff() <= 1e-4);
   }
 }
@@ -145,7 +155,8 @@ TEST_CASE("Contract: the operator for the shader is the map") {
 TEST_CASE("Contract: single precision is full precision, rounded") {
   for (const Method& method : methods()) {
     const Setup rough = setup(method, Precision::single), exact = setup(method, Precision::full);
-    const SampledMap a = run(method, rough.rest, rough.pose), b = run(method, exact.rest, exact.pose);
+    const SampledMap a = run(method, rough.rest, rough.pose),
+                     b = run(method, exact.rest, exact.pose);
     CHECK((a.f - b.f).cwiseAbs().maxCoeff() <= 1e-3);
     CHECK((a.fz - b.fz).cwiseAbs().maxCoeff() <= 1e-3);
   }
@@ -195,11 +206,13 @@ TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
     s.rest.parameters = parameters;
     const SampledMap map = run(pins, s.rest, s.pose);
     double worst = 0;
-    for (Index i = 0; i < map.f.size(); ++i) worst = std::max(worst, std::abs(map.f[i] - s.pose.pins[i].position));
+    for (Index i = 0; i < map.f.size(); ++i)
+      worst = std::max(worst, std::abs(map.f[i] - s.pose.pins[i].position));
     return worst;
   };
   CHECK(miss({{"exact", 1}}) < 1e-8);
-  const double light = miss({{"exact", 0}, {"pin_weight", 1e-3}}), heavy = miss({{"exact", 0}, {"pin_weight", 10}});
+  const double light = miss({{"exact", 0}, {"pin_weight", 1e-3}}),
+               heavy = miss({{"exact", 0}, {"pin_weight", 10}});
   CHECK(heavy < light);
   CHECK(light > 1e-3);
   s.rest.parameters = {{"exact", 1}};
@@ -213,7 +226,8 @@ TEST_CASE("The pins' correction minimises the smoothness energy among maps that 
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;
   for (RestPin& pin : s.rest.pins) pin.turns = false;
-  const auto energy = [&](const Points& samples, const SampledMap& map) {  // mean |f''|^2 by differences of f'
+  const auto energy = [&](const Points& samples,
+                          const SampledMap& map) {  // mean |f''|^2 by differences of f'
     double sum = 0;
     for (size_t i = 0; i + 1 < samples.size(); i += 2)
       sum += std::norm((map.fz[i + 1] - map.fz[i]) / (samples[i + 1] - samples[i]));
@@ -252,9 +266,11 @@ TEST_CASE("One pin moves everything, and unusable pins are named") {
   CHECK((map.fz.array() - Complex(1)).abs().maxCoeff() < 1e-9);
   s.rest.pins = {{{40, 40}, false}, {{40, 40}, false}, {{190, 190}, false}};
   map = run(pins, s.rest, mapped(s.rest, 1, 0));
-  CHECK_THAT(map.note, Catch::Contains("pin 3 lies outside") && Catch::Contains("pin 2 lies on another"));
+  CHECK_THAT(map.note,
+             Catch::Contains("pin 3 lies outside") && Catch::Contains("pin 2 lies on another"));
 }
 
 TEST_CASE("An unknown method is refused by name") {
-  CHECK_THROWS_WITH(method_named("magic"), Catch::Contains("magic") && Catch::Contains("cage, pins"));
+  CHECK_THROWS_WITH(method_named("magic"),
+                    Catch::Contains("magic") && Catch::Contains("cage, pins"));
 }

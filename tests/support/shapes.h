@@ -12,7 +12,9 @@ inline Points rectangle(double width, double height) {
   return {{0, 0}, {width, 0}, {width, height}, {0, height}};
 }
 
-inline Points l_shape() { return {{0, 0}, {200, 0}, {200, 100}, {100, 100}, {100, 200}, {0, 200}}; }
+inline Points l_shape() {
+  return {{0, 0}, {200, 0}, {200, 100}, {100, 100}, {100, 200}, {0, 200}};
+}
 
 /// A star-shaped polygon around (200, 200) with `n` vertices and radii in 100 (1 +- ripple).
 inline Points star(int n, double ripple, unsigned seed) {
@@ -20,7 +22,8 @@ inline Points star(int n, double ripple, unsigned seed) {
   std::uniform_real_distribution<double> radius(1 - ripple, 1 + ripple);
   Points polygon;
   for (int i = 0; i < n; ++i)
-    polygon.push_back(Complex(200, 200) + 100.0 * radius(random) * std::polar(1.0, 2 * kPi * i / n));
+    polygon.push_back(Complex(200, 200) +
+                      100.0 * radius(random) * std::polar(1.0, 2 * kPi * i / n));
   return polygon;
 }
 

@@ -11,7 +11,9 @@ class CageDeformer final : public LinearDeformer<T> {
   explicit CageDeformer(const Rest& rest) : LinearDeformer<T>(rest) {
     this->value_ = cage_coordinates<T>(rest.cage, rest.samples, 0);
   }
-  VectorXc controls(const Pose& pose) const override { return cage_displacement(this->rest_, pose); }
+  VectorXc controls(const Pose& pose) const override {
+    return cage_displacement(this->rest_, pose);
+  }
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {
@@ -28,8 +30,9 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method cage_method() {
-  return {"cage", "Cage", "Move the cage's points; the picture follows conformally. Pins do not act.",
-          {}, false, prepare};
+  return {
+      "cage", "Cage", "Move the cage's points; the picture follows conformally. Pins do not act.",
+      {},     false,  prepare};
 }
 
 }  // namespace holomorph

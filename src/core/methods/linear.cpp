@@ -28,7 +28,8 @@ template <class T>
 void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, bool derivatives) {
   check_pose(rest_, pose);
   const VectorXc by = controls(pose);
-  const Eigen::Map<const VectorXc> z(rest_.samples.data(), static_cast<Index>(rest_.samples.size()));
+  const Eigen::Map<const VectorXc> z(rest_.samples.data(),
+                                     static_cast<Index>(rest_.samples.size()));
   out.f = z + product(value_, by);
   out.status = SampledMap::Status::exact;
   out.note = note_;

@@ -1,7 +1,7 @@
 // What methods linear in the pose share: f = z + M c(pose) at the samples, f_z = 1 + M' c(pose).
 //
-// Controls are displacements, so the rest pose gives the identity to the last bit and rounding scales
-// with the deformation, not with the picture.
+// Controls are displacements, so the rest pose gives the identity to the last bit and rounding
+// scales with the deformation, not with the picture.
 #pragma once
 
 #include "core/deformer.h"
@@ -36,10 +36,12 @@ class LinearDeformer : public Deformer {
 /// Throws Error unless the pose's cage has the rest's structure and is finite.
 void check_pose(const Rest& rest, const Pose& pose);
 
-/// Displacements of the posed cage's control points, the posed segments raised to the rest's degrees.
+/// Displacements of the posed cage's control points, the posed segments raised to the rest's
+/// degrees.
 VectorXc cage_displacement(const Rest& rest, const Pose& pose);
 
-/// Coordinates of the cage's control points at points, by the array path where all edges are straight.
+/// Coordinates of the cage's control points at points, by the array path where all edges are
+/// straight.
 template <class T>
 PlanarMatrix<T> cage_coordinates(const Cage& cage, std::span<const Complex> points, int order);
 

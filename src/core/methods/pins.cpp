@@ -1,10 +1,10 @@
-// Method `pins`: f = f_cage + h, h holomorphic, h(u_i) = v_i - f_cage(u_i), and as smooth as can be:
-// the energy mean |h''|^2 at edge midpoints (Segall, Ben-Chen 2016, E_s and E_p2p).
+// Method `pins`: f = f_cage + h, h holomorphic, h(u_i) = v_i - f_cage(u_i), and as smooth as can
+// be: the energy mean |h''|^2 at edge midpoints (Segall, Ben-Chen 2016, E_s and E_p2p).
 //
 // With the energy's rows in QR form, R g = y, the minimiser is spanned by the pins themselves, as
 // thin-plate splines are: (M M* + ridge) lambda + T c = data with M = P R^-1 and T the affine maps,
-// which cost nothing. A soft pin is a ridge, an exact one is none; a system of the pins' number is all
-// that a pin more costs, besides its column of the operator.
+// which cost nothing. A soft pin is a ridge, an exact one is none; a system of the pins' number is
+// all that a pin more costs, besides its column of the operator.
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -27,8 +27,10 @@ Points basis_polygon(const Cage& cage) {
   for (Index e = 0; e < cage.size(); ++e) {
     const Complex a = cage.vertex(e), b = cage.vertex(e + 1);
     const int parts = static_cast<Index>(corners.size()) >= kBasisVertices
-                          ? 1 : std::max(1, static_cast<int>(std::lround(std::abs(b - a) / step)));
-    for (int k = 0; k < parts; ++k) polygon.push_back(a + (b - a) * (static_cast<double>(k) / parts));
+                          ? 1
+                          : std::max(1, static_cast<int>(std::lround(std::abs(b - a) / step)));
+    for (int k = 0; k < parts; ++k)
+      polygon.push_back(a + (b - a) * (static_cast<double>(k) / parts));
   }
   return polygon;
 }
@@ -43,7 +45,8 @@ struct PinBasis {
   PlanarMatrix<T> cage_value, value;
   MatrixXc factor;  ///< upper triangular R
 
-  explicit PinBasis(const Rest& rest) : cage(rest.cage), samples(rest.samples), polygon(basis_polygon(rest.cage)) {
+  explicit PinBasis(const Rest& rest)
+      : cage(rest.cage), samples(rest.samples), polygon(basis_polygon(rest.cage)) {
     length = perimeter(polygon) / (2 * kPi);
     cage_value = cage_coordinates<T>(cage, samples, 0);
     value = polygon_coordinates<T>(polygon, samples, 0);
@@ -57,7 +60,8 @@ struct PinBasis {
     // change the minimiser, because the affine part is solved for separately.
     const Complex anchor = inner_point();
     rows.row(basis.size()) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
-    rows.row(basis.size() + 1) = length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
+    rows.row(basis.size() + 1) =
+        length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
     const Eigen::HouseholderQR<MatrixXc> qr(rows);
     factor = qr.matrixQR().topRows(basis.size()).template triangularView<Eigen::Upper>();
   }
@@ -72,7 +76,8 @@ struct PinBasis {
       for (int j = 1; j < kGrid; ++j) {
         const Complex z(box.left + box.width() * i / kGrid, box.bottom + box.height() * j / kGrid);
         if (winding_number(polygon, z) == 0) continue;
-        if (const double here = nearest_on_polygon(polygon, z).distance; here > depth) best = z, depth = here;
+        if (const double here = nearest_on_polygon(polygon, z).distance; here > depth)
+          best = z, depth = here;
       }
     return depth > 0 ? best : 0.5 * (polygon[0] + polygon[1]);
   }
@@ -83,7 +88,8 @@ class PinsDeformer final : public LinearDeformer<T> {
  public:
   PinsDeformer(const Rest& rest, const PinsDeformer* previous, const Method& method)
       : LinearDeformer<T>(rest) {
-    if (previous && previous->basis_->cage == rest.cage && previous->basis_->samples == rest.samples)
+    if (previous && previous->basis_->cage == rest.cage &&
+        previous->basis_->samples == rest.samples)
       basis_ = previous->basis_;
     else
       basis_ = std::make_shared<const PinBasis<T>>(rest);
@@ -108,8 +114,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     all.head(cage.size()) = cage;
     Index row = cage.size();
     const VectorXc base = cage_at_pins_ * cage;  // what the cage alone does at each functional
-    for (const size_t i : used_)
-      all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
+    for (const size_t i : used_) all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
     for (const size_t i : used_)
       if (this->rest_.pins[i].turns)
         all[row++] = basis_->length * (std::polar(1.0, pose.pins[i].angle) - 1.0);
@@ -138,7 +143,9 @@ class PinsDeformer final : public LinearDeformer<T> {
     std::string outside, doubled;
     for (size_t i = 0; i < pins.size(); ++i) {
       const Complex z = pins[i].position;
-      const auto name = [&](std::string& list) { list += (list.empty() ? "" : ", ") + std::to_string(i + 1); };
+      const auto name = [&](std::string& list) {
+        list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
+      };
       if (!is_finite(z) || winding_number(corners, z) == 0) {
         name(outside);
         continue;
@@ -151,9 +158,11 @@ class PinsDeformer final : public LinearDeformer<T> {
       else
         name(doubled);
     }
-    if (!outside.empty()) this->note_ = "pin " + outside + " lies outside the cage and does not act";
+    if (!outside.empty())
+      this->note_ = "pin " + outside + " lies outside the cage and does not act";
     if (!doubled.empty())
-      this->note_ += (this->note_.empty() ? "" : "; ") + ("pin " + doubled + " lies on another pin and does not act");
+      this->note_ += (this->note_.empty() ? "" : "; ") +
+                     ("pin " + doubled + " lies on another pin and does not act");
   }
 
   /// One solve for all unit data: coefficients of the basis and of the affine maps per functional.
@@ -164,7 +173,8 @@ class PinsDeformer final : public LinearDeformer<T> {
       places.push_back(pins[i].position);
       if (pins[i].turns) turning.push_back(pins[i].position);
     }
-    const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()), m = p + q;
+    const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()),
+                m = p + q;
     const Index n = static_cast<Index>(basis_->polygon.size());
     const double length = basis_->length;
     const Cage basis = polygon_cage(basis_->polygon);
@@ -185,7 +195,8 @@ class PinsDeformer final : public LinearDeformer<T> {
       if (affine == 2) T_rows(i, 1) = i < p ? (places[i] - center_) / length : 1.0;
     }
     // M* = R^-* P*.
-    const MatrixXc adjoint = basis_->factor.adjoint().template triangularView<Eigen::Lower>().solve(rows.adjoint());
+    const MatrixXc adjoint =
+        basis_->factor.adjoint().template triangularView<Eigen::Lower>().solve(rows.adjoint());
     MatrixXc system = MatrixXc::Zero(m + affine, m + affine);
     system.topLeftCorner(m, m) = adjoint.adjoint() * adjoint;
     system.topLeftCorner(m, m).diagonal().array() += ridge_per_pin * static_cast<double>(m);
@@ -195,8 +206,11 @@ class PinsDeformer final : public LinearDeformer<T> {
     data.topRows(m).setIdentity();
     const Eigen::FullPivLU<MatrixXc> lu(system);
     const MatrixXc solution = lu.solve(data);
-    if (!solution.allFinite()) throw Error(ErrorKind::bad_input, "the pins contradict each other; move one away from the others");
-    const MatrixXc coefficients = basis_->factor.template triangularView<Eigen::Upper>().solve(adjoint * solution.topRows(m));
+    if (!solution.allFinite())
+      throw Error(ErrorKind::bad_input,
+                  "the pins contradict each other; move one away from the others");
+    const MatrixXc coefficients =
+        basis_->factor.template triangularView<Eigen::Upper>().solve(adjoint * solution.topRows(m));
     affine_ = solution.bottomRows(affine);
     coefficients_ = PlanarMatrix<T>(n, m);
     coefficients_.re = coefficients.real().template cast<T>();
@@ -228,8 +242,10 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
   check_rest_cage(rest.cage);
   const Method& method = method_named("pins");
   if (rest.precision == Precision::full)
-    return std::make_unique<PinsDeformer<double>>(rest, dynamic_cast<const PinsDeformer<double>*>(previous), method);
-  return std::make_unique<PinsDeformer<float>>(rest, dynamic_cast<const PinsDeformer<float>*>(previous), method);
+    return std::make_unique<PinsDeformer<double>>(
+        rest, dynamic_cast<const PinsDeformer<double>*>(previous), method);
+  return std::make_unique<PinsDeformer<float>>(
+      rest, dynamic_cast<const PinsDeformer<float>*>(previous), method);
 }
 
 }  // namespace
@@ -238,11 +254,13 @@ Method pins_method() {
   return {"pins",
           "Cage and pins",
           "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
-          {{"exact", "Exact", "The picture passes through every pin; off: it yields a little for smoothness",
+          {{"exact", "Exact",
+            "The picture passes through every pin; off: it yields a little for smoothness",
             ParameterSpec::Kind::toggle, 1, 0, 1, false},
            {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
             ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true},
-           {"pin_weight", "Pin weight", "How much missing a pin costs when pins are soft (dimensionless)",
+           {"pin_weight", "Pin weight",
+            "How much missing a pin costs when pins are soft (dimensionless)",
             ParameterSpec::Kind::number, 0.1, 1e-3, 10, true}},
           true,
           prepare};

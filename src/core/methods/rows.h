@@ -8,7 +8,8 @@ namespace holomorph {
 /// `cage`: f = C b, the Cauchy-Green map of the posed cage (Weber, Ben-Chen, Gotsman 2009).
 Method cage_method();
 
-/// `pins`: the cage's map plus the smoothest holomorphic correction that takes pins to their targets.
+/// `pins`: the cage's map plus the smoothest holomorphic correction that takes pins to their
+/// targets.
 Method pins_method();
 
 }  // namespace holomorph
