@@ -95,6 +95,7 @@ class Editor {
     Input input = take_input();
     navigate(input);
     use_tool(input);
+    open_context_menu(input);
     handle_request();
     const bool needs_derivatives = is_heat(workspace_.view);
     if (workspace_.map.update(workspace_.scene(), needs_derivatives)) window_.wake();
@@ -150,10 +151,8 @@ class Editor {
     const ImGuiIO& io = ImGui::GetIO();
     Input input;
     input.px = {io.MousePos.x, io.MousePos.y};
-    input.position = workspace_.viewport.plane_at_px(input.px);
     input.mods = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
-    const bool free = !io.WantCaptureMouse && !workspace_.document.empty();
-    input.inside = free && workspace_.viewport.contains_px(input.px);
+    input.inside = !io.WantCaptureMouse && !workspace_.document.empty() && workspace_.viewport.contains_px(input.px);
     input.pressed = input.inside && ImGui::IsMouseClicked(0);
     input.double_clicked = input.inside && ImGui::IsMouseDoubleClicked(0);
     input.down = ImGui::IsMouseDown(0);
@@ -165,10 +164,9 @@ class Editor {
     const ImGuiIO& io = ImGui::GetIO();
     const bool space = window_.is_down(Key::space) && !io.WantTextInput;
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
-    if (!ImGui::IsMouseDown(2) && !(space && ImGui::IsMouseDown(0))) panning_ = false;
+    if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (input.inside && io.MouseWheel != 0)
-      workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
+    if (input.inside && io.MouseWheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -186,12 +184,13 @@ class Editor {
       last_tool_ = workspace_.tool;
     }
     current_tool().input(input, workspace_);
-    if (input.inside && ImGui::IsMouseClicked(1)) {
-      if (const auto handle = handle_at(workspace_, input.px);
-          handle && !workspace_.selection.contains(*handle))
-        workspace_.selection = {*handle};
-      ImGui::OpenPopup("context");
-    }
+  }
+
+  void open_context_menu(const Input& input) {
+    if (!input.inside || !ImGui::IsMouseClicked(1)) return;
+    if (const auto handle = handle_at(workspace_, input.px); handle && !workspace_.selection.contains(*handle))
+      workspace_.selection = {*handle};
+    ImGui::OpenPopup("context");
   }
 
   // ---- Files -----------------------------------------------------------------------------------
@@ -410,7 +409,7 @@ class Editor {
     if (uploaded_ != map.preparation()) {
       renderer_.set_mesh(map.prepared()->mesh.get());
       // On a processor-driven OpenGL the shader's sum is the slower one.
-      by_operator_ = !renderer_.is_software() &&
+      by_operator_ = !is_software_driver() &&
                      renderer_.set_operator(map.prepared()->deformer->operator_matrix());
       uploaded_ = map.preparation();
     }

@@ -1,4 +1,4 @@
-// Callbacks note what happened and owe three frames for it: ImGui needs two to settle a layout.
+// Callbacks queue what happened and owe three frames for it: ImGui needs two to settle a layout.
 #include "app/window.h"
 
 #define GLFW_INCLUDE_NONE
@@ -13,6 +13,7 @@
 
 #include "app/theme.h"
 #include "core/error.h"
+#include "render/renderer.h"
 
 namespace holomorph {
 namespace {
@@ -74,12 +75,14 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_STENCIL_BITS, 8);
-  glfwWindowHint(GLFW_SAMPLES, 4);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
-  if (!window_) {  // some drivers have no multisampling
-    glfwWindowHint(GLFW_SAMPLES, 0);
+  for (const int samples : {4, 0}) {  // some drivers have no multisampling; on a processor it is too slow
+    glfwWindowHint(GLFW_SAMPLES, samples);
     window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
+    if (!window_) continue;
+    glfwMakeContextCurrent(window_);
+    if (samples == 0 || !is_software_driver()) break;
+    glfwDestroyWindow(window_);
   }
   if (!window_) {
     const char* text = nullptr;
@@ -88,19 +91,29 @@ Window::Window(int width, int height, double ui_scale, bool light) {
     glfwTerminate();
     throw Error(ErrorKind::failed, "the window with OpenGL 3.3 cannot be opened: " + reason);
   }
-  glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
-  // Installed before ImGui's, which call these in turn.
+  using Kind = Event::Kind;
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    self(w)->add_key(key, scancode, action, mods);
+    self(w)->add({Kind::key, 0, 0, key, scancode, action, mods});
   });
-  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { self(w)->add_character(code); });
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w)->wake(); });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w)->wake(); });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w)->wake(); });
-  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { self(w)->wake(); });
-  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w)->wake(); });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) {
+    self(w)->add({Kind::character, 0, 0, static_cast<int>(code)});
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    double x = 0, y = 0;
+    glfwGetCursorPos(w, &x, &y);
+    self(w)->add({Kind::button, x, y, button, 0, action});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->add({Kind::scroll, x, y}); });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->add({Kind::move, x, y}); });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+    if (!entered) self(w)->add({Kind::move, -1e9, -1e9});
+  });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+    self(w)->wake();
+  });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->wake(); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->wake(); });
   glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->wake(); });
@@ -116,7 +129,8 @@ Window::Window(int width, int height, double ui_scale, bool light) {
 
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui::GetIO().MouseDoubleClickTime = 0.45f;
+  ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   set_style(ui_scale, light);
 }
@@ -159,6 +173,7 @@ void Window::wake() {
 void Window::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  pump_events();
   ImGui::NewFrame();
 }
 
@@ -167,20 +182,54 @@ void Window::end_frame() {
   glfwSwapBuffers(window_);
 }
 
-void Window::add_key(int key, int scancode, int action, int mods) {
+void Window::add(const Event& event) {
+  events_.push_back(event);
   wake();
-  if (action == GLFW_RELEASE) return;
-  const int printed = printed_key(key, scancode);
+}
+
+/// Hands events to ImGui until the next one would overwrite something that it has not seen yet: a
+/// second change of a button, a move after one, the release of a key pressed in this frame.
+void Window::pump_events() {
+  ImGuiIO& io = ImGui::GetIO();
+  bool button_changed = false;
+  std::vector<int> pressed;
+  for (; !events_.empty(); events_.pop_front()) {
+    const Event& event = events_.front();
+    if (event.kind == Event::Kind::move || event.kind == Event::Kind::button) {
+      if (button_changed) break;
+      mouse_x_ = event.x;
+      mouse_y_ = event.y;
+      if (event.kind == Event::Kind::move) continue;
+      button_changed = true;
+      if (event.code < 3) mouse_down_[event.code] = event.action == GLFW_PRESS;
+    } else if (event.kind == Event::Kind::key) {
+      if (event.action == GLFW_RELEASE && std::find(pressed.begin(), pressed.end(), event.code) != pressed.end()) break;
+      if (event.action != GLFW_RELEASE) pressed.push_back(event.code);
+      ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
+      take_key(event);
+    } else if (event.kind == Event::Kind::character) {
+      ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned>(event.code));
+      take_character(static_cast<unsigned>(event.code));
+    } else {
+      ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
+    }
+  }
+  if (!events_.empty()) wake();
+  io.MousePos = {static_cast<float>(mouse_x_), static_cast<float>(mouse_y_)};
+  for (int button = 0; button < 3; ++button) io.MouseDown[button] = mouse_down_[button];
+}
+
+void Window::take_key(const Event& event) {
+  if (event.action == GLFW_RELEASE) return;
+  const int printed = printed_key(event.code, event.scancode);
   if (printed == 0 || printed == '+' || printed == '?') return;  // those come as characters
   Shortcut shortcut;
   shortcut.key = printed;
-  shortcut.mods = {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0,
-                   (mods & GLFW_MOD_ALT) != 0};
+  shortcut.mods = {(event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0, (event.mods & GLFW_MOD_ALT) != 0};
   keys_.push_back(shortcut);
 }
 
-void Window::add_character(unsigned code) {
-  wake();
+void Window::take_character(unsigned code) {
   if (code == '?' || code == '+') keys_.push_back(Shortcut(static_cast<char>(code)));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ class Window {
   bool wait(double longest);
   /// From any thread: makes wait() return.
   void wake();
-  /// Starts and ends a frame of the user interface; draw with OpenGL in between.
+  /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at most
+  /// one change of the mouse buttons, at the place where it happened, however slow frames are.
   void begin_frame();
   void end_frame();
 
@@ -52,8 +54,15 @@ class Window {
   int framebuffer_height() const;
 
  private:
-  void add_key(int key, int scancode, int action, int mods);
-  void add_character(unsigned code);
+  struct Event {
+    enum class Kind { move, button, key, character, scroll } kind;
+    double x = 0, y = 0;  ///< place, or scrolled lines
+    int code = 0, scancode = 0, action = 0, mods = 0;
+  };
+  void add(const Event& event);
+  void pump_events();
+  void take_key(const Event& event);
+  void take_character(unsigned code);
 
   GLFWwindow* window_ = nullptr;
   std::atomic<bool> woken_{false};
@@ -61,6 +70,9 @@ class Window {
   double scale_ = 1;
   bool light_ = false, has_icons_ = false, close_ = false;
   std::vector<Shortcut> keys_;
+  std::deque<Event> events_;
+  double mouse_x_ = -1e9, mouse_y_ = -1e9;
+  bool mouse_down_[3] = {false, false, false};
   std::vector<Path> drops_;
 };
 

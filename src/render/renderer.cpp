@@ -174,7 +174,7 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+  if (!is_software_driver() && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
     GLfloat most = 1;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
@@ -402,13 +402,13 @@ std::vector<Complex> Renderer::placed_vertices(Placement placement) {
   return placed;
 }
 
-std::string Renderer::driver() const {
+std::string driver_name() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   return name ? name : "unknown";
 }
 
-bool Renderer::is_software() const {
-  const std::string name = driver();
+bool is_software_driver() {
+  const std::string name = driver_name();
   for (const char* software : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"})
     if (name.find(software) != std::string::npos) return true;
   return false;

@@ -11,6 +11,11 @@
 
 namespace holomorph {
 
+/// The current context's driver, and whether it computes on the processor: then multisampling and
+/// anisotropy cost more than they give, and the CPU path places vertices faster than a shader.
+std::string driver_name();
+bool is_software_driver();
+
 /// How the vertices get their places.
 enum class Placement { at_rest, positions, by_operator };
 
@@ -55,11 +60,6 @@ class Renderer {
 
   /// The vertex places that the shader computes, read back.
   std::vector<Complex> placed_vertices(Placement placement);
-
-  /// Whether the driver computes on a processor: then the CPU path is the faster one.
-  bool is_software() const;
-  /// The driver's name, for the log.
-  std::string driver() const;
 
  private:
   struct Objects;

@@ -102,11 +102,9 @@ bool Document::commit(const std::string& label, Scene scene) {
 
 Scene Document::portable(const Path& folder) const {
   Scene scene = history_.current();
-  if (scene.image && !image_path_.empty()) {
-    const Path relative = image_path_.lexically_relative(fs::absolute(folder).lexically_normal());
-    scene.image->file =
-        relative.empty() || folder.empty() ? image_path_.string() : relative.generic_string();
-  }
+  if (!scene.image || image_path_.empty()) return scene;
+  const Path relative = folder.empty() ? Path() : image_path_.lexically_relative(folder);
+  scene.image->file = relative.empty() ? image_path_.string() : relative.generic_string();
   return scene;
 }
 

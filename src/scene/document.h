@@ -57,6 +57,7 @@ class Document {
 
  private:
   Document(LoadedScene loaded, Path path);
+  /// The scene with the picture's path relative to an absolute folder; absolute when that is empty.
   Scene portable(const Path& folder) const;
 
   std::string id_;  ///< names the autosave file, whatever the document's path is

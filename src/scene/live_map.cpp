@@ -90,16 +90,19 @@ void LiveMap::work() {
   }
 }
 
-void LiveMap::take_result() {
+void LiveMap::take_result(const Scene& scene, bool derivatives) {
   const std::lock_guard lock(mutex_);
   busy_ = working_ || waiting_;
   if (!std::exchange(finished_, false)) return;
   error_ = std::move(failure_);
   failure_.reset();
-  if (!result_) return;
+  if (!result_ || !requested_) return;
   shown_ = std::move(result_);
   posed_.reset();
+  map_ = SampledMap{};
   ++preparation_;
+  // Mesh and map always belong together: when the scene has moved on, it is posed as it was asked for.
+  pose(same_rest(*requested_, scene) ? scene : *requested_, derivatives);
 }
 
 bool LiveMap::pose(const Scene& scene, bool derivatives) {
@@ -121,7 +124,7 @@ bool LiveMap::pose(const Scene& scene, bool derivatives) {
 
 bool LiveMap::update(const Scene& scene, bool derivatives) {
   const unsigned before = preparation_;
-  take_result();
+  take_result(scene, derivatives);
   if (!scene.has_cage()) {
     const bool changed = shown_ != nullptr;
     shown_.reset();

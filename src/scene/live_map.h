@@ -58,7 +58,7 @@ class LiveMap {
 
  private:
   void work();
-  void take_result();
+  void take_result(const Scene& scene, bool derivatives);
   bool pose(const Scene& scene, bool derivatives);
 
   MeshOptions options_;

@@ -1,0 +1,102 @@
+# Drives the real program under a virtual display with real input events.
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+
+
+class Editor:
+    """The editor on a display of its own, with a home of its own."""
+
+    def __init__(self, program, arguments=(), size="1400x900", home=None):
+        self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
+        self.home = home or self.folder
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = b""
+        while not number.endswith(b"\n"):
+            number += os.read(read, 16)
+        os.close(read)
+        self.environment = dict(os.environ, DISPLAY=":" + number.decode().strip(), HOME=self.home,
+                                XDG_CONFIG_HOME=self.home + "/config", XDG_STATE_HOME=self.home + "/state",
+                                LIBGL_ALWAYS_SOFTWARE="1", ASAN_OPTIONS="detect_leaks=0")
+        self.environment.pop("WAYLAND_DISPLAY", None)
+        self.state_path = self.folder + "/state.json"
+        self.log = open(self.folder + "/log", "w")
+        self.process = subprocess.Popen([program, *arguments, "--state", self.state_path],
+                                        env=self.environment, stdout=self.log, stderr=self.log, cwd=self.folder)
+        self.wait(lambda s: s is not None, "the first frame", 30)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.server.kill()
+        self.server.wait()
+        self.log.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def state(self):
+        try:
+            with open(self.state_path) as file:
+                return json.load(file)
+        except (FileNotFoundError, json.JSONDecodeError):
+            return None
+
+    def wait(self, condition, what, seconds=10):
+        """Waits until the state fulfils a condition and the map is ready."""
+        end = time.time() + seconds
+        while time.time() < end:
+            if self.process.poll() is not None:
+                raise AssertionError(f"the program ended with {self.process.returncode} while waiting for {what}: " + self.messages())
+            state = self.state()
+            if condition(state) and (state is None or not state["busy"]):
+                return state
+            time.sleep(0.03)
+        raise AssertionError(f"waited in vain for {what}; the state is {self.state()}; " + self.messages())
+
+    def messages(self):
+        self.log.flush()
+        with open(self.folder + "/log") as file:
+            return file.read()
+
+    def xdotool(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
+        time.sleep(0.12)
+
+    def pixel(self, x, y):
+        """The window position of a plane point; the window fills the display's corner."""
+        s = self.state()
+        return (round(s["left"] + s["width"] / 2 + (x - s["center"][0]) * s["zoom"]),
+                round(s["top"] + s["height"] / 2 - (y - s["center"][1]) * s["zoom"]))
+
+    def move(self, x, y):
+        self.xdotool("mousemove", *self.pixel(x, y))
+
+    def click(self, x, y, button=1):
+        self.move(x, y)
+        self.xdotool("click", button)
+
+    def drag(self, start, end, steps=6):
+        self.move(*start)
+        self.xdotool("mousedown", 1)
+        for i in range(1, steps + 1):
+            t = i / steps
+            self.move(start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
+        self.xdotool("mouseup", 1)
+
+    def key(self, name):
+        self.xdotool("key", "--clearmodifiers", name)
+
+    def type(self, text):
+        self.xdotool("type", "--delay", "15", text)
+
+    def screenshot(self, path):
+        subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)

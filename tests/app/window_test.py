@@ -1,0 +1,249 @@
+# The real window: draw, drag, pin, undo, save, reopen, recover, by real input events.
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+from PIL import Image
+
+sys.path.insert(0, os.path.dirname(__file__))
+from driver import Editor  # noqa: E402
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+OUT = os.path.join(os.path.dirname(PROGRAM), "screenshots")
+
+
+def load(path):
+    with open(path) as file:
+        return json.load(file)
+
+
+class WindowTest(unittest.TestCase):
+    def setUp(self):
+        self.work = tempfile.mkdtemp(prefix="holomorph-work-")
+        self.picture = os.path.join(self.work, "gecko.png")
+        shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.picture)
+        os.makedirs(OUT, exist_ok=True)
+
+    def tearDown(self):
+        shutil.rmtree(self.work)
+
+    def screenshot(self, editor, name):
+        path = os.path.join(OUT, name + ".png")
+        editor.screenshot(path)
+        return numpy.asarray(Image.open(path).convert("RGB")).astype(int)
+
+    def save_as(self, editor, path):
+        editor.key("ctrl+shift+s")
+        time.sleep(0.4)
+        editor.key("ctrl+a")
+        editor.type(path)
+        editor.key("Return")
+        editor.wait(lambda s: not s["modified"] and os.path.exists(path), "the saved scene")
+
+    def test_draw_drag_pin_undo_save_reopen(self):
+        with Editor(PROGRAM, [self.picture]) as editor:
+            state = editor.wait(lambda s: not s["empty"], "the picture")
+            self.assertEqual(state["tool"], "pen")
+            for corner in [(20, 20), (1080, 20), (1080, 880), (550, 890), (20, 880)]:
+                editor.click(*corner)
+            editor.click(20, 20)
+            editor.wait(lambda s: s["cage_points"] == 5 and s["tool"] == "select", "the drawn cage")
+            before = self.screenshot(editor, "drawn")
+
+            editor.drag((1080, 880), (980, 800))
+            editor.wait(lambda s: s["step"] == 2 and s["modified"], "the dragged vertex")
+            after = self.screenshot(editor, "dragged")
+            self.assertGreater(numpy.abs(after - before).max(axis=2).__gt__(40).sum(), 2000, "the picture follows")
+
+            editor.key("n")
+            editor.wait(lambda s: s["tool"] == "pin", "the pin tool")
+            editor.drag((600, 410), (560, 450))
+            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "pins" and s["step"] == 4, "a dragged pin")
+            editor.click(300, 300)
+            editor.wait(lambda s: s["pins"] == 2, "another pin")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["pins"] == 1, "undo")
+            editor.key("ctrl+shift+z")
+            editor.wait(lambda s: s["pins"] == 2, "redo")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["pins"] == 1, "undo again")
+
+            path = os.path.join(self.work, "scene.json")
+            self.save_as(editor, path)
+            scene = load(path)
+            self.assertEqual(scene["format"], "holomorph")
+            self.assertEqual(scene["image"]["file"], "gecko.png")
+            self.assertEqual(len(scene["cage"]["rest"]), 5)
+            # Places are exact to the pointer's pixel.
+            grain = 1.5 / editor.state()["zoom"]
+            moved = scene["cage"]["pose"][2][0]
+            self.assertLess(abs(moved[0] - 980) + abs(moved[1] - 800), 4 * grain)
+            self.assertLess(abs(scene["cage"]["rest"][2][0][0] - 1080), 2 * grain)
+            pin = scene["pins"][0]
+            self.assertLess(abs(pin["pose"][0] - 560) + abs(pin["pose"][1] - 450), 4 * grain)
+            self.assertEqual(scene["method"]["id"], "pins")
+
+        with Editor(PROGRAM, [path]) as editor:
+            state = editor.wait(lambda s: s["cage_points"] == 5, "the reopened scene")
+            self.assertFalse(state["modified"])
+            self.assertEqual(state["pins"], 1)
+
+    def test_cage_from_picture_and_editing(self):
+        with Editor(PROGRAM, [self.picture]) as editor:
+            editor.wait(lambda s: not s["empty"], "the picture")
+            # The offer's first button, by the palette: the same action, found by name.
+            editor.key("ctrl+shift+p")
+            time.sleep(0.3)
+            editor.type("make from")
+            editor.key("Return")
+            editor.wait(lambda s: 25 <= s["cage_points"] <= 40, "a cage around the gecko")
+            points = editor.state()["cage_points"]
+
+            editor.key("ctrl+a")
+            editor.wait(lambda s: s["selected"] == points, "all selected")
+            editor.key("Right")
+            editor.wait(lambda s: s["step"] == 2, "a nudge")
+            editor.key("ctrl+d")
+            editor.wait(lambda s: s["selected"] == 0, "none selected")
+            state = editor.state()
+            editor.xdotool("mousemove", int(state["left"] + 4), int(state["top"] + 4))
+            editor.xdotool("mousedown", 1)
+            editor.xdotool("mousemove", int(state["left"] + state["width"] / 2), int(state["top"] + state["height"] - 6))
+            editor.xdotool("mouseup", 1)
+            state = editor.wait(lambda s: s["selected"] > 3, "a box selection")
+            self.assertLess(state["selected"], points)
+
+            editor.key("Tab")
+            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            editor.key("Tab")
+            editor.wait(lambda s: s["layer"] == "pose", "the pose")
+            editor.key("Delete")
+            editor.wait(lambda s: s["cage_points"] < points, "deleted points")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["cage_points"] == points, "undone")
+            editor.key("ctrl+d")
+            editor.key("r")
+            editor.wait(lambda s: s["step"] == 3, "a reset")
+            for key, view in [("2", "angle"), ("3", "area"), ("4", "stretch"), ("5", "checker"), ("1", "image")]:
+                editor.key(key)
+                editor.wait(lambda s, v=view: s["view"] == v, view)
+                self.screenshot(editor, "view-" + view)
+
+    def test_structure_edits_keep_the_pose(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        with Editor(PROGRAM, [scene]) as editor:
+            before = load(scene)
+            editor.wait(lambda s: s["cage_points"] == len(before["cage"]["rest"]), "the giraffe")
+            # The longest posed edge leaves room between its handles.
+            pose = [segment[0] for segment in before["cage"]["pose"]]
+            edge = max(range(len(pose) - 1), key=lambda i: abs(complex(*pose[i]) - complex(*pose[i + 1])))
+            a, b = pose[edge], pose[edge + 1]
+            middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+            editor.move(*middle)
+            editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
+            editor.wait(lambda s: s["cage_points"] == len(before["cage"]["rest"]) + 1, "an inserted point")
+            path = os.path.join(self.work, "scene.json")
+            self.save_as(editor, path)
+            after = load(path)["cage"]
+            for shape in ("pose", "rest"):
+                self.assertEqual(after[shape][:edge + 1] + after[shape][edge + 2:], before["cage"][shape])
+            self.assertEqual(load(path)["image"]["sha256"], before["image"]["sha256"])
+
+            editor.key("Tab")
+            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            x, y = after["rest"][5][0]
+            editor.drag((x, y), (x + 6, y + 6))
+            editor.wait(lambda s: s["modified"], "a moved rest point")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "saved")
+            again = load(path)["cage"]
+            self.assertEqual(again["pose"], after["pose"])
+            self.assertNotEqual(again["rest"][5], after["rest"][5])
+
+    def test_a_crossing_rest_cage_is_refused(self):
+        scene = os.path.join(self.work, "square.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "gecko.png"},
+                       "cage": {"rest": [[[0, 0]], [[1100, 0]], [[1100, 900]], [[0, 900]]]}}, file)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the square")
+            editor.key("Tab")
+            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            editor.drag((1100, 900), (-120, 300))
+            state = editor.wait(lambda s: not s["gesture"], "the end of the drag")
+            self.assertEqual(state["step"], 0)
+            self.assertFalse(state["error"])
+            self.screenshot(editor, "crossing-refused")
+
+    def test_kill_loses_nothing_and_is_recovered(self):
+        home = tempfile.mkdtemp(prefix="holomorph-home-")
+        scene = os.path.join(SOURCE, "assets/gecko.json")
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            state = editor.wait(lambda s: s["cage_points"] > 0, "the gecko")
+            x, y = load(scene)["cage"]["pose"][3][0]
+            editor.drag((x, y), (x + 40, y + 30))
+            editor.wait(lambda s: s["modified"], "an edit")
+            time.sleep(0.3)
+            editor.process.kill()
+            editor.process.wait()
+        saved = os.listdir(home + "/state/holomorph/autosave")
+        self.assertEqual(len(saved), 1)
+        kept = load(home + "/state/holomorph/autosave/" + saved[0])
+        self.assertNotEqual(kept["cage"]["pose"][3], load(scene)["cage"]["pose"][3])
+        self.assertEqual(kept["cage"]["pose"][4], load(scene)["cage"]["pose"][4])
+        with Editor(PROGRAM, [], home=home) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            time.sleep(0.5)
+            self.screenshot(editor, "welcome-recovery")
+        shutil.rmtree(home)
+
+    def test_unsaved_changes_are_asked_about(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            editor.key("ctrl+a")
+            editor.key("Up")
+            editor.wait(lambda s: s["modified"], "an edit")
+            editor.key("ctrl+q")
+            time.sleep(0.5)
+            self.screenshot(editor, "unsaved")
+            self.assertIsNone(editor.process.poll())
+            editor.key("Escape")
+            time.sleep(0.3)
+            editor.key("ctrl+z")
+            editor.wait(lambda s: not s["modified"], "the undone edit")
+            editor.key("ctrl+q")
+            editor.process.wait(timeout=10)
+            self.assertEqual(editor.process.returncode, 0, editor.messages())
+
+    def test_idle_sleeps(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            time.sleep(1.5)
+
+            def ticks():
+                with open(f"/proc/{editor.process.pid}/stat") as file:
+                    fields = file.read().rsplit(")", 1)[1].split()
+                return int(fields[11]) + int(fields[12])
+
+            start = ticks()
+            time.sleep(3)
+            used = (ticks() - start) / os.sysconf("SC_CLK_TCK") / 3
+            self.assertLess(used, 0.02, "idle costs under 2 % of a core")
+
+    def test_without_a_display_the_program_says_so(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        result = subprocess.run([PROGRAM], env=environment, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no display", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2)
