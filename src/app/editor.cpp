@@ -152,7 +152,8 @@ class Editor {
     Input input;
     input.px = {io.MousePos.x, io.MousePos.y};
     input.mods = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
-    input.inside = !io.WantCaptureMouse && !workspace_.document.empty() && workspace_.viewport.contains_px(input.px);
+    input.inside = !io.WantCaptureMouse && !workspace_.document.empty() &&
+                   workspace_.viewport.contains_px(input.px);
     input.pressed = input.inside && ImGui::IsMouseClicked(0);
     input.double_clicked = input.inside && ImGui::IsMouseDoubleClicked(0);
     input.down = ImGui::IsMouseDown(0);
@@ -166,7 +167,8 @@ class Editor {
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (input.inside && io.MouseWheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
+    if (input.inside && io.MouseWheel != 0)
+      workspace_.viewport.zoom_at(input.px, std::pow(1.15, io.MouseWheel));
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -188,7 +190,8 @@ class Editor {
 
   void open_context_menu(const Input& input) {
     if (!input.inside || !ImGui::IsMouseClicked(1)) return;
-    if (const auto handle = handle_at(workspace_, input.px); handle && !workspace_.selection.contains(*handle))
+    if (const auto handle = handle_at(workspace_, input.px);
+        handle && !workspace_.selection.contains(*handle))
       workspace_.selection = {*handle};
     ImGui::OpenPopup("context");
   }

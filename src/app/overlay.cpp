@@ -106,13 +106,16 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   if (workspace.show_cage && !workspace.hide_overlays && gesture.line.empty()) {
     const ImU32 color = layer == Layer::rest ? style.colors.rest : style.colors.pose;
     // With pins the posed cage is only the start of the map: it steps back behind the picture.
-    const bool faint = layer == Layer::pose && method_named(scene.method).uses_pins && !scene.pins.empty();
+    const bool faint =
+        layer == Layer::pose && method_named(scene.method).uses_pins && !scene.pins.empty();
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
-      list.AddPolyline(line.data(), static_cast<int>(line.size()), (color & 0x00ffffff) | 0x70000000, ImDrawFlags_Closed,
+      list.AddPolyline(line.data(), static_cast<int>(line.size()),
+                       (color & 0x00ffffff) | 0x70000000, ImDrawFlags_Closed,
                        static_cast<float>(style.scale));
-    } else if (scene.has_cage()) draw_cage(list, workspace, cage_of(scene, layer), color, style);
+    } else if (scene.has_cage())
+      draw_cage(list, workspace, cage_of(scene, layer), color, style);
     for (const Handle& handle : handles_of(scene, layer)) {
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;

@@ -76,7 +76,8 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_STENCIL_BITS, 8);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  for (const int samples : {4, 0}) {  // some drivers have no multisampling; on a processor it is too slow
+  for (const int samples :
+       {4, 0}) {  // some drivers have no multisampling; on a processor it is too slow
     glfwWindowHint(GLFW_SAMPLES, samples);
     window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
     if (!window_) continue;
@@ -105,8 +106,12 @@ Window::Window(int width, int height, double ui_scale, bool light) {
     glfwGetCursorPos(w, &x, &y);
     self(w)->add({Kind::button, x, y, button, 0, action});
   });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->add({Kind::scroll, x, y}); });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->add({Kind::move, x, y}); });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    self(w)->add({Kind::scroll, x, y});
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    self(w)->add({Kind::move, x, y});
+  });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
     if (!entered) self(w)->add({Kind::move, -1e9, -1e9});
   });
@@ -203,7 +208,9 @@ void Window::pump_events() {
       button_changed = true;
       if (event.code < 3) mouse_down_[event.code] = event.action == GLFW_PRESS;
     } else if (event.kind == Event::Kind::key) {
-      if (event.action == GLFW_RELEASE && std::find(pressed.begin(), pressed.end(), event.code) != pressed.end()) break;
+      if (event.action == GLFW_RELEASE &&
+          std::find(pressed.begin(), pressed.end(), event.code) != pressed.end())
+        break;
       if (event.action != GLFW_RELEASE) pressed.push_back(event.code);
       ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
       take_key(event);
@@ -225,7 +232,8 @@ void Window::take_key(const Event& event) {
   if (printed == 0 || printed == '+' || printed == '?') return;  // those come as characters
   Shortcut shortcut;
   shortcut.key = printed;
-  shortcut.mods = {(event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0, (event.mods & GLFW_MOD_ALT) != 0};
+  shortcut.mods = {(event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0,
+                   (event.mods & GLFW_MOD_ALT) != 0};
   keys_.push_back(shortcut);
 }
 

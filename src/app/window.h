@@ -27,8 +27,8 @@ class Window {
   bool wait(double longest);
   /// From any thread: makes wait() return.
   void wake();
-  /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at most
-  /// one change of the mouse buttons, at the place where it happened, however slow frames are.
+  /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at
+  /// most one change of the mouse buttons, at the place where it happened, however slow frames are.
   void begin_frame();
   void end_frame();
 

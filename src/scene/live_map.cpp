@@ -101,7 +101,8 @@ void LiveMap::take_result(const Scene& scene, bool derivatives) {
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
-  // Mesh and map always belong together: when the scene has moved on, it is posed as it was asked for.
+  // Mesh and map always belong together: when the scene has moved on, it is posed as it was asked
+  // for.
   pose(same_rest(*requested_, scene) ? scene : *requested_, derivatives);
 }
 

@@ -1,0 +1,253 @@
+# The command line: exact numbers, published schema, and what bad input gets.
+import csv
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import jsonschema
+import numpy
+from PIL import Image
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
+SAMPLES = ["giraffe", "gecko", "sunflower"]
+
+
+def run(*words, **options):
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="holomorph-cli-")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        with open(self.path(name), "w") as file:
+            file.write(content if isinstance(content, str) else json.dumps(content))
+        return self.path(name)
+
+    def good(self, *words, **options):
+        result = run(*words, **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def bad(self, *words, says, status=2):
+        result = run(*words)
+        self.assertEqual(result.returncode, status, result.stderr + result.stdout)
+        self.assertIn(says, result.stderr)
+        return result
+
+    # ---- numbers -----------------------------------------------------------------------------
+
+    def golden_scene(self, name):
+        data = json.load(open(os.path.join(SOURCE, "tests/data", name + ".json")))
+        flat = data["polygon"]
+        polygon = flat if isinstance(flat[0], list) else [flat[2 * i:2 * i + 2] for i in range(len(flat) // 2)]
+        pose = []
+        for e, degree in enumerate(data["degrees"]):
+            controls = data["target"][e]
+            pose.append([controls[2 * m:2 * m + 2] for m in range(degree)])
+        return data, {"format": "holomorph", "version": 1, "cage": {"rest": [[p] for p in polygon], "pose": pose}}
+
+    def test_map_and_coordinates_equal_the_golden_values(self):
+        for name in ["convex_hex", "star5", "concave_L", "notch_ratio1e4", "sliver"]:
+            data, scene = self.golden_scene(name)
+            path = self.write("s.json", scene)
+            inside = [q for q in data["queries"] if q["kind"] in ("interior", "near_vertex", "far_from_short_edge")]
+            outside = [q for q in data["queries"] if q["kind"] == "exterior"]
+            points = self.write("p.csv", "".join("%r,%r\n" % tuple(q["z"]) for q in inside + outside))
+            rows = list(csv.DictReader(io.StringIO(self.good("map", path, "--points", points).stdout)))
+            self.assertEqual(list(rows[0]), ["u", "v", "fz_re", "fz_im", "fzbar_re", "fzbar_im"])
+            for query, row in zip(inside, rows):
+                for order, (re, im) in enumerate((("u", "v"), ("fz_re", "fz_im"))):
+                    exact = complex(*query["map"][order])
+                    scale = sum(abs(complex(*pair)) for edge in query["bezier"][str(order)]
+                                for pair in zip(edge[::2], edge[1::2])) * 3
+                    got = complex(float(row[re]), float(row[im]))
+                    self.assertLessEqual(abs(got - exact), 1e-12 * max(scale, abs(exact)), (name, query["kind"], order))
+                self.assertEqual(float(row["fzbar_re"]), 0)
+            for row in rows[len(inside):]:
+                self.assertEqual(set(row.values()), {"nan"})
+            self.good("coordinates", path, "--points", points, "--out", self.path("m.npy"))
+            matrix = numpy.load(self.path("m.npy"))
+            self.assertEqual(matrix.dtype, numpy.complex128)
+            self.assertEqual(matrix.shape, (len(inside) + len(outside), sum(data["degrees"])))
+            numpy.testing.assert_allclose(matrix.sum(axis=1)[:len(inside)], 1, atol=1e-11)
+            numpy.testing.assert_allclose(matrix.sum(axis=1)[len(inside):], 0, atol=1e-11)
+            pose = numpy.array([complex(*c) for segment in scene["cage"]["pose"] for c in segment])
+            mapped = matrix @ pose
+            numpy.testing.assert_allclose(mapped[:len(inside)], [complex(float(r["u"]), float(r["v"])) for r in rows[:len(inside)]], atol=1e-9)
+
+    def test_a_clockwise_cage_is_the_same_map(self):
+        data, scene = self.golden_scene("concave_L")
+        scene["cage"]["pose"] = [[[p[0][0] * 1.5 + 0.2 * p[0][1], p[0][1]]] for p in scene["cage"]["rest"]]
+        points = self.write("p.csv", "".join("%r,%r\n" % tuple(q["z"]) for q in data["queries"] if q["kind"] == "interior"))
+        one = self.good("map", self.write("a.json", scene), "--points", points).stdout
+        for shape in ("rest", "pose"):
+            loop = scene["cage"][shape]
+            scene["cage"][shape] = [loop[0]] + loop[:0:-1]
+        two = self.good("map", self.write("b.json", scene), "--points", points).stdout
+        a, b = (numpy.array([[float(x) for x in line.split(",")] for line in text.split()[1:]]) for text in (one, two))
+        numpy.testing.assert_allclose(a, b, atol=1e-12)
+
+    def test_derivatives_of_higher_order(self):
+        data, scene = self.golden_scene("convex_hex")
+        query = next(q for q in data["queries"] if q["kind"] == "interior")
+        points = self.write("p.csv", "%r,%r\n" % tuple(query["z"]))
+        pose = numpy.array([complex(*c) for segment in scene["cage"]["pose"] for c in segment])
+        for order in range(len(query["map"])):
+            self.good("coordinates", self.write("s.json", scene), "--points", points, "--order", order, "--out", self.path("m.npy"))
+            got = (numpy.load(self.path("m.npy")) @ pose)[0]
+            exact = complex(*query["map"][order])
+            self.assertLessEqual(abs(got - exact), 1e-11 * max(1, abs(exact)))
+
+    # ---- scenes and pictures -----------------------------------------------------------------
+
+    def test_samples_and_new_scenes_fulfil_the_schema(self):
+        for name in SAMPLES:
+            jsonschema.validate(json.load(open(os.path.join(SOURCE, "assets", name + ".json"))), SCHEMA)
+            picture = os.path.join(SOURCE, "assets", name + ".png")
+            out = self.path(name + ".json")
+            self.good("new", picture, "--out", out, "--vertices", 24, "--margin", 9)
+            scene = json.load(open(out))
+            jsonschema.validate(scene, SCHEMA)
+            self.assertLessEqual(abs(len(scene["cage"]["rest"]) - 24), 12)
+            # A fresh scene shows its picture, to the last bit.
+            self.good("render", out, "--out", self.path("r.png"))
+            self.assertEqual(Image.open(self.path("r.png")).convert("RGBA").tobytes(), Image.open(picture).convert("RGBA").tobytes())
+
+    def test_golden_pictures(self):
+        for name in SAMPLES:
+            for view in ("image", "angle", "area", "stretch", "checker"):
+                if view in ("angle", "checker") and name != "gecko":
+                    continue
+                out = self.path(f"{name}-{view}.png")
+                self.good("render", os.path.join(SOURCE, "assets", name + ".json"), "--out", out, "--scale", 0.3, "--view", view)
+                golden = os.path.join(SOURCE, "tests/golden", f"{name}-{view}.png")
+                if os.environ.get("HOLOMORPH_UPDATE_GOLDEN"):
+                    shutil.copy(out, golden)
+                a, b = (numpy.asarray(Image.open(p).convert("RGBA")).astype(int) for p in (out, golden))
+                self.assertEqual(a.shape, b.shape, golden)
+                difference = numpy.abs(a - b).max(axis=2)
+                if difference.mean() > 0.3 or (difference > 40).mean() > 0.002:
+                    kept = os.path.join(os.path.dirname(PROGRAM), "golden-failures")
+                    os.makedirs(kept, exist_ok=True)
+                    shutil.copy(out, kept)
+                    Image.fromarray(numpy.clip(difference * 4, 0, 255).astype("uint8")).save(os.path.join(kept, f"{name}-{view}-difference.png"))
+                    self.fail(f"{name} {view} differs from its golden picture; see {kept}")
+
+    def test_info(self):
+        result = json.loads(self.good("info", os.path.join(SOURCE, "assets/gecko.json"), "--json").stdout)
+        for key in ("method", "status", "iterations", "energies", "prepare_ms", "pose_ms", "max_k", "min_sigma", "max_sigma",
+                    "zeros", "turning_number", "simple_boundary", "certified"):
+            self.assertIn(key, result)
+        self.assertEqual(result["method"], "pins")
+        self.assertLess(result["energies"]["pins_rms"], 1e-6)
+        self.assertAlmostEqual(result["turning_number"], 1, places=2)
+        self.assertIn("turning number", self.good("info", os.path.join(SOURCE, "assets/gecko.json")).stdout)
+
+    def test_exports(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        for kind in ("obj", "svg", "npy", "png"):
+            self.good("export", scene, "--format", kind, "--out", self.path("x." + kind))
+        positions = numpy.load(self.path("x.npy"))
+        lines = open(self.path("x.obj")).read().split("\n")
+        vertices = numpy.array([[float(x) for x in line.split()[1:3]] for line in lines if line.startswith("v ")])
+        numpy.testing.assert_array_equal(vertices, positions)
+        faces = [line for line in lines if line.startswith("f ")]
+        self.assertGreater(len(faces), 10000)
+        self.assertLess(len(faces), 20000)
+        self.assertIn("<path", open(self.path("x.svg")).read())
+        self.assertEqual(Image.open(self.path("x.png")).size, (900, 1100))
+
+    # ---- bad input ---------------------------------------------------------------------------
+
+    def test_bad_scenes(self):
+        good = json.load(open(os.path.join(SOURCE, "assets/gecko.json")))
+        good["image"]["file"] = os.path.join(SOURCE, "assets/gecko.png")
+
+        def changed(change):
+            scene = json.loads(json.dumps(good))
+            change(scene)
+            return self.write("bad.json", scene)
+
+        text = json.dumps(good)
+        for length in (0, 1, 10, len(text) // 3, len(text) - 1):
+            self.bad("info", self.write("bad.json", text[:length]), says="bad.json")
+        self.bad("info", changed(lambda s: s.update(version=9)), says="/version")
+        self.bad("info", changed(lambda s: s.update(version="1")), says="/version")
+        self.bad("info", changed(lambda s: s.update(format="other")), says="Holomorph")
+        self.bad("info", changed(lambda s: s.pop("cage")), says="'cage' is missing")
+        self.bad("info", changed(lambda s: s["cage"].update(rest=5)), says="/cage/rest")
+        self.bad("info", changed(lambda s: s["cage"]["rest"].__setitem__(0, [[1, "x"]])), says="/cage/rest/0/0/1")
+        self.bad("info", changed(lambda s: s["cage"]["rest"].pop()), says="must agree")
+        self.bad("info", changed(lambda s: s["pins"].__setitem__(0, 7)), says="/pins/0")
+        self.bad("info", changed(lambda s: s["method"].update(id="none")), says="/method/id")
+        self.bad("info", changed(lambda s: s["image"].update(file="missing.png")), says="/image/file")
+        self.bad("info", changed(lambda s: s["image"].update(file="/")), says="/image/file")
+        self.bad("info", changed(lambda s: s["cage"].update(rest=[], pose=[])), says="no cage")
+        self.bad("info", self.write("bad.json", text.replace("[600", "[1e400", 1)), says="bad.json")
+        self.bad("info", self.write("bad.json", text.replace("[600", "[NaN", 1)), says="bad.json")
+        self.bad("info", self.write("bad.json", "[" * 100000), says="bad.json")
+        self.bad("info", self.folder, says="directory")
+        self.bad("info", self.path("nothing.json"), says="no such file")
+        crossing = {"format": "holomorph", "version": 1, "cage": {"rest": [[[0, 0]], [[10, 10]], [[10, 0]], [[0, 10]]]}}
+        self.bad("info", self.write("bad.json", crossing), says="(5, 5)")
+        huge = {"format": "holomorph", "version": 1, "cage": {"rest": [[[i, i * i]] for i in range(6000)]}}
+        self.bad("info", self.write("bad.json", huge), says="5000")
+
+    def test_bad_arguments(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        points = self.write("p.csv", "1,2\n3,x\n")
+        self.bad("map", scene, "--points", points, says="line 2")
+        self.bad("map", scene, "--points", self.path("none.csv"), says="no such file")
+        self.bad("map", scene, says="--points")
+        self.bad("coordinates", scene, "--points", self.write("q.csv", "1,2\n"), "--order", -1, "--out", self.path("m"), says="order")
+        self.bad("render", scene, "--out", self.folder, says="directory")
+        self.bad("render", scene, "--out", self.path("no/where.png"), says="cannot write", status=1)
+        self.bad("render", scene, "--out", self.path("x.png"), "--view", "xray", says="angle")
+        for scale in ("0", "-1", "1e9", "nan"):
+            self.bad("render", scene, "--out", self.path("x.png"), "--scale", scale, says="scale")
+        self.bad("export", scene, "--format", "doc", "--out", self.path("x"), says="obj, svg, npy, png")
+        picture = os.path.join(SOURCE, "assets/giraffe.png")
+        self.bad("new", picture, "--out", self.path("n.json"), "--vertices", 2, says="3 to 500")
+        self.bad("new", scene, "--out", self.path("n.json"), says="no picture")
+        with open(picture, "rb") as file:
+            half = file.read()[:20000]
+        with open(self.path("half.png"), "wb") as file:
+            file.write(half)
+        self.bad("new", self.path("half.png"), "--out", self.path("n.json"), says="damaged")
+        self.assertFalse(os.path.exists(self.path("n.json")))
+        self.bad("frobnicate", "x", says="")
+        self.assertEqual(run("--help").returncode, 0)
+        for command in ("map", "coordinates", "render", "info", "new", "export", "bench"):
+            self.assertEqual(run(command, "--help").returncode, 0)
+
+    def test_killing_the_program_while_it_writes_leaves_whole_files(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        out = self.path("x.obj")
+        self.good("export", scene, "--format", "obj", "--out", out)
+        whole = open(out).read()
+        for i in range(12):
+            process = subprocess.Popen([PROGRAM, "export", scene, "--format", "obj", "--out", out], stderr=subprocess.DEVNULL)
+            time.sleep(0.02 + 0.03 * i)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            self.assertEqual(open(out).read(), whole)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2, warnings="ignore")

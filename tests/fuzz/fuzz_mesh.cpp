@@ -1,0 +1,38 @@
+// Any polygon: an Error, or a mesh with positive triangles that fill it and coordinates that add
+// up.
+#include <cstring>
+
+#include "core/cauchy_array.h"
+#include "core/error.h"
+#include "core/mesh.h"
+
+using namespace holomorph;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
+  if (size < 1) return 0;
+  // The first byte chooses a scale; then coordinates of 16 bits, so that coincidences are common.
+  const double scale = std::ldexp(1.0, (data[0] % 24) - 12);
+  Points polygon;
+  for (size_t i = 1; i + 4 <= size && polygon.size() < 60; i += 4) {
+    std::int16_t xy[2];
+    std::memcpy(xy, data + i, 4);
+    polygon.push_back(scale * Complex(xy[0], xy[1]));
+  }
+  try {
+    const Mesh mesh = domain_mesh(polygon, {120});
+    double area = 0;
+    for (const Triangle& t : mesh.triangles) {
+      const double twice = cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                                 mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+      check(twice >= 0, "triangles are counter-clockwise");
+      area += 0.5 * twice;
+    }
+    const double exact = std::abs(signed_area(polygon)),
+                 size2 = std::norm(Complex(box_of(polygon).diagonal(), 0));
+    check(std::abs(area - exact) <= 1e-9 * size2, "triangles fill the polygon");
+    const auto C = polygon_coordinates<double>(polygon, mesh.vertices);
+    check(C.re.allFinite() && C.im.allFinite(), "coordinates are finite");
+  } catch (const Error&) {
+  }
+  return 0;
+}

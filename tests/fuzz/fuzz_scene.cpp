@@ -1,0 +1,16 @@
+// Reads any bytes as a scene: an Error or a scene that writes and reads back the same.
+#include "core/error.h"
+#include "scene/scene_json.h"
+
+using namespace holomorph;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
+  try {
+    const Scene scene =
+        scene_from_json(std::string(reinterpret_cast<const char*>(data), size), "fuzz");
+    check(scene_from_json(json_of(scene), "again") == scene,
+          "a scene survives writing and reading");
+  } catch (const Error&) {
+  }
+  return 0;
+}

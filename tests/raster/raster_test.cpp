@@ -1,0 +1,171 @@
+// Exported pixels: identities, conservation and no seams.
+#include "raster/raster.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "core/error.h"
+#include "raster/picture.h"
+#include "scene/auto_cage.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// Random colours and alphas, the hidden colours of transparent pixels among them.
+Image noise(int width, int height, unsigned seed, bool opaque = false) {
+  std::mt19937 random(seed);
+  Image image(width, height);
+  for (auto& byte : image.pixels) byte = static_cast<std::uint8_t>(random());
+  for (size_t i = 3; i < image.pixels.size(); i += 4) {
+    if (opaque)
+      image.pixels[i] = 255;
+    else if (random() % 3 == 0)
+      image.pixels[i] = 0;
+  }
+  return image;
+}
+
+RasterJob job_of(const Mesh& mesh, const Points& positions, const Image& image) {
+  RasterJob job;
+  job.mesh = &mesh;
+  job.positions = positions;
+  job.source = &image;
+  return job;
+}
+
+}  // namespace
+
+TEST_CASE("The identity pose gives the source back bit for bit, whatever the cage") {
+  const Image image = noise(220, 190, 1);
+  for (const Points& polygon : {shapes::l_shape(), shapes::star(17, 0.4, 2),
+                                shapes::rectangle(220, 190), shapes::comb(6)}) {
+    const Mesh mesh = domain_mesh(polygon, {700});
+    const RasterResult result = rasterized(job_of(mesh, mesh.vertices, image));
+    CHECK(result.image.width == image.width);
+    CHECK(result.image.height == image.height);
+    CHECK(result.image == image);
+    Scene scene = with_cage(Scene{}, polygon);
+    CHECK(picture_of(scene, &image).image == image);
+    scene.method = "pins";
+    scene.pins = {{{30, 30}, {30, 30}, {}, {}}, {{40, 60}, {40, 60}, 0.0, {}}};
+    CHECK(picture_of(scene, &image).image == image);
+  }
+}
+
+TEST_CASE("A move by whole pixels moves whole pixels") {
+  const Image image = noise(80, 60, 3, true);
+  const Mesh mesh = domain_mesh(Points{{-4, -4}, {84, -4}, {84, 64}, {-4, 64}}, {500});
+  Points moved = mesh.vertices;
+  for (Complex& z : moved) z += Complex(7, -5);
+  const RasterResult result = rasterized(job_of(mesh, moved, image));
+  CHECK(result.image.width == 87);
+  CHECK(result.image.height == 65);
+  CHECK(result.corner == Complex(0, -5));
+  int different = 0;
+  for (int r = 0; r < 60; ++r)
+    for (int c = 0; c < 80; ++c)
+      different += std::memcmp(result.image.at(c + 7, r + 5), image.at(c, r), 4) != 0;
+  CHECK(different == 0);
+}
+
+TEST_CASE("One colour stays that colour: no seams, no dark fringes") {
+  Image image(200, 200);
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    std::memcpy(&image.pixels[i], "\xc8\x64\x32\xff", 4);
+  const Mesh mesh = domain_mesh(shapes::rectangle(200, 200), {900});
+  Points bent = mesh.vertices;
+  for (Complex& z : bent)
+    z = z + Complex(12 * std::sin(z.imag() / 31), 9 * std::cos(z.real() / 23));
+  const RasterResult result = rasterized(job_of(mesh, bent, image));
+  double alpha = 0;
+  int wrong = 0, holes = 0;
+  for (int r = 0; r < result.image.height; ++r)
+    for (int c = 0; c < result.image.width; ++c) {
+      const std::uint8_t* p = result.image.at(c, r);
+      alpha += p[3] / 255.0;
+      if (p[3] > 0)
+        wrong += std::abs(p[0] - 200) > 1 || std::abs(p[1] - 100) > 1 || std::abs(p[2] - 50) > 1;
+      const bool deep =
+          c > 30 && r > 30 && c < result.image.width - 30 && r < result.image.height - 30;
+      holes += deep && p[3] != 255;
+    }
+  CHECK(wrong == 0);
+  CHECK(holes == 0);
+  double area = 0;
+  for (const Triangle& t : mesh.triangles)
+    area += 0.5 * cross(bent[t[1]] - bent[t[0]], bent[t[2]] - bent[t[0]]);
+  // Coverage adds up to the area, but for the source's own border, which fades over half a pixel.
+  CHECK(alpha == Approx(area).epsilon(5e-3));
+}
+
+TEST_CASE("The number of threads changes nothing") {
+  const Image image = noise(150, 170, 9);
+  const Mesh mesh = domain_mesh(shapes::star(12, 0.3, 5), {600});
+  Points bent = mesh.vertices;
+  for (Complex& z : bent) z = z * Complex(0.9, 0.2) + Complex(30, 3 * std::sin(z.real() / 9));
+  RasterJob job = job_of(mesh, bent, image);
+  job.threads = 1;
+  const Image one = rasterized(job).image;
+  job.threads = 5;
+  CHECK(rasterized(job).image == one);
+}
+
+TEST_CASE("Shrinking averages instead of skipping pixels") {
+  Image stripes(256, 256);
+  for (int r = 0; r < 256; ++r)
+    for (int c = 0; c < 256; ++c) {
+      const std::uint8_t value = c % 2 ? 255 : 0;
+      std::memset(stripes.at(c, r), value, 3);
+      stripes.at(c, r)[3] = 255;
+    }
+  const Scene scene = with_cage(Scene{}, Points{{-8, -8}, {264, -8}, {264, 264}, {-8, 264}});
+  PictureOptions options;
+  options.scale = 0.25;
+  const Image small = picture_of(scene, &stripes, options).image;
+  CHECK(small.width == 64);
+  for (int c = 4; c < 60; ++c) CHECK(std::abs(small.at(c, 30)[0] - 128) <= 8);
+}
+
+TEST_CASE("Later triangles lie on top, and a fold is drawn") {
+  Image image = noise(40, 40, 4, true);
+  const Mesh mesh = domain_mesh(shapes::rectangle(40, 40), {200});
+  Points mirrored = mesh.vertices;
+  for (Complex& z : mirrored) z = {40 - z.real(), z.imag()};
+  const Image flipped = rasterized(job_of(mesh, mirrored, image)).image;
+  int different = 0;
+  for (int r = 0; r < 40; ++r)
+    for (int c = 0; c < 40; ++c)
+      different += std::memcmp(flipped.at(39 - c, r), image.at(c, r), 4) != 0;
+  CHECK(different == 0);
+}
+
+TEST_CASE("Nothing is cut off, unless asked") {
+  const Image image = noise(50, 40, 6, true);
+  Scene scene = with_cage(Scene{}, Points{{-2, -2}, {52, -2}, {52, 42}, {-2, 42}});
+  for (Points& segment : scene.pose.segments) segment[0] *= 2.0;
+  const RasterResult whole = picture_of(scene, &image);
+  // The border's fade, half a source pixel, is two times as wide, too.
+  CHECK(whole.image.width == 102);
+  CHECK(whole.image.height == 82);
+  PictureOptions options;
+  options.crop = true;
+  CHECK(picture_of(scene, &image, options).image.width == 50);
+}
+
+TEST_CASE("Pictures that are too large, or of nothing, are refused") {
+  const Image image = noise(10, 10, 6, true);
+  PictureOptions options;
+  for (const double scale : {1e6, 0.0, -1.0, std::nan("")}) {
+    options.scale = scale;
+    CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), &image, options),
+                    Error);
+  }
+  CHECK_THROWS_AS(picture_of(Scene{}, nullptr), Error);
+  CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr), Error);
+  options = {};
+  options.view = View::area;
+  CHECK(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr, options).image.width ==
+        10);
+}

@@ -1,0 +1,132 @@
+// OpenGL against the processor: the operator in the shader, and the picture on the screen.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <catch2/catch.hpp>
+
+#include "raster/picture.h"
+#include "render/renderer.h"
+#include "render/texture.h"
+#include "scene/document.h"
+#include "scene/live_map.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// A hidden window with a context; the tests are skipped where there is no display.
+struct Context {
+  GLFWwindow* window = nullptr;
+  Context(int width, int height) {
+    REQUIRE(glfwInit());
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_STENCIL_BITS, 8);
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    window = glfwCreateWindow(width, height, "test", nullptr, nullptr);
+    REQUIRE(window);
+    glfwMakeContextCurrent(window);
+  }
+  ~Context() {
+    glfwDestroyWindow(window);
+    glfwTerminate();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 px") {
+  const Context context(64, 64);
+  Renderer renderer;
+  for (const Method& method : methods()) {
+    Points small = shapes::l_shape();
+    Scene scene;
+    scene.rest = scene.pose = polygon_cage(small);
+    scene.pose.segments[2][0] += Complex(20, -12);
+    scene.pose.segments[5][0] += Complex(-9, 14);
+    scene.method = method.id;
+    if (method.uses_pins)
+      scene.pins = {{{40, 40}, {44, 46}, 0.3, {}}, {{150, 50}, {140, 60}, {}, {}}};
+    const auto prepared = prepared_map(scene, Precision::single, {3000});
+    SampledMap map;
+    prepared->deformer->deform(pose_of(scene), map, false);
+    renderer.set_mesh(prepared->mesh.get());
+    REQUIRE(renderer.set_operator(prepared->deformer->operator_matrix()));
+    renderer.set_controls(prepared->deformer->controls(pose_of(scene)));
+    const std::vector<Complex> placed = renderer.placed_vertices(Placement::by_operator);
+    double worst = 0;
+    for (size_t i = 0; i < placed.size(); ++i)
+      worst = std::max(worst, std::abs(placed[i] - map.f[static_cast<Index>(i)]));
+    INFO(method.id << ", worst " << worst << ", " << driver_name());
+    CHECK(worst <= 1e-4);
+    renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
+    const std::vector<Complex> given = renderer.placed_vertices(Placement::positions);
+    CHECK(std::abs(given[7] - map.f[7]) <= 1e-4);
+  }
+}
+
+TEST_CASE("The canvas at 100 % shows the exported pixels") {
+  for (const char* name : {"giraffe", "gecko", "sunflower"}) {
+    const LoadedScene loaded =
+        load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/" + name + ".json");
+    PictureOptions options;
+    options.crop = true;
+    const Image exported = picture_of(loaded.scene, loaded.image.get(), options).image;
+    const int width = exported.width, height = exported.height;
+    const Context context(width, height);
+    Renderer renderer;
+    CHECK(renderer.set_picture(loaded.image->width, loaded.image->height,
+                               loaded.image->pixels.data()) == 1);
+    const auto prepared = prepared_map(loaded.scene, Precision::single, MeshOptions{});
+    SampledMap map;
+    prepared->deformer->deform(pose_of(loaded.scene), map, false);
+    renderer.set_mesh(prepared->mesh.get());
+    renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
+    Frame frame;
+    frame.window_width = width;
+    frame.window_height = height;
+    frame.canvas_width = width;
+    frame.canvas_height = height;
+    frame.center = {width / 2.0, height / 2.0};
+    frame.background = frame.backdrop = {0.5f, 0.5f, 0.5f};
+    renderer.draw(frame);
+    Image shown(width, height);
+    read_framebuffer(width, height, shown.pixels.data());
+    double sum = 0;
+    int far = 0;
+    for (int r = 0; r < height; ++r)
+      for (int c = 0; c < width; ++c) {
+        const std::uint8_t* e = exported.at(c, r);
+        for (int k = 0; k < 3; ++k) {
+          const double over_grey = (e[k] * e[3] + 127.5 * (255 - e[3])) / 255;
+          const double difference = std::abs(over_grey - shown.at(c, r)[k]);
+          sum += difference;
+          far += difference > 40;
+        }
+      }
+    const double mean = sum / (3.0 * width * height);
+    INFO(name << ", mean difference " << mean << ", far " << far << ", " << driver_name());
+    CHECK(mean < 0.8);                        // of 255
+    CHECK(far < 0.002 * 3 * width * height);  // silhouettes and small details alone
+  }
+}
+
+TEST_CASE("A mesh or an operator that is taken away is not drawn") {
+  const Context context(32, 32);
+  Renderer renderer;
+  renderer.set_mesh(nullptr);
+  CHECK_FALSE(renderer.set_operator(nullptr));
+  Frame frame;
+  frame.window_width = frame.window_height = 32;
+  frame.canvas_width = frame.canvas_height = 32;
+  frame.background = {1, 0, 0};
+  frame.view = View::checker;
+  renderer.draw(frame);
+  Image shown(32, 32);
+  read_framebuffer(32, 32, shown.pixels.data());
+  CHECK(shown.at(5, 5)[0] == 255);
+  CHECK(shown.at(5, 5)[1] == 0);
+}

@@ -1,0 +1,292 @@
+// Scenes as files: nothing is lost, everything wrong is named.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "core/error.h"
+#include "scene/auto_cage.h"
+#include "scene/document.h"
+#include "scene/export.h"
+#include "scene/live_map.h"
+#include "scene/scene_json.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that goes away with the test.
+struct Folder {
+  Path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "holomorph-test-XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+const char* const kText = R"({
+  "format": "holomorph", "version": 1, "author": {"name": "x"},
+  "cage": {"rest": [[[10,10]], [[180,10]], [[180,200]], [[10,200]]],
+           "pose": [[[10,10]], [[180,10],[200,60],[190,120]], [[180,210.1234567890123]], [[10,200]]], "note": 1},
+  "pins": [{"rest": [50,60], "pose": [55,80], "angle": 0.5, "colour": "red"}, {"rest": [90, 90]}],
+  "strokes": [{"rest": [[20,20],[60,90]]}],
+  "method": {"id": "pins", "parameters": {"exact": false, "smoothness": 1e-4}, "later": [1, {"a": null}]}
+})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    scene_from_json(text, "scene.json");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::bad_input);
+    return error.what();
+  }
+  return "";
+}
+
+Image blob(int width, int height, double (*radius)(double)) {
+  Image image(width, height);
+  for (int r = 0; r < height; ++r)
+    for (int c = 0; c < width; ++c) {
+      const Complex z(c - width / 2.0, height / 2.0 - r);
+      image.at(c, r)[3] = std::abs(z) < radius(std::arg(z)) * std::min(width, height) ? 255 : 0;
+    }
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("A scene survives writing and reading, unknown keys included") {
+  const Scene scene = scene_from_json(kText, "scene.json");
+  CHECK(scene.pose.degree(1) == 3);
+  CHECK(scene.pins[0].angle == 0.5);
+  CHECK(scene.pins[1].pose == scene.pins[1].rest);
+  const std::string written = json_of(scene);
+  CHECK(scene_from_json(written, "again") == scene);
+  CHECK(json_of(scene_from_json(written, "again")) == written);
+  for (const char* kept :
+       {"\"author\"", "\"strokes\"", "\"colour\"", "\"later\"", "\"note\"", "210.1234567890123"})
+    CHECK_THAT(written, Catch::Contains(kept));
+}
+
+TEST_CASE("What is wrong with a scene is said with the file, the pointer and the reason") {
+  using Catch::Contains;
+  CHECK_THAT(complaint("{"), Contains("scene.json") && Contains("parse error"));
+  CHECK_THAT(complaint("[]"), Contains("an object is wanted"));
+  CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
+  CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 2")),
+             Contains("/version") && Contains("newer"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50]")), Contains("/pins/0/rest"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,\"60\"]")),
+             Contains("/pins/0/rest/1") && Contains("a string"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e999]")), Contains("scene.json"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,NaN]")), Contains("parse error"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e9]")), Contains("larger than"));
+  CHECK_THAT(complaint(replaced(kText, "[[180,200]]", "[]")), Contains("/cage/rest/2"));
+  CHECK_THAT(complaint(replaced(kText, "[[180,200]], ", "")),
+             Contains("/cage/pose") && Contains("must agree"));
+  CHECK_THAT(complaint(replaced(kText, "[[180,10]], [[180,200]]", "[[180,200]], [[180,10]]")),
+             Contains("/cage/rest") && Contains("crosses itself"));
+  CHECK_THAT(complaint(replaced(kText, "\"pins\", \"parameters\"", "\"magic\", \"parameters\"")),
+             Contains("/method/id"));
+  CHECK_THAT(complaint(replaced(kText, "1e-4", "7")), Contains("/method/parameters/smoothness"));
+  CHECK_THAT(complaint(replaced(kText, "\"smoothness\"", "\"smothness\"")),
+             Contains("no parameter 'smothness'"));
+  CHECK_THAT(complaint(replaced(kText, "[55,80]", "{}")), Contains("/pins/0/pose"));
+  std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
+  for (int i = 0; i < 6000; ++i) many += "[[0,0]],";
+  CHECK_THAT(complaint(many + "[[1,1]]]}}"), Contains("more than 5000"));
+}
+
+TEST_CASE("Writing replaces a file whole, or leaves it") {
+  const Folder folder;
+  const Path path = folder.path / "a.json";
+  write_file(path, "one");
+  write_file(path, "two");
+  CHECK(read_file(path) == "two");
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);  // nothing is left beside it
+  CHECK_THROWS_AS(write_file(folder.path, "x"), Error);
+  CHECK_THROWS_AS(write_file(folder.path / "no" / "where", "x"), Error);
+  CHECK_THROWS_AS(read_file(folder.path), Error);
+  CHECK_THROWS_AS(read_file(folder.path / "missing"), Error);
+  fs::create_symlink(path, folder.path / "link");
+  write_file(folder.path / "link", "three");
+  CHECK(read_file(path) == "three");
+  CHECK(fs::is_symlink(folder.path / "link"));
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(path, "four");
+  CHECK((fs::status(path).permissions() & fs::perms::all) ==
+        (fs::perms::owner_read | fs::perms::owner_write));
+}
+
+TEST_CASE("SHA-256 of the empty text is the published one") {
+  CHECK(sha256_hex("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST_CASE("A document saves a picture's path relative to the scene, wherever that goes") {
+  const Folder folder;
+  fs::create_directories(folder.path / "pictures");
+  write_file(folder.path / "pictures" / "dot.png", encode_png(Image(8, 6)));
+  Document document = Document::open(folder.path / "pictures" / "dot.png");
+  CHECK_FALSE(document.modified());
+  CHECK(document.scene().image->width == 8);
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  CHECK(document.modified());
+  fs::create_directories(folder.path / "scenes");
+  document.save(folder.path / "scenes" / "s.json");
+  CHECK_FALSE(document.modified());
+  const Document again = Document::open(folder.path / "scenes" / "s.json");
+  CHECK(again.scene().image->file == "../pictures/dot.png");
+  CHECK(again.image() != nullptr);
+  CHECK(again.warning().empty());
+  Image other(8, 6);
+  other.pixels[3] = 200;
+  write_file(folder.path / "pictures" / "dot.png", encode_png(other));
+  CHECK_THAT(Document::open(folder.path / "scenes" / "s.json").warning(),
+             Catch::Contains("has changed"));
+  fs::remove(folder.path / "pictures" / "dot.png");
+  CHECK_THROWS_WITH(Document::open(folder.path / "scenes" / "s.json"),
+                    Catch::Contains("/image/file"));
+}
+
+TEST_CASE("An autosave holds the last commit, moves with its scene, and is found again") {
+  const Folder folder;
+  write_file(folder.path / "dot.png", encode_png(Image(8, 6)));
+  Document document = Document::open(folder.path / "dot.png");
+  const Path place = folder.path / "autosave";
+  document.autosave(place);
+  CHECK_FALSE(fs::exists(place));  // nothing to lose yet
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  document.autosave(place);
+  REQUIRE(std::distance(fs::directory_iterator(place), {}) == 1);
+  CHECK(recoverable(place).empty());  // this program still owns it
+  const Path file = *fs::directory_iterator(place);
+  const Path orphan = place / "999999999-0.json";
+  fs::rename(file, orphan);
+  REQUIRE(recoverable(place).size() == 1);
+  const Document recovered = Document::recover(orphan);
+  CHECK(recovered.scene().rest == document.scene().rest);
+  CHECK(recovered.modified());
+  CHECK(recovered.path().empty());
+  CHECK(recovered.image() != nullptr);
+}
+
+TEST_CASE("History: undo and redo walk the line, a commit forgets what was undone") {
+  Scene scene;
+  History history(scene);
+  for (int i = 1; i <= 3; ++i) {
+    scene.pins.push_back({{1.0 * i, 0}, {0, 0}, {}, {}});
+    CHECK(history.commit("Pin", scene));
+  }
+  CHECK_FALSE(history.commit("Nothing", scene));
+  CHECK(history.undo());
+  CHECK(history.undo());
+  CHECK(history.current().pins.size() == 1);
+  CHECK(history.redo());
+  CHECK(history.commit("Other", Scene{}));
+  CHECK_FALSE(history.can_redo());
+  CHECK(history.entries().size() == 4);
+  history.go_to(0);
+  CHECK_FALSE(history.undo());
+}
+
+TEST_CASE("The automatic cage contains the largest part, is simple and has about the wanted size") {
+  double (*const radii[])(double) = {
+      [](double) { return 0.3; }, [](double a) { return 0.3 + 0.12 * std::sin(7 * a); },
+      [](double a) { return 0.25 + 0.2 * std::cos(3 * a); },
+      [](double a) { return 0.05 + 0.4 * std::pow(std::cos(2 * a), 8); }};
+  for (const auto radius : radii)
+    for (const auto& [width, height] :
+         {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)})
+      for (const int vertices : {12, 30, 80}) {
+        Image image = blob(width, height, radius);
+        image.at(1, 1)[3] = 255;  // a speck that is not of the largest part
+        const Points cage = auto_cage(image, {vertices, -1});
+        CHECK(static_cast<int>(cage.size()) <= std::max(vertices, 45));
+        CHECK_FALSE(self_crossing(cage));
+        CHECK(signed_area(cage) > 0);
+        const auto part = largest_part(image);
+        int outside = 0;
+        for (int r = 0; r < height; ++r)
+          for (int c = 0; c < width; ++c)
+            if (part[static_cast<size_t>(r) * width + c])
+              for (const Complex corner :
+                   {Complex(0, 0), Complex(1, 0), Complex(1, 1), Complex(0, 1)})
+                outside += winding_number(cage, Complex(c, height - r - 1) + corner) != 1;
+        CHECK(outside == 0);
+        CHECK(domain_mesh(cage, {300}).triangles.size() > 100);
+      }
+}
+
+TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") {
+  Image image(40, 30);
+  for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+  const Points cage = auto_cage(image, {30, 5});
+  REQUIRE(cage.size() == 4);
+  CHECK(cage[0] == Complex(-5, -5));
+  CHECK(cage[2] == Complex(45, 35));
+  CHECK(auto_cage(Image(40, 30)).size() == 4);  // nothing opaque at all
+  CHECK_THROWS_AS(auto_cage(image, {2, 5}), Error);
+  CHECK_THROWS_AS(auto_cage(image, {30, 1e9}), Error);
+}
+
+TEST_CASE(
+    "The live map follows the scene, keeps the last map on errors, and poses without preparing") {
+  LiveMap map({600});
+  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  map.finish(scene, false);
+  REQUIRE(map.has_map());
+  const unsigned first = map.preparation();
+  scene.pose.segments[2][0] += Complex(20, 10);
+  CHECK(map.update(scene, true));
+  CHECK(map.preparation() == first);
+  CHECK(map.map().fz.size() == map.map().f.size());
+  const VectorXc posed = map.map().f;
+  Scene broken = scene;
+  broken.rest = broken.pose = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+  map.finish(broken, false);
+  REQUIRE(map.error());
+  CHECK(map.error()->where());
+  CHECK(map.map().f.size() == posed.size());
+  CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(posed.size()));
+  map.finish(scene, true);
+  CHECK_FALSE(map.error());
+  CHECK(map.map().f == posed);
+  map.update(Scene{}, false);
+  CHECK_FALSE(map.has_map());
+}
+
+TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
+  LiveMap map({400});
+  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  for (int i = 0; i < 60; ++i) {
+    scene.rest.segments[1][0] += Complex(0.5 * i, 0.1);
+    scene.pose.segments[0][0] += Complex(0.3, 0.2);
+    if (i % 3 == 0) map.finish(scene, i % 2);
+    map.update(scene, i % 2);
+    if (map.has_map())
+      CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
+  }
+}
+
+TEST_CASE("CSV points: separators, headings, and what is wrong with a line") {
+  CHECK(points_of_csv("x,y\n1,2\n\n3 ; 4\r\n", "p").size() == 2);
+  CHECK(points_of_csv("1\t2\n# comment\n", "p")[0] == Complex(1, 2));
+  CHECK_THROWS_WITH(points_of_csv("1,2\n3\n", "p.csv"), Catch::Contains("p.csv: line 2"));
+  CHECK_THROWS_AS(points_of_csv("1,2\nnan,4\n", "p"), Error);
+  CHECK_THROWS_AS(points_of_csv("1,2\n3,4,5\n", "p"), Error);
+}
+
+TEST_CASE("Pictures that are none are refused") {
+  CHECK_THROWS_AS(decode_image("", "x"), Error);
+  CHECK_THROWS_AS(decode_image("not a picture", "x"), Error);
+  const std::string png = encode_png(Image(20, 20));
+  CHECK_THROWS_AS(decode_image(png.substr(0, png.size() / 2), "x"), Error);
+  CHECK(decode_image(png, "x") == Image(20, 20));
+}
