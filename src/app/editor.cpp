@@ -237,7 +237,7 @@ class Editor {
   void discard(const Path& autosave) {
     std::error_code ignored;
     std::filesystem::remove(autosave, ignored);
-    std::erase(recoverable_, autosave);
+    std::erase_if(recoverable_, [&](const Recovery& r) { return r.path == autosave; });
   }
 
   void save_to(const Path& path, const std::function<void()>& then) {
@@ -587,7 +587,7 @@ class Editor {
   ToolId last_tool_ = ToolId::select;
   FileDialog dialog_;
   std::vector<Sample> samples_;
-  std::vector<Path> recoverable_;
+  std::vector<Recovery> recoverable_;
   std::vector<ShownToast> shown_toasts_;
   std::function<void()> after_question_;
   std::string title_, palette_text_;

@@ -194,23 +194,23 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   ImGui::SetNextWindowSize({display.x, display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {48 * s, 32 * s});
   ImGui::Begin("Welcome", nullptr, kPanel);
-  ImGui::SetWindowFontScale(1.9f);
+  ImGui::PushFont(title_font());
   ImGui::TextUnformatted("Holomorph");
-  ImGui::SetWindowFontScale(1);
+  ImGui::PopFont();
   ImGui::TextDisabled("Bend a picture: give it a cage, then drag cage points and pins.");
   ImGui::Dummy({0, 8 * s});
   if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s}))
     run(action_named("file.open"), workspace);
   ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (40 * s - ImGui::GetTextLineHeight()) / 2);
   ImGui::TextDisabled("or drop a file on this window");
   if (!recoverable.empty()) {
     ImGui::Dummy({0, 8 * s});
     ImGui::TextColored({0.98f, 0.7f, 0.25f, 1}, "Work that was not saved:");
-    for (const Path& path : recoverable) {
+    for (const auto& [path, label] : recoverable) {
       ImGui::PushID(path.c_str());
       ImGui::AlignTextToFramePadding();
-      ImGui::TextUnformatted(path.stem().c_str());
+      ImGui::TextUnformatted(label.c_str());
       ImGui::SameLine();
       if (ImGui::Button("Recover")) answer.recover = path;
       ImGui::SameLine();

@@ -25,12 +25,21 @@ bool add_fonts(float size) {
     config.SizePixels = size;
     fonts.AddFontDefault(&config);
   }
-  if (!std::filesystem::exists(HOLOMORPH_ICON_FONT_FILE)) return false;
+  const auto add_title = [&] {
+    if (has_text) fonts.AddFontFromFileTTF(HOLOMORPH_FONT_FILE, 2 * size);
+  };
+  if (!std::filesystem::exists(HOLOMORPH_ICON_FONT_FILE)) {
+    add_title();
+    return false;
+  }
   ImFontConfig merge;
   merge.MergeMode = true;
   merge.GlyphMinAdvanceX = size * 1.2f;
   merge.GlyphOffset = {0, 0};
-  return fonts.AddFontFromFileTTF(HOLOMORPH_ICON_FONT_FILE, size, &merge, icons) != nullptr;
+  const bool has_icons =
+      fonts.AddFontFromFileTTF(HOLOMORPH_ICON_FONT_FILE, size, &merge, icons) != nullptr;
+  add_title();
+  return has_icons;
 }
 
 }  // namespace
@@ -74,6 +83,10 @@ bool apply_theme(double scale, bool light) {
   c[ImGuiCol_Separator] = rgb(light ? 0xd3d4d9 : 0x3a3c43);
   c[ImGuiCol_TextSelectedBg] = rgb(accent, 0.35f);
   return add_fonts(static_cast<float>(static_cast<int>(16 * scale + 0.5)));
+}
+
+ImFont* title_font() {
+  return ImGui::GetIO().Fonts->Fonts.back();
 }
 
 CanvasColors canvas_colors(bool light) {

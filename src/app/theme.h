@@ -10,6 +10,9 @@ namespace holomorph {
 /// Sets ImGui's fonts and style. Returns whether the icon font was found.
 bool apply_theme(double scale, bool light);
 
+/// The large font of titles.
+ImFont* title_font();
+
 /// Colours of what is drawn over the canvas.
 struct CanvasColors {
   Color canvas, backdrop;

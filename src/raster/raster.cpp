@@ -25,6 +25,7 @@ constexpr double kOnTexel = 1e-3;  ///< nearer than this to a texel's centre, th
 struct Piece {
   double x[3], y[3];  ///< output pixels, y down
   double u0, ux, uy, v0, vx, vy;
+  double low, high;  ///< of u over the corners: heat is never extrapolated
   int taps_x, taps_y;
   bool outside;  ///< part of the picture beyond the rest cage: drawn where the cage is not
 };
@@ -196,6 +197,8 @@ class Drawing {
     };
     piece.taps_x = job_.view == View::image ? taps(piece.ux, piece.vx) : 1;
     piece.taps_y = job_.view == View::image ? taps(piece.uy, piece.vy) : 1;
+    piece.low = std::min({u[0], u[1], u[2]});
+    piece.high = std::max({u[0], u[1], u[2]});
     piece.outside = outside;
     pieces_.push_back(piece);
   }
@@ -328,7 +331,7 @@ class Drawing {
       return light ? Float4{235, 235, 235, 255} : Float4{70, 90, 120, 255};
     }
     if (is_heat(job_.view)) {
-      const Color color = heat_color(u, job_.scale.diverging);
+      const Color color = heat_color(std::clamp(u, piece.low, piece.high), job_.scale.diverging);
       return Float4{color[0] * 255, color[1] * 255, color[2] * 255, 255};
     }
     const Sampler sampler(*job_.source);

@@ -5,6 +5,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <random>
 
 #include "core/error.h"
@@ -127,21 +129,43 @@ void Document::remove_autosave(const Path& folder) const {
   fs::remove(autosave_path(folder, id_), ignored);
 }
 
-std::vector<Path> recoverable(const Path& folder) {
+namespace {
+
+/// "gecko, 5 minutes ago"; the picture's name is all that tells unsaved scenes apart.
+std::string label_of(const Path& autosave, fs::file_time_type time) {
+  std::string name = "a scene";
+  try {
+    const Scene scene = scene_from_json(read_file(autosave), autosave.string());
+    if (scene.image) name = Path(scene.image->file).stem().string();
+  } catch (const Error&) {
+    name = "a damaged scene";
+  }
+  const auto age =
+      std::chrono::duration_cast<std::chrono::minutes>(fs::file_time_type::clock::now() - time)
+          .count();
+  if (age < 2) return name + ", just now";
+  if (age < 120) return name + ", " + std::to_string(age) + " minutes ago";
+  if (age < 2880) return name + ", " + std::to_string(age / 60) + " hours ago";
+  return name + ", " + std::to_string(age / 1440) + " days ago";
+}
+
+}  // namespace
+
+std::vector<Recovery> recoverable(const Path& folder) {
   std::vector<std::pair<fs::file_time_type, Path>> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".json" || entry.path().filename().string().starts_with("."))
-      continue;
-    const long owner = std::atol(entry.path().stem().c_str());
-    if (owner > 0 && owner != ::getpid() && ::kill(static_cast<pid_t>(owner), 0) == 0) continue;
-    if (owner == ::getpid()) continue;
-    found.push_back({entry.last_write_time(error), entry.path()});
+    const Path& path = entry.path();
+    if (path.extension() != ".json" || path.filename().string().starts_with(".")) continue;
+    const long owner = std::atol(path.stem().c_str());
+    const bool alive =
+        owner > 0 && (owner == ::getpid() || ::kill(static_cast<pid_t>(owner), 0) == 0);
+    if (!alive) found.push_back({entry.last_write_time(error), path});
   }
   std::sort(found.rbegin(), found.rend());
-  std::vector<Path> paths;
-  for (auto& [time, path] : found) paths.push_back(std::move(path));
-  return paths;
+  std::vector<Recovery> recoveries;
+  for (const auto& [time, path] : found) recoveries.push_back({path, label_of(path, time)});
+  return recoveries;
 }
 
 }  // namespace holomorph

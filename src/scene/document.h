@@ -69,7 +69,12 @@ class Document {
   std::string warning_;
 };
 
-/// Autosave files that no running program owns, newest first.
-std::vector<Path> recoverable(const Path& folder);
+/// An autosave that no running program owns, and how to name it to the user.
+struct Recovery {
+  Path path;
+  std::string label;
+};
+/// What can be recovered, newest first.
+std::vector<Recovery> recoverable(const Path& folder);
 
 }  // namespace holomorph

@@ -170,6 +170,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   const Path orphan = place / "999999999-0.json";
   fs::rename(file, orphan);
   REQUIRE(recoverable(place).size() == 1);
+  CHECK_THAT(recoverable(place)[0].label, Catch::StartsWith("dot"));
   const Document recovered = Document::recover(orphan);
   CHECK(recovered.scene().rest == document.scene().rest);
   CHECK(recovered.modified());
