@@ -184,7 +184,7 @@ void draw_cage_offer(Workspace& workspace, double scale) {
 }
 
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
-                         const std::vector<Sample>& samples, const std::vector<Path>& recoverable,
+                         const std::vector<Sample>& samples, const std::vector<Recovery>& recoverable,
                          double scale) {
   PanelAnswer answer;
   const float s = static_cast<float>(scale);

@@ -45,7 +45,7 @@ struct Sample {
   Texture thumbnail;
 };
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
-                         const std::vector<Sample>& samples, const std::vector<Path>& recoverable,
+                         const std::vector<Sample>& samples, const std::vector<Recovery>& recoverable,
                          double scale);
 
 /// The two buttons for a picture without a cage.

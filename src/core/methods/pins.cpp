@@ -94,6 +94,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     else
       basis_ = std::make_shared<const PinBasis<T>>(rest);
     choose_pins();
+    cage_at_pins_.resize(0, rest.cage.control_count());
     if (used_.empty()) {
       this->value_ = basis_->cage_value;
       return;
