@@ -86,8 +86,10 @@ class Editor {
   // ---- One frame -------------------------------------------------------------------------------
 
   void frame() {
-    if (std::exchange(restyle_, false))
+    if (std::exchange(restyle_, false)) {
       window_.set_style(preferences_.ui_scale, preferences_.light_theme);
+      fit_ = true;
+    }
     window_.begin_frame();
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
@@ -127,7 +129,11 @@ class Editor {
   void take_events() {
     for (const Path& path : window_.take_drops()) ask_then([this, path] { open(path); });
     if (window_.take_close()) workspace_.request = Request::quit;
-    const bool typing = ImGui::GetIO().WantTextInput;
+    // A number that is being dragged in the inspector takes the keys, too.
+    const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
+    if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
+      workspace_.preview.reset();
+    was_active_ = ImGui::IsAnyItemActive();
     const bool modal = dialog_.open() || unsaved_question_ || palette_ || help_;
     for (const Shortcut& key : window_.take_keys()) {
       if (typing || modal) continue;
@@ -240,7 +246,7 @@ class Editor {
     std::erase_if(recoverable_, [&](const Recovery& r) { return r.path == autosave; });
   }
 
-  void save_to(const Path& path, const std::function<void()>& then) {
+  void save_to(const Path& path, std::function<void()> then) {
     try {
       workspace_.document.save(path);
       workspace_.document.remove_autosave(autosave_folder());
@@ -257,10 +263,8 @@ class Editor {
     const Document& document = workspace_.document;
     if (!as && !document.path().empty()) return save_to(document.path(), then);
     Path start = document.path();
-    if (start.empty() && document.scene().image) {
-      const Path image(document.scene().image->file);
-      if (image.is_absolute()) start = Path(image).replace_extension(".json");
-    }
+    if (start.empty() && !document.image_path().empty())
+      start = Path(document.image_path()).replace_extension(".json");
     if (start.empty()) start = "scene.json";
     dialog_.ask({FileQuestion::Mode::save, "Save the scene", "Save", {".json"}, start, false},
                 [this, then](const Path& path, double) { save_to(path, then); });
@@ -289,12 +293,10 @@ class Editor {
   void ask_export() {
     const Document& document = workspace_.document;
     Path start = export_path_;
-    if (start.empty())
-      start = document.path().empty() ? Path("picture.png")
-                                      : Path(document.path()).replace_extension(".png");
+    if (start.empty()) start = document.path().empty() ? document.image_path() : document.path();
+    if (start.empty()) start = "picture";
     // Never offer to replace the source picture itself.
-    if (document.scene().image && start.filename() == Path(document.scene().image->file).filename())
-      start.replace_filename(start.stem().string() + "-bent.png");
+    if (export_path_.empty()) start.replace_filename(start.stem().string() + "-bent.png");
     dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
                 [this](const Path& path, double scale) { export_to(path, scale); });
   }
@@ -353,7 +355,6 @@ class Editor {
   }
 
   void autosave() {
-    if (workspace_.preview || current_tool().busy()) return;
     try {
       workspace_.document.autosave(autosave_folder());
     } catch (const std::exception& error) {
@@ -416,8 +417,8 @@ class Editor {
                      renderer_.set_operator(map.prepared()->deformer->operator_matrix());
       uploaded_ = map.preparation();
     }
-    if (by_operator_ && !map.busy() && same_structure())
-      renderer_.set_controls(map.prepared()->deformer->controls(pose_of(workspace_.scene())));
+    if (by_operator_ && map.posed())
+      renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
     renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
     if (heat_values_.size() == map.map().f.size()) {
       Eigen::VectorXf shades(heat_values_.size());
@@ -425,12 +426,6 @@ class Editor {
         shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
       renderer_.set_heat(shades);
     }
-  }
-
-  bool same_structure() const {
-    const Rest& rest = workspace_.map.prepared()->rest;
-    const Pose pose = pose_of(workspace_.scene());
-    return pose.cage.size() == rest.cage.size() && pose.pins.size() == rest.pins.size();
   }
 
   void draw_canvas() {
@@ -475,7 +470,8 @@ class Editor {
       draw_context_menu();
       status.hint = current_tool().hint(workspace_);
       if (input.inside) status.cursor = input.position;
-      status.draft = workspace_.preview.has_value() || workspace_.map.busy();
+      status.draft = workspace_.preview.has_value() || workspace_.map.busy() ||
+                     workspace_.map.error().has_value();
       status.by_operator = by_operator_;
     }
     draw_status_bar(workspace_, status, scale);
@@ -520,24 +516,22 @@ class Editor {
     if (!ImGui::BeginPopupModal("Unsaved changes", nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
       return;
-    ImGui::Text("%s has changes that are not saved.", workspace_.document.title().c_str());
+    ImGui::TextUnformatted("There are changes that are not saved.");
     ImGui::Dummy({0, 6});
     const float width = 130 * static_cast<float>(window_.scale());
     const auto close = [&] {
       unsaved_question_ = false;
       ImGui::CloseCurrentPopup();
     };
-    if (ImGui::Button("Save", {width, 0})) {
+    if (ImGui::Button("Save", {width, 0}) ||
+        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter))) {
       close();
       save(false, std::exchange(after_question_, {}));
     }
     ImGui::SameLine();
     if (ImGui::Button("Do not save", {width, 0})) {
       close();
-      if (const auto then = std::exchange(after_question_, {})) {
-        workspace_.document.remove_autosave(autosave_folder());
-        then();
-      }
+      if (const auto then = std::exchange(after_question_, {})) then();
     }
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {width, 0}) ||
@@ -599,13 +593,17 @@ class Editor {
   bool picture_dirty_ = false, fit_ = false, panning_ = false, by_operator_ = false,
        unsaved_question_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false, autosave_failed_ = false,
-       quit_ = false;
+       was_active_ = false, quit_ = false;
   bool restyle_ = false;
 };
 
 }  // namespace
 
 int run_editor(const EditorOptions& options) {
+  if (!options.file.empty() && !std::filesystem::exists(options.file))
+    throw Error(ErrorKind::bad_input,
+                options.file.string() +
+                    ": there is no such file, and no such command; see 'holomorph --help'");
   if (!has_display())
     throw Error(ErrorKind::failed,
                 "no window can be opened here: there is no display. 'holomorph render SCENE --out "

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace holomorph {
 namespace fs = std::filesystem;
@@ -49,6 +50,7 @@ bool FileDialog::shows(const Path& path) const {
 }
 
 void FileDialog::enter(const Path& folder) {
+  confirming_ = false;
   message_.clear();
   std::vector<Item> items;
   std::error_code error;
@@ -81,7 +83,7 @@ void FileDialog::accept(const Path& wanted) {
       return;
     }
   } else {
-    if (path.extension().empty()) path += question_.extensions[0];
+    if (!shows(path)) path += question_.extensions[0];
     if (fs::exists(path, error) && !confirming_) {
       confirming_ = true;
       message_ =
@@ -91,7 +93,8 @@ void FileDialog::accept(const Path& wanted) {
   }
   open_ = false;
   ImGui::CloseCurrentPopup();
-  answer_(path, picture_scale_);
+  const Answer answer = std::exchange(answer_, {});  // it may ask the next question
+  answer(path, picture_scale_);
 }
 
 void FileDialog::draw(double scale) {
@@ -132,14 +135,15 @@ void FileDialog::draw(double scale) {
       if (!item.folder && ImGui::IsMouseDoubleClicked(0)) chosen = item.path;
     }
   }
-  if (items_.empty()) ImGui::TextDisabled("Nothing here that can be opened.");
+  if (items_.empty()) ImGui::TextDisabled("No files of this kind here.");
   ImGui::EndChild();
 
   if (opening_) ImGui::SetKeyboardFocusHere();
   opening_ = false;
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##name", "File name or path", &name_,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint(
+      "##name", "File name or path", &name_,
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemEdited()) confirming_ = false;
   if (question_.asks_scale) {
     float value = static_cast<float>(picture_scale_);

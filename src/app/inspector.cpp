@@ -19,7 +19,7 @@ void edit_number(const char* label, double value, const char* format, float spee
 }
 
 void method_section(Workspace& workspace) {
-  const Scene& scene = workspace.scene();
+  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
   const Method& method = method_named(scene.method);
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##method", method.label.c_str())) {
@@ -65,7 +65,7 @@ void method_section(Workspace& workspace) {
 }
 
 void one_handle(Workspace& workspace, Handle handle) {
-  const Scene& scene = workspace.scene();
+  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
   const Layer layer = workspace.layer;
   const Complex z = position_of(scene, handle, layer);
   const bool pin = handle.kind == Handle::Kind::pin;
@@ -90,7 +90,7 @@ void one_handle(Workspace& workspace, Handle handle) {
     after.pins[handle.index].angle = turns ? std::optional(0.0) : std::nullopt;
     workspace.commit(turns ? "Pin turns" : "Free pin angle", after);
   }
-  if (!workspace.scene().pins[handle.index].angle) return;
+  if (!scene.pins[handle.index].angle || !workspace.scene().pins[handle.index].angle) return;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number(
       "degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin",
@@ -165,7 +165,8 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
 
 void history_section(Workspace& workspace) {
   const History& history = workspace.document.history();
-  ImGui::BeginChild("history", {0, 0});
+  ImGui::BeginChild("history", {0, std::max(ImGui::GetContentRegionAvail().y,
+                                            7 * ImGui::GetTextLineHeightWithSpacing())});
   for (size_t i = history.entries().size(); i-- > 0;) {
     const bool current = i == history.index();
     if (i > history.index())
@@ -173,6 +174,7 @@ void history_section(Workspace& workspace) {
     ImGui::PushID(static_cast<int>(i));
     const bool go = ImGui::Selectable(history.entries()[i].label.c_str(), current);
     ImGui::PopID();
+    if (current && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
     if (i > history.index()) ImGui::PopStyleColor();
     if (go) {
       workspace.document.go_to(i);

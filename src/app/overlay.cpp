@@ -102,8 +102,9 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Scene& scene = workspace.scene();
-  const Layer layer = workspace.show_original ? Layer::rest : workspace.layer;
-  if (workspace.show_cage && !workspace.hide_overlays && gesture.line.empty()) {
+  if (workspace.hide_overlays || workspace.show_original) return;
+  const Layer layer = workspace.layer;
+  if (workspace.show_cage && gesture.line.empty()) {
     const ImU32 color = layer == Layer::rest ? style.colors.rest : style.colors.pose;
     // With pins the posed cage is only the start of the map: it steps back behind the picture.
     const bool faint =
@@ -179,7 +180,10 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
                                          : workspace.map.map().f[worst];
   const ImVec2 p = px(workspace, at);
   char text[48];
-  std::snprintf(text, sizeof text, "worst %.3g", values[worst]);
+  if (std::isfinite(values[worst]))
+    std::snprintf(text, sizeof text, "worst %.3g", values[worst]);
+  else
+    std::snprintf(text, sizeof text, "folded here");
   list.AddCircle(p, 9 * s, IM_COL32_BLACK, 0, 4 * s);
   list.AddCircle(p, 9 * s, IM_COL32_WHITE, 0, 2 * s);
   list.AddText({p.x + 13 * s + 1, p.y - 8 * s + 1}, IM_COL32_BLACK, text);

@@ -93,6 +93,9 @@ void draw_toolbar(Workspace& workspace, double scale) {
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  // Nine buttons and three lines fit into any height.
+  const float room = ImGui::GetContentRegionAvail().y - 3 * 26 * s;
+  const ImVec2 button(40 * s, std::min(38 * s, room / 9 - ImGui::GetStyle().ItemSpacing.y));
   for (const char* id : {"tool.select", "tool.pen", "tool.pin", "", "cage.from_picture",
                          "cage.rest", "", "edit.undo", "edit.redo", "", "view.fit", "help.keys"}) {
     if (!*id) {
@@ -107,7 +110,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     ImGui::BeginDisabled(!enabled);
     const std::string face = std::string(*action.icon ? action.icon : "\uf0b2") + "###" + id;
-    if (ImGui::Button(face.c_str(), {40 * s, 38 * s})) run(action, workspace);
+    if (ImGui::Button(face.c_str(), button)) run(action, workspace);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
@@ -129,6 +132,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   ImGui::Begin("Status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
   const LiveMap& map = workspace.map;
+  std::string hint;
   if (map.error()) {
     ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.error()->what());
     if (const auto where = map.error()->where()) {
@@ -136,7 +140,13 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
       if (ImGui::SmallButton("Show me")) workspace.viewport.center = *where;
     }
   } else {
-    ImGui::TextUnformatted(status.hint.c_str());
+    hint = status.hint;
+    if (const auto fold = map.fold()) {
+      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *fold;
+      ImGui::SameLine();
+    }
   }
   char right[240] = "";
   int used = 0;
@@ -154,7 +164,13 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   }
   if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
   const float width = ImGui::CalcTextSize(right).x;
-  ImGui::SameLine(std::max(display.x - width - 14 * s, ImGui::GetCursorPosX()));
+  if (!hint.empty()) {  // cut off before it reaches the figures
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
+    ImGui::TextUnformatted(hint.c_str());
+    ImGui::PopClipRect();
+  }
+  ImGui::SameLine(display.x - width - 14 * s);
   ImGui::TextDisabled("%s", right);
   ImGui::End();
   ImGui::PopStyleColor();
@@ -184,8 +200,8 @@ void draw_cage_offer(Workspace& workspace, double scale) {
 }
 
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
-                         const std::vector<Sample>& samples, const std::vector<Recovery>& recoverable,
-                         double scale) {
+                         const std::vector<Sample>& samples,
+                         const std::vector<Recovery>& recoverable, double scale) {
   PanelAnswer answer;
   const float s = static_cast<float>(scale);
   const PanelSizes sizes = PanelSizes::at(scale);

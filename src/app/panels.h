@@ -45,8 +45,8 @@ struct Sample {
   Texture thumbnail;
 };
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
-                         const std::vector<Sample>& samples, const std::vector<Recovery>& recoverable,
-                         double scale);
+                         const std::vector<Sample>& samples,
+                         const std::vector<Recovery>& recoverable, double scale);
 
 /// The two buttons for a picture without a cage.
 void draw_cage_offer(Workspace& workspace, double scale);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "core/error.h"
 
@@ -138,6 +139,39 @@ std::string point_text(Complex z) {
   return text;
 }
 
+namespace {
+
+/// Vertices must keep a distance from the edges beside which they lie that survives rounding;
+/// otherwise which side they are on is nobody's to say.
+void check_gaps(const Points& polygon) {
+  const Index n = static_cast<Index>(polygon.size());
+  double largest = 0;
+  for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
+  const double gap =
+      64 * std::numeric_limits<double>::epsilon() * (largest + box_of(polygon).diagonal());
+  for (Index e = 0; e < n; ++e) {
+    const Complex a = polygon[e], b = polygon[(e + 1) % n];
+    const double left = std::min(a.real(), b.real()) - gap,
+                 right = std::max(a.real(), b.real()) + gap;
+    const double low = std::min(a.imag(), b.imag()) - gap,
+                 high = std::max(a.imag(), b.imag()) + gap;
+    for (Index v = 0; v < n; ++v) {
+      const Complex z = polygon[v];
+      if (v == e || v == (e + 1) % n || z.real() < left || z.real() > right || z.imag() < low ||
+          z.imag() > high)
+        continue;
+      if (nearest_on_segment(a, b, z).distance <= gap)
+        throw Error(ErrorKind::bad_input,
+                    "the rest cage touches itself: point " + std::to_string(v) + " at " +
+                        point_text(z) + " lies on edge " + std::to_string(e) +
+                        "; move one of them away",
+                    z);
+    }
+  }
+}
+
+}  // namespace
+
 void check_rest_cage(const Cage& cage) {
   if (cage.size() < 3)
     throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
@@ -164,6 +198,7 @@ void check_rest_cage(const Cage& cage) {
                     std::to_string(crossing->second) + " meet near " + point_text(crossing->point) +
                     "; move one of their points",
                 crossing->point);
+  check_gaps(vertices);
   const Box box = box_of(vertices);
   if (!(std::abs(signed_area(vertices)) > 1e-14 * box.diagonal() * box.diagonal()))
     throw Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));

@@ -233,7 +233,9 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
     mesh.boundary.push_back(v);
     v = next[v];
   } while (v >= 0 && v != mesh.cage_vertices[0] && mesh.boundary.size() <= mesh.vertices.size());
-  check(v == mesh.cage_vertices[0], "the domain mesh has one closed boundary");
+  if (v != mesh.cage_vertices[0])
+    throw Error(ErrorKind::bad_input,
+                "the rest cage nearly touches itself and cannot be meshed; move its points apart");
   return mesh;
 }
 
@@ -263,7 +265,8 @@ Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(cdt, Criteria(sizing));
   mesher.init();
   const size_t limit = static_cast<size_t>(3 * wanted) + 4 * polygon.size();
-  while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit)
+  size_t steps = 20 * limit;  // a step may also do nothing
+  while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
     mesher.step_by_step_refine_mesh();
   return extract(cdt, corners);
 }

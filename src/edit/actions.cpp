@@ -66,11 +66,19 @@ void frame_selection(Workspace& w) {
   w.viewport.fit(box.empty() ? w.content_box() : box);
 }
 
-/// Arrow keys: steps follow each other into one history entry only by the user's own pauses.
+/// Arrow keys; pressing on with the same selection goes on with the same step.
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
-  w.commit("Nudge", moved(w.scene(), w.selection, by, w.layer));
+  const Scene after = moved(w.scene(), w.selection, by, w.layer);
+  const History& history = w.document.history();
+  const bool goes_on = w.nudged == w.selection && w.layer == Layer::pose && history.index() > 0 &&
+                       history.entries()[history.index()].label == "Nudge";
+  if (goes_on) {
+    w.document.amend(after);
+  } else if (w.commit("Nudge", after)) {
+    w.nudged = w.selection;
+  }
 }
 
 void select_all(Workspace& w) {
@@ -123,10 +131,12 @@ bool can_redo(const Workspace& w) {
   return !w.preview && w.document.history().can_redo();
 }
 void undo(Workspace& w) {
+  w.nudged.clear();
   w.document.undo();
   w.prune_selection();
 }
 void redo(Workspace& w) {
+  w.nudged.clear();
   w.document.redo();
   w.prune_selection();
 }
@@ -334,7 +344,7 @@ std::vector<Action> table() {
        "Zoom in",
        "",
        "View",
-       {'+', '=', {'+', kCtrl}, {'=', kCtrl}},
+       {'+', '=', {'=', kCtrl}},
        has_content,
        [](Workspace& w) { zoom_by(w, 1.25); }},
       {"view.zoom_out",

@@ -13,10 +13,13 @@ class PinTool final : public Tool {
       drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move pin");
       return;
     }
+    if (ring_.active()) return ring_.follow(input, workspace);
     hover_.reset();
+    ring_.hover(input, workspace);
     if (!input.inside) return;
     hover_ = handle_at(workspace, input.px);
     if (!input.pressed) return;
+    if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
     if (hover_ && input.mods.alt) return remove(workspace);
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
@@ -48,22 +51,25 @@ class PinTool final : public Tool {
 
   void cancel(Workspace& workspace) override {
     drag_.cancel(workspace);
+    ring_.cancel(workspace);
     hover_.reset();
   }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
-    if (!drag_.active()) workspace.selection.clear();
+    if (!busy()) workspace.selection.clear();
     cancel(workspace);
     return true;
   }
-  bool busy() const override { return drag_.active(); }
+  bool busy() const override { return drag_.active() || ring_.active(); }
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
     overlay.hover = hover_;
+    overlay.ring = ring_.pin();
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return "Pins act inside a cage: draw one with P first";
+    if (ring_.hovered() && !hover_) return "Drag the ring to turn the picture around the pin";
     return hover_ ? "Drag to move; Alt-click deletes"
                   : "Click on the picture to set a pin, and drag it";
   }
@@ -88,6 +94,7 @@ class PinTool final : public Tool {
   }
 
   HandleDrag drag_;
+  PinRing ring_;
   std::optional<Handle> hover_;
 };
 

@@ -9,20 +9,17 @@ class SelectTool final : public Tool {
   ToolId id() const override { return ToolId::select; }
 
   void input(const Input& input, Workspace& workspace) override {
-    if (turning_) return turn(input, workspace);
+    if (ring_.active()) return ring_.follow(input, workspace);
     if (drag_.active()) {
       drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move");
       return;
     }
     if (marquee_start_) return follow_marquee(input, workspace);
     hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
-    ring_ = ring_pin(workspace);
-    over_ring_ = ring_ && input.inside && !hover_ && on_ring(input, workspace);
+    ring_.hover(input, workspace);
     if (!input.inside || !input.pressed) return;
-    if (over_ring_) {
-      turning_ = true;
-      start_angle_ = angle_to(input, workspace);
-      start_scene_ = workspace.scene();
+    if (ring_.hovered() && !hover_) {
+      ring_.start(input, workspace);
     } else if (hover_ && input.mods.alt) {
       remove(*hover_, workspace);
     } else if (hover_) {
@@ -37,12 +34,13 @@ class SelectTool final : public Tool {
 
   void cancel(Workspace& workspace) override {
     drag_.cancel(workspace);
-    if (turning_) workspace.preview.reset();
-    turning_ = false;
+    ring_.cancel(workspace);
     marquee_start_.reset();
     hover_.reset();
   }
-  bool busy() const override { return drag_.active() || turning_ || marquee_start_.has_value(); }
+  bool busy() const override {
+    return drag_.active() || ring_.active() || marquee_start_.has_value();
+  }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
     const bool was_busy = busy();
@@ -54,7 +52,7 @@ class SelectTool final : public Tool {
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
     overlay.hover = hover_;
-    overlay.ring = ring_;
+    overlay.ring = ring_.pin();
     if (marquee_start_ && std::abs(marquee_end_ - *marquee_start_) >= kDragThresholdPx) {
       Box box;
       box.include(*marquee_start_);
@@ -68,8 +66,8 @@ class SelectTool final : public Tool {
     if (!workspace.scene().has_cage())
       return "Draw a cage with P, or make one from the picture (Cage menu)";
     if (drag_.active()) return "Shift keeps the axis";
-    if (turning_) return "Shift snaps to 15 degrees";
-    if (over_ring_) return "Drag the ring to turn the picture around the pin";
+    if (ring_.active()) return "Shift snaps to 15 degrees";
+    if (ring_.hovered() && !hover_) return "Drag the ring to turn the picture around the pin";
     if (hover_) return "Drag to move; Shift-click adds to the selection; Alt-click deletes";
     return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
                                             "edge inserts; Tab returns to the pose"
@@ -126,48 +124,11 @@ class SelectTool final : public Tool {
         workspace.selection.insert(handle);
   }
 
-  /// The one selected pin, in the pose.
-  static std::optional<Index> ring_pin(const Workspace& workspace) {
-    if (workspace.layer != Layer::pose || workspace.selection.size() != 1) return {};
-    const Handle handle = *workspace.selection.begin();
-    if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Layer::pose))
-      return {};
-    return handle.index;
-  }
-  Complex ring_center(const Workspace& workspace) const {
-    return workspace.viewport.px_at_plane(workspace.scene().pins[*ring_].pose);
-  }
-  bool on_ring(const Input& input, const Workspace& workspace) const {
-    const double radius = kRingRadius * workspace.handle_px;
-    return std::abs(std::abs(input.px - ring_center(workspace)) - radius) <
-           0.6 * workspace.handle_px;
-  }
-  double angle_to(const Input& input, const Workspace& workspace) const {
-    return -std::arg(input.px - ring_center(workspace));
-  }
-  void turn(const Input& input, Workspace& workspace) {
-    const double before = start_scene_.pins[*ring_].angle.value_or(0);
-    double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
-    // Unwrapped from frame to frame, so that more than half a turn can be dragged.
-    if (workspace.preview) {
-      const double last = workspace.preview->pins[*ring_].angle.value_or(0);
-      angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
-    }
-    if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
-    workspace.preview = turned(start_scene_, *ring_, angle);
-    if (input.down && !input.released) return;
-    turning_ = false;
-    workspace.commit("Turn pin", *workspace.preview);
-  }
-
   HandleDrag drag_;
   std::optional<Handle> hover_;
   std::optional<Complex> marquee_start_;
   Complex marquee_end_;
-  std::optional<Index> ring_;
-  bool over_ring_ = false, turning_ = false;
-  double start_angle_ = 0;
-  Scene start_scene_;
+  PinRing ring_;
 };
 
 }  // namespace

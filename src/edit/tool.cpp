@@ -1,4 +1,4 @@
-// The drag that select and pin tools share.
+// The gestures that tools share.
 #include "edit/tool.h"
 
 namespace holomorph {
@@ -16,6 +16,56 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace, const std::str
   active_ = false;
   if (workspace.preview) workspace.commit(label, *workspace.preview);
   return true;
+}
+
+namespace {
+
+Complex center_px(const Workspace& workspace, Index pin) {
+  return workspace.viewport.px_at_plane(workspace.scene().pins[pin].pose);
+}
+
+}  // namespace
+
+void PinRing::hover(const Input& input, const Workspace& workspace) {
+  pin_.reset();
+  hovered_ = false;
+  if (workspace.layer != Layer::pose || workspace.selection.size() != 1) return;
+  const Handle handle = *workspace.selection.begin();
+  if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Layer::pose)) return;
+  pin_ = handle.index;
+  const double off =
+      std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.handle_px;
+  hovered_ = input.inside && std::abs(off) < 0.6 * workspace.handle_px;
+}
+
+double PinRing::angle_to(const Input& input, const Workspace& workspace) const {
+  return -std::arg(input.px - center_px(workspace, *pin_));
+}
+
+void PinRing::start(const Input& input, const Workspace& workspace) {
+  active_ = true;
+  start_px_ = input.px;
+  start_angle_ = angle_to(input, workspace);
+  start_scene_ = workspace.scene();
+}
+
+void PinRing::follow(const Input& input, Workspace& workspace) {
+  const double before = start_scene_.pins[*pin_].angle.value_or(0);
+  double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
+  // Unwrapped from frame to frame, so that more than half a turn can be dragged.
+  const double last = workspace.preview ? workspace.preview->pins[*pin_].angle.value_or(0) : before;
+  angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
+  if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
+  if (workspace.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
+    workspace.preview = turned(start_scene_, *pin_, angle);
+  if (input.down && !input.released) return;
+  active_ = false;
+  if (workspace.preview) workspace.commit("Turn pin", *workspace.preview);
+}
+
+void PinRing::cancel(Workspace& workspace) {
+  if (active_) workspace.preview.reset();
+  active_ = false;
 }
 
 }  // namespace holomorph

@@ -70,4 +70,27 @@ class HandleDrag {
   bool active_ = false, moving_ = false;
 };
 
+/// The ring around the one selected pin: dragging it turns the picture around the pin.
+class PinRing {
+ public:
+  /// Finds the ring and whether the pointer is on it.
+  void hover(const Input& input, const Workspace& workspace);
+  bool hovered() const { return hovered_; }
+  bool active() const { return active_; }
+  std::optional<Index> pin() const { return pin_; }
+  void start(const Input& input, const Workspace& workspace);
+  /// Follows the pointer; on release commits.
+  void follow(const Input& input, Workspace& workspace);
+  void cancel(Workspace& workspace);
+
+ private:
+  double angle_to(const Input& input, const Workspace& workspace) const;
+
+  std::optional<Index> pin_;
+  bool hovered_ = false, active_ = false;
+  Complex start_px_;
+  double start_angle_ = 0;
+  Scene start_scene_;
+};
+
 }  // namespace holomorph

@@ -1,12 +1,16 @@
 // Commits go through one gate, so that no unusable cage ever enters the history.
 #include "edit/workspace.h"
 
+#include "scene/scene_json.h"
+
 namespace holomorph {
 
 bool Workspace::commit(const std::string& label, Scene scene) {
   preview.reset();
+  nudged.clear();
   if (scene.has_cage()) try {
       if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
+      scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
     } catch (const Error& error) {
       complain(Error(error.kind(), "Not done: " + std::string(error.what()), error.where()));
       return false;
@@ -47,6 +51,7 @@ Box Workspace::content_box() const {
 
 void Workspace::open(Document opened) {
   document = std::move(opened);
+  map.clear();
   preview.reset();
   selection.clear();
   layer = Layer::pose;

@@ -51,6 +51,7 @@ struct Workspace {
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
+  Selection nudged;  ///< what the current step of the history has nudged, if that is what it did
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window
 

@@ -482,6 +482,32 @@ void trim(Image& image, Frame& frame, const Frame& least) {
   image = std::move(cut);
 }
 
+/// The box of the places that the map takes the source's rectangle to: mesh vertices in it, and the
+/// points where mesh edges leave it.
+Box image_of_rectangle(const RasterJob& job) {
+  const double w = job.source->width, h = job.source->height;
+  const auto depth = [&](Complex z) {
+    return std::array{z.real(), w - z.real(), z.imag(), h - z.imag()};
+  };
+  Box box;
+  for (const Triangle& t : job.mesh->triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int i = t[k], j = t[(k + 1) % 3];
+      const auto a = depth(job.mesh->vertices[i]), b = depth(job.mesh->vertices[j]);
+      double from = 0, to = 1;
+      for (int side = 0; side < 4; ++side) {
+        if (a[side] < 0 && b[side] < 0) from = 2;
+        if (a[side] < 0 && b[side] >= 0) from = std::max(from, a[side] / (a[side] - b[side]));
+        if (a[side] >= 0 && b[side] < 0) to = std::min(to, a[side] / (a[side] - b[side]));
+      }
+      if (from > to) continue;
+      const Complex p = job.positions[i], q = job.positions[j];
+      box.include((1 - from) * p + from * q);
+      box.include((1 - to) * p + to * q);
+    }
+  return box;
+}
+
 }  // namespace
 
 RasterResult rasterized(const RasterJob& job) {
@@ -497,12 +523,15 @@ RasterResult rasterized(const RasterJob& job) {
              std::max(1, static_cast<int>(std::lround(height * scale)))};
   double left = least.left, top = least.top, right = least.width, bottom = least.height;
   if (job.mesh && !(job.crop && job.source)) {
-    Box box = box_of(job.positions);
+    const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
-    left = std::min(left, std::floor(box.left * scale));
-    right = std::max(right, std::ceil(box.right * scale));
-    top = std::min(top, std::floor((height - box.top) * scale));
-    bottom = std::max(bottom, std::ceil((height - box.bottom) * scale));
+    constexpr double kRounding = 1e-3;  // operators in single precision
+    if (!box.empty()) {
+      left = std::min(left, std::floor(box.left * scale + kRounding));
+      right = std::max(right, std::ceil(box.right * scale - kRounding));
+      top = std::min(top, std::floor((height - box.top) * scale + kRounding));
+      bottom = std::max(bottom, std::ceil((height - box.bottom) * scale - kRounding));
+    }
   }
   constexpr double kLargest = 16384;
   if (!(right - left <= kLargest && bottom - top <= kLargest))

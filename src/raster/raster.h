@@ -29,7 +29,7 @@ struct RasterResult {
   Complex corner;
 };
 
-/// Draws. Bilinear in premultiplied colour with as many samples as a shrunk pixel covers, edges of
+/// Draws. Bilinear in premultiplied colour with up to 8 x 8 samples where pixels shrink, edges of
 /// the cage's image antialiased by coverage (4 x 4), triangles in mesh order, later ones on top.
 /// A map that moves nothing gives the source back bit for bit.
 /// Throws Error{bad_input} when the result would be larger than 16384 pixels a side, or empty.

@@ -118,13 +118,15 @@ void Document::save(const Path& path) {
 }
 
 void Document::autosave(const Path& folder) {
+  if (!modified() && autosaved_) remove_autosave(folder);
   if (!modified() || autosaved_ == scene()) return;
   fs::create_directories(folder);
   write_file(autosave_path(folder, id_), json_of(portable(Path())));
   autosaved_ = scene();
 }
 
-void Document::remove_autosave(const Path& folder) const {
+void Document::remove_autosave(const Path& folder) {
+  autosaved_.reset();
   std::error_code ignored;
   fs::remove(autosave_path(folder, id_), ignored);
 }

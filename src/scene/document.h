@@ -36,7 +36,8 @@ class Document {
   const Image* image() const { return image_.get(); }
   std::shared_ptr<const Image> shared_image() const { return image_; }
   const History& history() const { return history_; }
-  const Path& path() const { return path_; }  ///< empty for a scene never saved
+  const Path& path() const { return path_; }              ///< empty for a scene never saved
+  const Path& image_path() const { return image_path_; }  ///< absolute; empty without a picture
   const std::string& warning() const { return warning_; }
   std::string title() const;
   bool modified() const { return scene() != saved_; }
@@ -44,6 +45,8 @@ class Document {
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.
   bool commit(const std::string& label, Scene scene);
+  /// The current step, carried further: no step of its own. Not for the first entry.
+  void amend(Scene scene) { history_.amend(std::move(scene)); }
   bool undo() { return history_.undo(); }
   bool redo() { return history_.redo(); }
   void go_to(size_t entry) { history_.go_to(entry); }
@@ -51,9 +54,10 @@ class Document {
   /// Writes the scene; the picture's path is made relative to it. Throws Error and stays modified.
   void save(const Path& path);
 
-  /// Writes the current scene under the document's id, when it is modified and not written yet.
+  /// Keeps the autosave true: the current scene under the document's id while it is modified,
+  /// nothing when it is not.
   void autosave(const Path& folder);
-  void remove_autosave(const Path& folder) const;
+  void remove_autosave(const Path& folder);
 
  private:
   Document(LoadedScene loaded, Path path);

@@ -118,7 +118,9 @@ Points points_of_csv(const std::string& text, const std::string& name) {
     }
     good = good &&
            line.find_first_not_of(' ', static_cast<size_t>(at - line.c_str())) == std::string::npos;
-    if (!good && number == 1) continue;
+    char* first_end = nullptr;
+    std::strtod(line.c_str(), &first_end);
+    if (number == 1 && first_end == line.c_str()) continue;  // a heading
     if (!good)
       throw Error(ErrorKind::bad_input, name + ": line " + std::to_string(number) +
                                             ": two finite numbers x,y are wanted");

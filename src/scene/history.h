@@ -30,6 +30,11 @@ class History {
     index_ = entries_.size() - 1;
     return true;
   }
+  /// Replaces the current scene: a step that goes on where the last one stopped.
+  void amend(Scene scene) {
+    entries_.resize(index_ + 1);
+    entries_[index_].scene = std::move(scene);
+  }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }
   void go_to(size_t index) { index_ = std::min(index, entries_.size() - 1); }

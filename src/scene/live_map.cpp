@@ -67,6 +67,7 @@ void LiveMap::work() {
     if (stop_) return;
     const Scene scene = *std::exchange(waiting_, std::nullopt);
     const std::shared_ptr<PreparedMap> base = base_;
+    const unsigned wanted = wanted_;
     working_ = true;
     lock.unlock();
     std::shared_ptr<PreparedMap> result;
@@ -81,10 +82,12 @@ void LiveMap::work() {
     }
     lock.lock();
     working_ = false;
-    finished_ = true;
-    result_ = std::move(result);
-    failure_ = std::move(failure);
-    if (result_) base_ = result_;
+    if (result) base_ = result;  // worth keeping even when the scene has moved on
+    if (wanted == wanted_) {
+      finished_ = true;
+      result_ = std::move(result);
+      failure_ = std::move(failure);
+    }
     changed_.notify_all();
     if (wake_) wake_();
   }
@@ -95,6 +98,7 @@ void LiveMap::take_result(const Scene& scene, bool derivatives) {
   busy_ = working_ || waiting_;
   if (!std::exchange(finished_, false)) return;
   error_ = std::move(failure_);
+  failed_ = error_.has_value();
   failure_.reset();
   if (!result_ || !requested_) return;
   shown_ = std::move(result_);
@@ -113,14 +117,37 @@ bool LiveMap::pose(const Scene& scene, bool derivatives) {
     SampledMap map;
     shown_->deformer->deform(pose_of(scene), map, derivatives);
     map_ = std::move(map);
+    error_.reset();
   } catch (const Error& error) {
     error_ = error;
     return false;
   }
   pose_milliseconds_ = now_ms() - start;
+  fold_.reset();
+  for (const auto& [i, j, k] : shown_->mesh->triangles) {
+    const VectorXc& f = map_.f;
+    if (cross(f[j] - f[i], f[k] - f[i]) > 0) continue;
+    fold_ = (f[i] + f[j] + f[k]) / 3.0;
+    break;
+  }
   posed_ = scene;
   posed_derivatives_ = derivatives;
   return true;
+}
+
+void LiveMap::clear() {
+  shown_.reset();
+  map_ = SampledMap{};
+  posed_.reset();
+  requested_.reset();
+  error_.reset();
+  failed_ = false;
+  fold_.reset();
+  const std::lock_guard lock(mutex_);
+  ++wanted_;
+  waiting_.reset();
+  result_.reset();
+  finished_ = false;
 }
 
 bool LiveMap::update(const Scene& scene, bool derivatives) {
@@ -128,17 +155,15 @@ bool LiveMap::update(const Scene& scene, bool derivatives) {
   take_result(scene, derivatives);
   if (!scene.has_cage()) {
     const bool changed = shown_ != nullptr;
-    shown_.reset();
-    map_ = SampledMap{};
-    posed_.reset();
-    requested_.reset();
-    error_.reset();
+    clear();
     return changed;
   }
   if (!requested_ || !same_rest(*requested_, scene)) {
     requested_ = scene;
     error_.reset();
+    failed_ = false;
     const std::lock_guard lock(mutex_);
+    ++wanted_;
     waiting_ = scene;
     finished_ = false;  // an older result is of no use
     result_.reset();
@@ -146,7 +171,7 @@ bool LiveMap::update(const Scene& scene, bool derivatives) {
     changed_.notify_all();
     return before != preparation_;
   }
-  if (busy_ || error_) return before != preparation_;
+  if (busy_ || failed_) return before != preparation_;
   return pose(scene, derivatives) || before != preparation_;
 }
 

@@ -43,6 +43,8 @@ class LiveMap {
   /// Takes what the worker has finished, asks for what the scene needs, and poses the map when it
   /// fits the scene. Returns whether the map changed. `derivatives` asks for f_z and f_zbar, too.
   bool update(const Scene& scene, bool derivatives);
+  /// Forgets scene, map and whatever the worker is busy with.
+  void clear();
   /// update(), then waits for the worker until the map is the scene's or failed. For tests.
   void finish(const Scene& scene, bool derivatives);
 
@@ -52,6 +54,10 @@ class LiveMap {
   bool has_map() const { return shown_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }
+  /// Where the shown map first turns a triangle over, in the posed picture; none when it does not.
+  std::optional<Complex> fold() const { return fold_; }
+  /// The scene that map() shows; it may lag behind the one being edited.
+  const std::optional<Scene>& posed() const { return posed_; }
   double pose_milliseconds() const { return pose_milliseconds_; }
   /// Grows by one whenever a newly prepared map is taken over.
   unsigned preparation() const { return preparation_; }
@@ -66,9 +72,10 @@ class LiveMap {
   std::shared_ptr<PreparedMap> shown_;
   SampledMap map_;
   std::optional<Error> error_;
+  std::optional<Complex> fold_;
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
   std::optional<Scene> posed_;      ///< the scene that map_ shows
-  bool posed_derivatives_ = false, busy_ = false;
+  bool posed_derivatives_ = false, busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
   unsigned preparation_ = 0;
 
@@ -77,6 +84,8 @@ class LiveMap {
   std::optional<Scene> waiting_;
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
+  unsigned wanted_ =
+      0;  ///< grows with every request: what the worker has for an older one is dropped
   bool working_ = false, finished_ = false, stop_ = false;
   std::thread worker_;
 };

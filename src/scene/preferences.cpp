@@ -48,7 +48,8 @@ void save_preferences(const Preferences& preferences) {
   for (const Path& path : preferences.recent) json["recent"].push_back(path.string());
   std::error_code error;
   std::filesystem::create_directories(preferences_path().parent_path(), error);
-  write_file(preferences_path(), json.dump(2) + "\n");
+  write_file(preferences_path(),
+             json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void remember(Preferences& preferences, const Path& path) {

@@ -13,6 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr double kLargest = 1e8;  ///< coordinates beyond this are no picture's
+constexpr int kDeepest = 200;     ///< nesting, unknown keys included
 constexpr size_t kMostSegments = 5000;
 constexpr size_t kHighestDegree = 32;
 
@@ -236,7 +237,13 @@ void write_value(const Json& value, int depth, std::string& out) {
 Scene scene_from_json(const std::string& text, const std::string& name) {
   Json document;
   try {
-    document = Json::parse(text);
+    document = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+      if (depth > kDeepest)
+        throw Error(ErrorKind::bad_input, "brackets are nested more than 200 deep");
+      return true;
+    });
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + ": this is not a scene: " + error.what());
   } catch (const Json::exception& error) {
     throw Error(ErrorKind::bad_input, name + ": this is not a scene: " + error.what());
   }
@@ -305,7 +312,13 @@ std::string json_of(const Scene& scene) {
   document["method"] = std::move(method);
   add_extra(document, scene.extra);
   std::string text;
-  write_value(document, 0, text);
+  try {
+    write_value(document, 0, text);
+  } catch (const Json::exception&) {
+    throw Error(
+        ErrorKind::bad_input,
+        "the picture's file name is not UTF-8 and cannot be written to a scene; rename the file");
+  }
   return text + "\n";
 }
 

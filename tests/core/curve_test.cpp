@@ -110,6 +110,14 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
              Catch::Contains("no length"));
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {NAN, 0}, {0, 10}})),
              Catch::Contains("no number"));
+  // A spike that ends a few units in the last place above another edge.
+  const double tip = 10 * (1 + 4e-16);
+  CHECK_THAT(message(polygon_cage(
+                 Points{{0, 0}, {100, 0}, {100, 90}, {60, 90}, {50, tip}, {40, 90}, {0, 90}})),
+             Catch::Equals(""));
+  CHECK_THAT(message(polygon_cage(Points{
+                 {0, 0}, {50, 10}, {100, 0}, {100, 90}, {60, 90}, {25, 5 * (1 + 4e-16)}, {0, 90}})),
+             Catch::Contains("touches itself"));
   Cage curved = polygon_cage(shapes::rectangle(5, 5));
   curved.segments[0].push_back({2, 9});
   CHECK_THAT(message(curved), Catch::Contains("curved"));

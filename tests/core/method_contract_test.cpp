@@ -221,7 +221,6 @@ TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
 }
 
 TEST_CASE("The pins' correction minimises the smoothness energy among maps that meet them") {
-  // Independent: the stacked least-squares problem with the pins as heavy rows.
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;

@@ -15,7 +15,7 @@ using namespace holomorph;
 
 namespace {
 
-/// A hidden window with a context; the tests are skipped where there is no display.
+/// A hidden window with a context; needs a display.
 struct Context {
   GLFWwindow* window = nullptr;
   Context(int width, int height) {

@@ -99,6 +99,12 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(replaced(kText, "\"smoothness\"", "\"smothness\"")),
              Contains("no parameter 'smothness'"));
   CHECK_THAT(complaint(replaced(kText, "[55,80]", "{}")), Contains("/pins/0/pose"));
+  const std::string deep(200000, '[');
+  CHECK_THAT(complaint(replaced(kText, "{\"name\": \"x\"}", deep + std::string(200000, ']'))),
+             Contains("nested"));
+  Scene unspeakable = scene_from_json(kText, "x");
+  unspeakable.image = ImageReference{"caf\xe9.png", 0, 0, "", ""};
+  CHECK_THROWS_AS(json_of(unspeakable), Error);
   std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
   for (int i = 0; i < 6000; ++i) many += "[[0,0]],";
   CHECK_THAT(complaint(many + "[[1,1]]]}}"), Contains("more than 5000"));
@@ -176,6 +182,27 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK(recovered.modified());
   CHECK(recovered.path().empty());
   CHECK(recovered.image() != nullptr);
+}
+
+TEST_CASE("The autosave is there exactly while there is something to lose") {
+  const Folder folder;
+  write_file(folder.path / "dot.png", encode_png(Image(8, 6)));
+  Document document = Document::open(folder.path / "dot.png");
+  const Path place = folder.path / "autosave";
+  const auto kept = [&] {
+    document.autosave(place);
+    return fs::exists(place) ? std::distance(fs::directory_iterator(place), {}) : 0;
+  };
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  CHECK(kept() == 1);
+  document.remove_autosave(place);
+  CHECK(kept() == 1);  // still modified: written again
+  document.undo();
+  CHECK(kept() == 0);
+  document.redo();
+  CHECK(kept() == 1);
+  document.save(folder.path / "s.json");
+  CHECK(kept() == 0);
 }
 
 TEST_CASE("History: undo and redo walk the line, a commit forgets what was undone") {
@@ -281,6 +308,8 @@ TEST_CASE("CSV points: separators, headings, and what is wrong with a line") {
   CHECK(points_of_csv("1\t2\n# comment\n", "p")[0] == Complex(1, 2));
   CHECK_THROWS_WITH(points_of_csv("1,2\n3\n", "p.csv"), Catch::Contains("p.csv: line 2"));
   CHECK_THROWS_AS(points_of_csv("1,2\nnan,4\n", "p"), Error);
+  CHECK_THROWS_AS(points_of_csv("nan,4\n", "p"), Error);
+  CHECK_THROWS_AS(points_of_csv("1,2,3\n", "p"), Error);
   CHECK_THROWS_AS(points_of_csv("1,2\n3,4,5\n", "p"), Error);
 }
 
