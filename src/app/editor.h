@@ -11,7 +11,7 @@ struct EditorOptions {
 };
 
 /// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there
-/// is no display or the file cannot be opened.
+/// is no display or no such file; a file that cannot be read is a message in the window.
 int run_editor(const EditorOptions& options);
 
 }  // namespace holomorph

@@ -38,7 +38,9 @@ Path autosave_path(const Path& folder, const std::string& id) {
 }  // namespace
 
 bool is_scene_path(const Path& path) {
-  return path.extension() == ".json";
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".json";
 }
 
 LoadedScene load_scene(const Path& path) {
