@@ -62,6 +62,8 @@ class Editor {
     workspace_.map.on_ready([this] { window_.wake(); });
     recoverable_ = recoverable(autosave_folder());
     if (!options.file.empty()) open(options.file);
+    if (!options.file.empty() && !recoverable_.empty())
+      workspace_.say("There is unsaved work from an earlier session: File > New shows it.");
     if (workspace_.document.empty()) samples_ = load_samples();
   }
 

@@ -9,7 +9,8 @@ namespace holomorph {
 
 PanelSizes PanelSizes::at(double scale) {
   const double line = ImGui::GetFrameHeight();
-  return {line, 52 * scale, 300 * scale, line + 6 * scale};
+  const double inspector = std::min(300 * scale, 0.38 * ImGui::GetIO().DisplaySize.x);
+  return {line, 52 * scale, inspector, line + 6 * scale};
 }
 
 namespace {
