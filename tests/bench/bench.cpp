@@ -48,7 +48,7 @@ Scene scene_with(const Points& polygon) {
   Scene scene;
   scene.rest = scene.pose = polygon_cage(polygon);
   for (Points& segment : scene.pose.segments)
-    segment[0] += 20.0 * std::sin(segment[0] / 100.0).real();
+    segment[0] += 20.0 * std::sin(segment[0].imag() / 100);
   return scene;
 }
 
