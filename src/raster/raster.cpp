@@ -3,6 +3,10 @@
 // of 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
 #include "raster/raster.h"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <atomic>
 #include <cstring>
 #include <thread>
@@ -30,10 +34,38 @@ struct Piece {
   bool outside;  ///< part of the picture beyond the rest cage: drawn where the cage is not
 };
 
+#ifdef __SSE2__
+Float4 load(const std::uint8_t* p) {
+  int packed;
+  std::memcpy(&packed, p, 4);
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i wide = _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(packed), zero), zero);
+  return _mm_cvtepi32_ps(wide);
+}
+
+void store(Float4 color, std::uint8_t* out) {
+  const __m128i rounded = _mm_cvttps_epi32(color + 0.5f);
+  const __m128i words = _mm_packs_epi32(rounded, rounded);
+  const int packed = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+  std::memcpy(out, &packed, 4);
+}
+#else
 Float4 load(const std::uint8_t* p) {
   Byte4 bytes;
   std::memcpy(&bytes, p, 4);
   return __builtin_convertvector(bytes, Float4);
+}
+
+void store(Float4 color, std::uint8_t* out) {
+  for (int k = 0; k < 4; ++k)
+    out[k] = static_cast<std::uint8_t>(std::clamp(color[k] + 0.5f, 0.0f, 255.0f));
+}
+#endif
+
+/// The floor of a number of moderate size; the library's is a call where SSE 4.1 is not assumed.
+int floor_of(double x) {
+  const int i = static_cast<int>(x);
+  return i - (x < i);
 }
 
 /// The source with transparent surroundings; u to the right and v down, pixel centres at halves.
@@ -44,9 +76,8 @@ class Sampler {
   Float4 at(double u, double v) const {
     // Extrapolation at a silhouette may leave the picture far behind.
     const double x = std::clamp(u, -1e6, 1e6) - 0.5, y = std::clamp(v, -1e6, 1e6) - 0.5;
-    const double fx = std::floor(x), fy = std::floor(y);
-    const int c = static_cast<int>(fx), r = static_cast<int>(fy);
-    double tx = x - fx, ty = y - fy;
+    const int c = floor_of(x), r = floor_of(y);
+    const double tx = x - c, ty = y - r;
     const bool on_x = tx < kOnTexel || tx > 1 - kOnTexel, on_y = ty < kOnTexel || ty > 1 - kOnTexel;
     if (on_x && on_y) return texel(c + (tx > 0.5), r + (ty > 0.5));
     const float wx = static_cast<float>(tx), wy = static_cast<float>(ty);
@@ -94,11 +125,6 @@ Float4 over(Float4 top, Float4 below) {
   Float4 sum = (top * top[3] + below * rest) * (1 / alpha);
   sum[3] = alpha;
   return sum;
-}
-
-void store(Float4 color, std::uint8_t* out) {
-  for (int k = 0; k < 4; ++k)
-    out[k] = static_cast<std::uint8_t>(std::clamp(color[k] + 0.5f, 0.0f, 255.0f));
 }
 
 /// Where the edge from (ax, ay) to (bx, by) crosses height y; the same for both directions.

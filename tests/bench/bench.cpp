@@ -94,13 +94,13 @@ double coordinates_ns(Kernel kernel, int order, int runs) {
 double scalar_log_ns(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {1500});
-  Complex sum = 0;
+  volatile double sum = 0;  // read by nobody, so that nothing is left out
   const double ms = median_ms(runs, [&] {
     for (const Complex& z : mesh.vertices)
       for (size_t e = 0; e < cage.size(); ++e)
-        sum += std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z));
+        sum = std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z)).imag();
   });
-  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100) + 1e-300 * std::abs(sum);
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
 double prepare_ms(int runs) {
