@@ -86,7 +86,11 @@ class Sampler {
     if (c >= 0 && r >= 0 && c + 1 < image_.width && r + 1 < image_.height) {
       const std::uint8_t* p = image_.at(c, r);
       const std::uint8_t* q = image_.at(c, r + 1);
+      const int every = p[3] & p[7] & q[3] & q[7], any = p[3] | p[7] | q[3] | q[7];
+      if (any == 0) return Float4{};
       t[0] = load(p), t[1] = load(p + 4), t[2] = load(q), t[3] = load(q + 4);
+      if (every == 255)
+        return w[0] * t[0] + w[1] * t[1] + w[2] * t[2] + w[3] * t[3];  // nothing to weigh
     } else {
       t[0] = texel(c, r), t[1] = texel(c + 1, r), t[2] = texel(c, r + 1),
       t[3] = texel(c + 1, r + 1);
