@@ -94,7 +94,7 @@ void erase_selection(Workspace& w) {
 
 void make_cage(Workspace& w) {
   const Points polygon = auto_cage(*w.document.image(), {w.auto_cage_vertices, w.auto_cage_margin});
-  if (w.commit("Cage from picture", with_new_cage(w.document.scene(), polygon))) {
+  if (w.commit("Cage from picture", with_cage(w.document.scene(), polygon))) {
     w.layer = Layer::pose;
     w.tool = ToolId::select;
     w.selection.clear();

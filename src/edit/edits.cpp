@@ -129,15 +129,6 @@ Scene with_method(Scene scene, const std::string& id) {
   return scene;
 }
 
-Scene with_new_cage(Scene scene, const Points& polygon) {
-  scene.rest = scene.pose = polygon_cage(polygon);
-  for (Pin& pin : scene.pins) {
-    pin.pose = pin.rest;
-    if (pin.angle) pin.angle = 0.0;
-  }
-  return scene;
-}
-
 CageHit nearest_on_cage(const Cage& cage, Complex z) {
   CageHit best;
   for (Index i = 0; i < cage.size(); ++i) {

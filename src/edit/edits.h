@@ -56,9 +56,6 @@ Scene reset(Scene scene, const Selection& selection);
 /// With another method; parameters that it does not know are dropped.
 Scene with_method(Scene scene, const std::string& id);
 
-/// A new cage at rest and in pose; pins keep their rest and return to it.
-Scene with_new_cage(Scene scene, const Points& polygon);
-
 /// The place on a layer's cage that is nearest to z.
 struct CageHit {
   Index segment = 0;

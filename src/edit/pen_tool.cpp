@@ -1,5 +1,6 @@
 // P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
 #include "edit/tool.h"
+#include "scene/auto_cage.h"
 
 namespace holomorph {
 namespace {
@@ -124,7 +125,7 @@ class PenTool final : public Tool {
     const Points polygon = std::move(line_);
     line_.clear();
     closes_ = false;
-    if (!workspace.commit("Draw cage", with_new_cage(workspace.scene(), polygon))) {
+    if (!workspace.commit("Draw cage", with_cage(workspace.scene(), polygon))) {
       line_ = polygon;  // the drawing stays, so that a point can be taken back
       return;
     }

@@ -212,8 +212,8 @@ Points auto_cage(const Image& image, const AutoCageOptions& options) {
 }
 
 Scene with_cage(Scene scene, const Points& polygon) {
-  scene.rest = scene.pose = polygon_cage(polygon);
-  return scene;
+  scene.rest = polygon_cage(polygon);
+  return at_rest(std::move(scene));
 }
 
 }  // namespace holomorph

@@ -25,7 +25,7 @@ Points auto_cage(const Image& image, const AutoCageOptions& options = {});
 /// when there is no content.
 std::vector<std::uint8_t> largest_part(const Image& image);
 
-/// The scene with this cage at rest and in pose; pins keep their places.
+/// The scene with this cage, everything at rest: pins keep their rest and return to it.
 Scene with_cage(Scene scene, const Points& polygon);
 
 }  // namespace holomorph
