@@ -72,17 +72,22 @@ class Sizing {
     return h >= 4 ? 4 : h >= 2 ? 2 : 1;
   }
 
-  /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex).
+  /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex). Its
+  /// mean is taken at the cells' centres and the area from the polygon: thin parts lie between
+  /// centres.
   double expected_vertices(std::span<const Complex> polygon) const {
-    double sum = 0;
+    double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
+    int inside = 0;
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) {
         const Complex z(box_.left + (c + 0.5) * cell_, box_.bottom + (r + 0.5) * cell_);
         if (winding_number(polygon, z) == 0) continue;
         const double h = level(z) * finest_;
-        sum += cell_ * cell_ / (0.866 * h * h);
+        sum += 1 / (0.866 * h * h);
+        ++inside;
       }
-    return sum + 0.5 * perimeter(polygon) / finest_;
+    if (inside > 0) mean = sum / inside;
+    return mean * std::abs(signed_area(polygon)) + 0.5 * perimeter(polygon) / finest_;
   }
 
   const Box& box() const { return box_; }

@@ -41,7 +41,7 @@ void check_partition(const Points& polygon, const MeshOptions& options) {
             static_cast<long>(mesh.triangles.size()) ==
         1);
   CHECK(mesh.vertices.size() <=
-        static_cast<size_t>(4 * options.vertices + 6 * polygon.size() + 100));
+        static_cast<size_t>(3 * options.vertices + 4 * polygon.size()));
 }
 
 }  // namespace
