@@ -1,0 +1,376 @@
+// Scan conversion by exact row crossings, computed alike from both sides of every edge, so that
+// neighbours neither overlap nor leave a gap. Pixels that a silhouette crosses are small pictures
+// of 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
+#include "raster/drawing.h"
+
+#include <atomic>
+#include <thread>
+
+#include "raster/sampler.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kSub = 4;       ///< coverage samples per pixel side
+constexpr int kBand = 16;     ///< rows that one task draws
+constexpr int kMostTaps = 8;  ///< colour samples per pixel side when shrinking
+
+/// An output triangle and the affine map from output pixels back to its colours: source pixels, or
+/// for heat maps the value in the first coordinate.
+struct Piece {
+  double x[3], y[3];  ///< output pixels, y down
+  double u0, ux, uy, v0, vx, vy;
+  double low, high;  ///< of u over the corners: heat is never extrapolated
+  int taps_x, taps_y;
+  bool outside;  ///< part of the picture beyond the rest cage: drawn where the cage is not
+};
+
+/// Where the edge from (ax, ay) to (bx, by) crosses height y; the same for both directions.
+double crossing(double ax, double ay, double bx, double by, double y) {
+  if (by < ay || (by == ay && bx < ax)) std::swap(ax, bx), std::swap(ay, by);
+  return ax + (bx - ax) * ((y - ay) / (by - ay));
+}
+
+/// The half-open interval of x that a triangle covers at height y; empty when none.
+bool span_at(const Piece& piece, double y, double& left, double& right) {
+  double found[3];
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int m = (k + 1) % 3;
+    if ((piece.y[k] <= y) != (piece.y[m] <= y))
+      found[count++] = crossing(piece.x[k], piece.y[k], piece.x[m], piece.y[m], y);
+  }
+  if (count < 2) return false;
+  left = std::min(found[0], found[1]);
+  right = std::max(found[0], found[1]);
+  return left < right;
+}
+
+/// The first whole number i with i + 0.5 >= x.
+int first_center(double x) {
+  return static_cast<int>(std::ceil(x - 0.5));
+}
+
+/// Sorted crossings of closed polygons with a row: inside is between the first and second, and so
+/// on.
+void row_crossings(const std::vector<std::array<double, 4>>& edges,
+                   const std::vector<int>& candidates, double y, std::vector<double>& out) {
+  out.clear();
+  for (const int e : candidates) {
+    const auto& [ax, ay, bx, by] = edges[e];
+    if ((ay <= y) != (by <= y)) out.push_back(crossing(ax, ay, bx, by, y));
+  }
+  std::sort(out.begin(), out.end());
+}
+
+class Drawing {
+ public:
+  Drawing(const RasterJob& job, double left, double top, int width, int height)
+      : job_(job), left_(left), top_(top), scale_(job.pixels_per_unit), output_(width, height) {
+    if (job.source && job.view == View::image) add_surroundings();
+    if (job.mesh) add_mesh();
+    bin();
+  }
+
+  Image draw() {
+    std::atomic<int> next{0};
+    const auto work = [&] {
+      for (int band = next++; band < static_cast<int>(bands_.size()); band = next++)
+        draw_band(band);
+    };
+    const int count = job_.threads > 0
+                          ? job_.threads
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    std::vector<std::thread> others;
+    for (int i = 1; i < count; ++i) others.emplace_back(work);
+    work();
+    for (std::thread& thread : others) thread.join();
+    return std::move(output_);
+  }
+
+ private:
+  struct Band {
+    std::vector<int> pieces, silhouette, cage;  ///< numbers of what touches the band
+  };
+  using Edge = std::array<double, 4>;
+
+  double out_x(Complex z) const { return (z.real() - left_) * scale_; }
+  double out_y(Complex z) const { return (top_ - z.imag()) * scale_; }
+  Edge edge_of(Complex a, Complex b) const { return {out_x(a), out_y(a), out_x(b), out_y(b)}; }
+
+  /// Adds a triangle at `at` whose corners have the source coordinates (u, v).
+  void add_piece(const std::array<Complex, 3>& at, const double u[3], const double v[3],
+                 bool outside) {
+    Piece piece{};
+    for (int k = 0; k < 3; ++k) piece.x[k] = out_x(at[k]), piece.y[k] = out_y(at[k]);
+    const double ax = piece.x[1] - piece.x[0], ay = piece.y[1] - piece.y[0];
+    const double bx = piece.x[2] - piece.x[0], by = piece.y[2] - piece.y[0];
+    const double area = ax * by - ay * bx;
+    if (!(std::abs(area) > 1e-12)) return;
+    const auto gradient = [&](const double w[3], double& w0, double& wx, double& wy) {
+      const double p = w[1] - w[0], q = w[2] - w[0];
+      wx = (p * by - q * ay) / area;
+      wy = (q * ax - p * bx) / area;
+      w0 = w[0] - wx * piece.x[0] - wy * piece.y[0];
+    };
+    gradient(u, piece.u0, piece.ux, piece.uy);
+    gradient(v, piece.v0, piece.vx, piece.vy);
+    const auto taps = [](double du, double dv) {
+      return std::clamp(static_cast<int>(std::ceil(std::hypot(du, dv) - 0.05)), 1, kMostTaps);
+    };
+    piece.taps_x = job_.view == View::image ? taps(piece.ux, piece.vx) : 1;
+    piece.taps_y = job_.view == View::image ? taps(piece.uy, piece.vy) : 1;
+    piece.low = std::min({u[0], u[1], u[2]});
+    piece.high = std::max({u[0], u[1], u[2]});
+    piece.outside = outside;
+    pieces_.push_back(piece);
+  }
+
+  void add_surroundings() {
+    const double w = job_.source->width, h = job_.source->height;
+    const Complex a{0, h}, b{w, h}, c{w, 0}, d{0, 0};
+    const double u1[3] = {0, w, w}, v1[3] = {0, 0, h}, u2[3] = {0, w, 0}, v2[3] = {0, h, h};
+    add_piece({a, b, c}, u1, v1, job_.mesh != nullptr);
+    add_piece({a, c, d}, u2, v2, job_.mesh != nullptr);
+    if (!job_.mesh) return;
+    const std::vector<int>& loop = job_.mesh->boundary;
+    for (size_t i = 0; i < loop.size(); ++i)
+      cage_.push_back(
+          edge_of(job_.mesh->vertices[loop[i]], job_.mesh->vertices[loop[(i + 1) % loop.size()]]));
+  }
+
+  void add_mesh() {
+    const Mesh& mesh = *job_.mesh;
+    const double height = job_.source ? job_.source->height : 0;
+    const bool heat = is_heat(job_.view);
+    for (const Triangle& t : mesh.triangles) {
+      double u[3], v[3];
+      for (int k = 0; k < 3; ++k) {
+        u[k] = heat ? heat_position(job_.scale, job_.heat[t[k]]) : mesh.vertices[t[k]].real();
+        v[k] = heat ? 0 : height - mesh.vertices[t[k]].imag();
+      }
+      add_piece({job_.positions[t[0]], job_.positions[t[1]], job_.positions[t[2]]}, u, v, false);
+    }
+    for (size_t i = 0; i < mesh.boundary.size(); ++i)
+      silhouette_.push_back(edge_of(job_.positions[mesh.boundary[i]],
+                                    job_.positions[mesh.boundary[(i + 1) % mesh.boundary.size()]]));
+  }
+
+  void bin() {
+    bands_.resize((output_.height + kBand - 1) / kBand);
+    const auto add = [&](double low, double high, int number, std::vector<int> Band::*list) {
+      const int first = std::max(0, static_cast<int>(std::floor(low / kBand)));
+      const int last =
+          std::min(static_cast<int>(bands_.size()) - 1, static_cast<int>(std::floor(high / kBand)));
+      for (int band = first; band <= last; ++band) (bands_[band].*list).push_back(number);
+    };
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      const auto [low, high] = std::minmax({pieces_[i].y[0], pieces_[i].y[1], pieces_[i].y[2]});
+      add(low, high, static_cast<int>(i), &Band::pieces);
+    }
+    for (size_t i = 0; i < silhouette_.size(); ++i)
+      add(std::min(silhouette_[i][1], silhouette_[i][3]),
+          std::max(silhouette_[i][1], silhouette_[i][3]), static_cast<int>(i), &Band::silhouette);
+    for (size_t i = 0; i < cage_.size(); ++i)
+      add(std::min(cage_[i][1], cage_[i][3]), std::max(cage_[i][1], cage_[i][3]),
+          static_cast<int>(i), &Band::cage);
+  }
+
+  /// What a band's pixels need besides the output: whether they are inside the rest cage, and the
+  /// coverage samples of those that a silhouette crosses.
+  struct Canvas {
+    int first_row, rows, width;
+    std::vector<std::uint8_t> in_cage;  ///< per pixel centre
+    std::vector<int> slot;              ///< per pixel: number in samples, or -1
+    std::vector<std::array<Float4, kSub * kSub>> samples;
+    std::vector<std::uint16_t> sample_in_cage;  ///< per slot, a bit per sample
+    std::vector<int> slot_pixel;
+
+    size_t at(int column, int row) const {
+      return static_cast<size_t>(row - first_row) * width + column;
+    }
+  };
+
+  void mark(Canvas& canvas, const Edge& edge) const {
+    const auto& [ax, ay, bx, by] = edge;
+    const int low = std::max(canvas.first_row, static_cast<int>(std::floor(std::min(ay, by))));
+    const int high = std::min(canvas.first_row + canvas.rows - 1,
+                              static_cast<int>(std::floor(std::max(ay, by))));
+    for (int row = low; row <= high; ++row) {
+      double x0 = ax, x1 = bx;
+      if (ay != by) {  // the part of the edge in this row
+        const double t0 = std::clamp((row - ay) / (by - ay), 0.0, 1.0),
+                     t1 = std::clamp((row + 1 - ay) / (by - ay), 0.0, 1.0);
+        x0 = ax + t0 * (bx - ax);
+        x1 = ax + t1 * (bx - ax);
+      }
+      const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - 1e-9)));
+      const int right =
+          std::min(canvas.width - 1, static_cast<int>(std::floor(std::max(x0, x1) + 1e-9)));
+      for (int column = left; column <= right; ++column) {
+        int& slot = canvas.slot[canvas.at(column, row)];
+        if (slot >= 0) continue;
+        slot = static_cast<int>(canvas.samples.size());
+        canvas.samples.push_back({});
+        canvas.sample_in_cage.push_back(0);
+        canvas.slot_pixel.push_back(static_cast<int>(canvas.at(column, row)));
+      }
+    }
+  }
+
+  void find_cage(Canvas& canvas, const std::vector<int>& edges) const {
+    std::vector<double> at;
+    for (int row = canvas.first_row; row < canvas.first_row + canvas.rows; ++row) {
+      row_crossings(cage_, edges, row + 0.5, at);
+      for (size_t i = 0; i + 1 < at.size(); i += 2) {
+        const int left = std::max(0, first_center(at[i])),
+                  right = std::min(canvas.width, first_center(at[i + 1]));
+        for (int c = left; c < right; ++c) canvas.in_cage[canvas.at(c, row)] = 1;
+      }
+    }
+    for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
+      const int pixel = canvas.slot_pixel[slot], column = pixel % canvas.width,
+                row = canvas.first_row + pixel / canvas.width;
+      for (int sy = 0; sy < kSub; ++sy) {
+        row_crossings(cage_, edges, row + (sy + 0.5) / kSub, at);
+        for (int sx = 0; sx < kSub; ++sx) {
+          const double x = column + (sx + 0.5) / kSub;
+          const auto before = std::upper_bound(at.begin(), at.end(), x) - at.begin();
+          if (before % 2)
+            canvas.sample_in_cage[slot] |= static_cast<std::uint16_t>(1u << (sy * kSub + sx));
+        }
+      }
+    }
+  }
+
+  Float4 color_at(const Piece& piece, int column, int row) const {
+    const double x = column + 0.5, y = row + 0.5;
+    const double u = piece.u0 + piece.ux * x + piece.uy * y,
+                 v = piece.v0 + piece.vx * x + piece.vy * y;
+    if (job_.view == View::checker) {
+      const bool light = (static_cast<int>(std::floor(std::clamp(u / 16, -1e6, 1e6))) +
+                          static_cast<int>(std::floor(std::clamp(v / 16, -1e6, 1e6)))) &
+                         1;
+      return light ? Float4{235, 235, 235, 255} : Float4{70, 90, 120, 255};
+    }
+    if (is_heat(job_.view)) {
+      const Color color = heat_color(std::clamp(u, piece.low, piece.high), job_.scale.diverging);
+      return Float4{color[0] * 255, color[1] * 255, color[2] * 255, 255};
+    }
+    const Sampler sampler(*job_.source);
+    if (piece.taps_x * piece.taps_y == 1) return sampler.at(u, v);
+    Float4 sum{};
+    for (int ty = 0; ty < piece.taps_y; ++ty)
+      for (int tx = 0; tx < piece.taps_x; ++tx) {
+        const double dx = (tx + 0.5) / piece.taps_x - 0.5, dy = (ty + 0.5) / piece.taps_y - 0.5;
+        Float4 color =
+            sampler.at(u + piece.ux * dx + piece.uy * dy, v + piece.vx * dx + piece.vy * dy);
+        const float alpha = color[3];
+        color[3] = 1;
+        sum += alpha * color;
+      }
+    const float count = static_cast<float>(piece.taps_x * piece.taps_y);
+    return Sampler::straight(sum / count);
+  }
+
+  void draw_piece(const Piece& piece, Canvas& canvas) {
+    const auto [low, high] = std::minmax({piece.y[0], piece.y[1], piece.y[2]});
+    const int first = std::max(canvas.first_row, static_cast<int>(std::floor(low)));
+    const int last =
+        std::min(canvas.first_row + canvas.rows - 1, static_cast<int>(std::floor(high)));
+    const double step_x = 1.0 / kSub;
+    for (int row = first; row <= last; ++row) {
+      double left = 0, right = 0;
+      if (span_at(piece, row + 0.5, left, right)) {
+        const int begin = std::max(0, first_center(left)),
+                  end = std::min(canvas.width, first_center(right));
+        const size_t base = canvas.at(0, row);
+        for (int column = begin; column < end; ++column) {
+          if (canvas.slot[base + column] >= 0 || (piece.outside && canvas.in_cage[base + column]))
+            continue;
+          std::uint8_t* out = output_.at(column, row);
+          const Float4 color = color_at(piece, column, row);
+          store(out[3] == 0 ? color : over(color, load(out)), out);
+        }
+      }
+      if (canvas.samples.empty()) continue;
+      // Coverage samples of silhouette pixels in this row, four lines of them.
+      double lefts[kSub], rights[kSub], least = 1e300, most = -1e300;
+      bool any = false;
+      for (int sy = 0; sy < kSub; ++sy) {
+        lefts[sy] = rights[sy] = 0;
+        if (!span_at(piece, row + (sy + 0.5) * step_x, lefts[sy], rights[sy])) continue;
+        any = true;
+        least = std::min(least, lefts[sy]);
+        most = std::max(most, rights[sy]);
+      }
+      if (!any) continue;
+      const int begin = std::max(0, static_cast<int>(std::floor(least))),
+                end = std::min(canvas.width - 1, static_cast<int>(std::floor(most)));
+      for (int column = begin; column <= end; ++column) {
+        const int slot = canvas.slot[canvas.at(column, row)];
+        if (slot < 0) continue;
+        unsigned covered = 0;
+        for (int sy = 0; sy < kSub; ++sy)
+          for (int sx = 0; sx < kSub; ++sx) {
+            const double x = column + (sx + 0.5) * step_x;
+            if (lefts[sy] <= x && x < rights[sy]) covered |= 1u << (sy * kSub + sx);
+          }
+        if (piece.outside) covered &= ~static_cast<unsigned>(canvas.sample_in_cage[slot]);
+        if (covered == 0) continue;
+        const Float4 color = color_at(piece, column, row);
+        for (int s = 0; s < kSub * kSub; ++s)
+          if (covered >> s & 1) canvas.samples[slot][s] = over(color, canvas.samples[slot][s]);
+      }
+    }
+  }
+
+  void draw_band(int number) {
+    const Band& band = bands_[number];
+    Canvas canvas{number * kBand,
+                  std::min(kBand, output_.height - number * kBand),
+                  output_.width,
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
+    const size_t pixels = static_cast<size_t>(canvas.rows) * canvas.width;
+    canvas.in_cage.assign(pixels, 0);
+    canvas.slot.assign(pixels, -1);
+    for (const int e : band.silhouette) mark(canvas, silhouette_[e]);
+    for (const int e : band.cage) mark(canvas, cage_[e]);
+    find_cage(canvas, band.cage);
+    for (const int p : band.pieces) draw_piece(pieces_[p], canvas);
+    for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
+      const auto& samples = canvas.samples[slot];
+      const bool alike = std::all_of(samples.begin(), samples.end(), [&](Float4 s) {
+        return std::memcmp(&s, &samples[0], sizeof s) == 0;
+      });
+      Float4 sum{};
+      for (Float4 sample : samples) {
+        const float alpha = sample[3];
+        sample[3] = 1;
+        sum += alpha * sample;
+      }
+      const Float4 color = alike ? samples[0] : Sampler::straight(sum / float{kSub * kSub});
+      const int pixel = canvas.slot_pixel[slot];
+      store(color, output_.at(pixel % canvas.width, canvas.first_row + pixel / canvas.width));
+    }
+  }
+
+  const RasterJob& job_;
+  double left_, top_, scale_;
+  Image output_;
+  std::vector<Piece> pieces_;
+  std::vector<Edge> silhouette_, cage_;
+  std::vector<Band> bands_;
+};
+
+}  // namespace
+
+Image drawn(const RasterJob& job, double left, double top, int width, int height) {
+  return Drawing(job, left, top, width, height).draw();
+}
+
+}  // namespace holomorph
