@@ -1,19 +1,11 @@
 // Values are compared instead of dirty flags: the worker is asked when same_rest is false.
 #include "scene/live_map.h"
 
-#include <chrono>
 #include <utility>
 
+#include "core/clock.h"
+
 namespace holomorph {
-namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
 
 bool same_rest(const Scene& a, const Scene& b) {
   if (a.method != b.method || a.parameters != b.parameters || a.rest != b.rest) return false;

@@ -1,8 +1,9 @@
 // Measured on the default domain mesh.
 #include "scene/report.h"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
+
+#include "core/clock.h"
 
 namespace holomorph {
 namespace {
@@ -62,12 +63,11 @@ SceneReport report_of(const Scene& scene) {
   const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
   SampledMap map;
   prepared->deformer->deform(pose_of(scene), map, true);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now_ms();
   SampledMap again;
   prepared->deformer->deform(pose_of(scene), again, false);
   SceneReport report;
-  report.pose_milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  report.pose_milliseconds = now_ms() - start;
   report.method = scene.method;
   report.status = name_of(map.status);
   report.note = map.note;

@@ -2,11 +2,11 @@
 #include "bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 
 #include "core/cauchy.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "raster/raster.h"
 #include "scene/auto_cage.h"
@@ -14,12 +14,6 @@
 
 namespace holomorph::bench {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// The median time of `work` in milliseconds, after one run that does not count.
 double median_ms(int runs, const std::function<void()>& work) {
