@@ -2,9 +2,6 @@
 // rewrites the reference, and an autosave names it absolutely.
 #include "scene/document.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <random>
@@ -16,11 +13,10 @@ namespace holomorph {
 namespace fs = std::filesystem;
 namespace {
 
-/// "<pid>-<random>": tells whose it is and never repeats.
 std::string fresh_id() {
   std::random_device random;
-  char text[48];
-  std::snprintf(text, sizeof text, "%ld-%08x", static_cast<long>(::getpid()), random());
+  char text[24];
+  std::snprintf(text, sizeof text, "%08x%08x", random(), random());
   return text;
 }
 
@@ -35,12 +31,15 @@ Path autosave_path(const Path& folder, const std::string& id) {
   return folder / (id + ".json");
 }
 
+/// Beside an autosave: locked while the program that writes it runs.
+Path lock_path(const Path& autosave) {
+  return Path(autosave).replace_extension(".lock");
+}
+
 }  // namespace
 
 bool is_scene_path(const Path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".json";
+  return lower_case(path.extension().string()) == ".json";
 }
 
 LoadedScene load_scene(const Path& path) {
@@ -119,18 +118,27 @@ void Document::save(const Path& path) {
   saved_ = history_.current();
 }
 
-void Document::autosave(const Path& folder) {
+bool Document::autosave(const Path& folder) {
   if (!modified() && autosaved_) remove_autosave(folder);
-  if (!modified() || autosaved_ == scene()) return;
-  fs::create_directories(folder);
-  write_file(autosave_path(folder, id_), json_of(portable(Path())));
+  if (!modified() || autosaved_ == scene()) return true;
+  const Path path = autosave_path(folder, id_);
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  try {
+    if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
+    write_file(path, json_of(portable(Path())));
+  } catch (const Error&) {
+    return false;
+  }
   autosaved_ = scene();
+  return true;
 }
 
 void Document::remove_autosave(const Path& folder) {
   autosaved_.reset();
   std::error_code ignored;
   fs::remove(autosave_path(folder, id_), ignored);
+  lock_.reset();
 }
 
 namespace {
@@ -161,15 +169,18 @@ std::vector<Recovery> recoverable(const Path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const Path& path = entry.path();
     if (path.extension() != ".json" || path.filename().string().starts_with(".")) continue;
-    const long owner = std::atol(path.stem().c_str());
-    const bool alive =
-        owner > 0 && (owner == ::getpid() || ::kill(static_cast<pid_t>(owner), 0) == 0);
-    if (!alive) found.push_back({entry.last_write_time(error), path});
+    if (!FileLock::is_held(lock_path(path))) found.push_back({entry.last_write_time(error), path});
   }
   std::sort(found.rbegin(), found.rend());
   std::vector<Recovery> recoveries;
   for (const auto& [time, path] : found) recoveries.push_back({path, label_of(path, time)});
   return recoveries;
+}
+
+void discard(const Path& autosave) {
+  std::error_code ignored;
+  fs::remove(autosave, ignored);
+  fs::remove(lock_path(autosave), ignored);
 }
 
 }  // namespace holomorph

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "scene/file.h"
 #include "scene/history.h"
 #include "scene/image.h"
 
@@ -55,8 +56,8 @@ class Document {
   void save(const Path& path);
 
   /// Keeps the autosave true: the current scene under the document's id while it is modified,
-  /// nothing when it is not.
-  void autosave(const Path& folder);
+  /// nothing when it is not. Returns false when it cannot be written.
+  bool autosave(const Path& folder);
   void remove_autosave(const Path& folder);
 
  private:
@@ -70,6 +71,7 @@ class Document {
   Path image_path_, path_;
   Scene saved_;
   std::optional<Scene> autosaved_;
+  std::shared_ptr<FileLock> lock_;  ///< says that the autosave has a running owner
   std::string warning_;
 };
 
@@ -80,5 +82,7 @@ struct Recovery {
 };
 /// What can be recovered, newest first.
 std::vector<Recovery> recoverable(const Path& folder);
+/// Deletes an autosave.
+void discard(const Path& autosave);
 
 }  // namespace holomorph

@@ -16,6 +16,26 @@ std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 /// Throws Error{failed} when that is not possible.
 void write_file(const Path& path, const std::string& bytes);
 
+/// A mark that a running program owns something: held until destroyed, and by nobody once the
+/// program has ended, however it ended.
+class FileLock {
+ public:
+  /// Creates the file if need be and locks it. Throws Error{failed} when that is not possible.
+  explicit FileLock(const Path& path);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  /// Whether some program, this one included, holds the lock.
+  static bool is_held(const Path& path);
+
+ private:
+  Path path_;
+  int descriptor_;
+};
+
+/// ASCII capitals made small: for extensions and searches.
+std::string lower_case(std::string text);
+
 /// The SHA-256 of bytes as 64 lower-case hexadecimal digits.
 std::string sha256_hex(const std::string& bytes);
 

@@ -1,4 +1,9 @@
 // Scenes as files: nothing is lost, everything wrong is named.
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -131,6 +136,52 @@ TEST_CASE("Writing replaces a file whole, or leaves it") {
         (fs::perms::owner_read | fs::perms::owner_write));
 }
 
+TEST_CASE("A write that is cut off in the middle leaves the old file and nothing beside it") {
+  const Folder folder;
+  const Path path = folder.path / "a.json";
+  write_file(path, "the old content");
+  const pid_t child = ::fork();
+  if (child == 0) {  // a full disk, as far as this process can tell
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_file(path, std::string(1 << 20, 'x'));
+      ::_exit(1);
+    } catch (const Error&) {
+      ::_exit(0);
+    }
+  }
+  int status = -1;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  CHECK(read_file(path) == "the old content");
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+}
+
+TEST_CASE("A lock is held while its program runs, and never after it") {
+  const Folder folder;
+  const Path path = folder.path / "a.lock";
+  CHECK_FALSE(FileLock::is_held(path));
+  {
+    const FileLock lock(path);
+    CHECK(FileLock::is_held(path));
+    CHECK_THROWS_AS(FileLock(path), Error);
+  }
+  CHECK_FALSE(fs::exists(path));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const FileLock lock(path);
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(WIFSIGNALED(status));
+  CHECK(fs::exists(path));
+  CHECK_FALSE(FileLock::is_held(path));
+}
+
 TEST_CASE("SHA-256 of the empty text is the published one") {
   CHECK(sha256_hex("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
@@ -170,11 +221,10 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK_FALSE(fs::exists(place));  // nothing to lose yet
   document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
   document.autosave(place);
-  REQUIRE(std::distance(fs::directory_iterator(place), {}) == 1);
   CHECK(recoverable(place).empty());  // this program still owns it
-  const Path file = *fs::directory_iterator(place);
-  const Path orphan = place / "999999999-0.json";
-  fs::rename(file, orphan);
+  const Path orphan = place / "orphan.json";
+  for (const auto& entry : fs::directory_iterator(place))
+    if (entry.path().extension() == ".json") fs::copy_file(entry.path(), orphan);
   REQUIRE(recoverable(place).size() == 1);
   CHECK_THAT(recoverable(place)[0].label, Catch::StartsWith("dot"));
   const Document recovered = Document::recover(orphan);
@@ -182,6 +232,11 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK(recovered.modified());
   CHECK(recovered.path().empty());
   CHECK(recovered.image() != nullptr);
+  discard(orphan);
+  CHECK(recoverable(place).empty());
+  document.remove_autosave(place);
+  write_file(folder.path / "file", "no folder");
+  CHECK_FALSE(document.autosave(folder.path / "file"));
 }
 
 TEST_CASE("The autosave is there exactly while there is something to lose") {
@@ -191,7 +246,11 @@ TEST_CASE("The autosave is there exactly while there is something to lose") {
   const Path place = folder.path / "autosave";
   const auto kept = [&] {
     document.autosave(place);
-    return fs::exists(place) ? std::distance(fs::directory_iterator(place), {}) : 0;
+    int scenes = 0;
+    if (fs::exists(place))
+      for (const auto& entry : fs::directory_iterator(place))
+        scenes += entry.path().extension() == ".json";
+    return scenes;
   };
   document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
   CHECK(kept() == 1);
@@ -301,6 +360,45 @@ TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
     if (map.has_map())
       CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
   }
+}
+
+TEST_CASE("The live map follows inserted and deleted points, pins and methods") {
+  LiveMap map({400});
+  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  scene.method = "pins";
+  std::mt19937 random(7);
+  for (int i = 0; i < 40; ++i) {
+    const auto pick = [&](Index count) { return static_cast<Index>(random() % count); };
+    if (const int what = static_cast<int>(random() % 4); what == 0) {
+      const Index segment = pick(scene.rest.size());
+      insert_vertex(scene.rest, segment, 0.4);
+      insert_vertex(scene.pose, segment, 0.4);
+    } else if (what == 1 && scene.rest.size() > 8) {
+      Scene fewer = scene;
+      const Index vertex = pick(scene.rest.size());
+      erase_vertex(fewer.rest, vertex);
+      erase_vertex(fewer.pose, vertex);
+      if (!self_crossing(vertices_of(fewer.rest))) scene = fewer;
+    } else if (what == 2) {
+      const Complex z(10 + 4.0 * i, 20 + i);
+      scene.pins.push_back({z, z + Complex(3, 2), {}, {}});
+    } else if (!scene.pins.empty()) {
+      scene.pins.erase(scene.pins.begin() + pick(static_cast<Index>(scene.pins.size())));
+      scene.method = i % 2 ? "pins" : "cage";
+    }
+    if (i % 3 == 0)
+      map.finish(scene, false);
+    else
+      map.update(scene, false);
+    if (map.has_map())
+      CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
+  }
+  map.finish(scene, true);
+  const auto alone = prepared_map(scene, Precision::single, {400});
+  SampledMap expected;
+  alone->deformer->deform(pose_of(scene), expected, true);
+  CHECK(map.map().f == expected.f);
+  CHECK(map.map().fz == expected.fz);
 }
 
 TEST_CASE("CSV points: separators, headings, and what is wrong with a line") {
