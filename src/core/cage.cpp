@@ -93,11 +93,15 @@ void insert_vertex(Cage& cage, Index segment, double t) {
   cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
 }
 
-void erase_vertex(Cage& cage, Index vertex) {
+void erase_vertex(Cage& cage, Index vertex, Refit refit) {
   check(cage.size() > 3 && vertex >= 0 && vertex < cage.size(), "erase_vertex: more than three");
   const Index before = (vertex + cage.size() - 1) % cage.size();
   const int degree = std::max(cage.degree(before), cage.degree(vertex));
-  if (degree > 1) {
+  if (degree > 1 && refit == Refit::tangents) {
+    const Points left = elevated(cage.controls(before), std::max(3, cage.degree(before))),
+                 right = elevated(cage.controls(vertex), std::max(3, cage.degree(vertex)));
+    cage.segments[before] = {left[0], left[1], right[right.size() - 2]};
+  } else if (degree > 1) {
     // Parameters in proportion to the two chords, so that a cut made by insert_vertex heals.
     const Points left = cage.controls(before), right = cage.controls(vertex);
     const double a = std::abs(left.back() - left.front()),

@@ -51,9 +51,13 @@ Cage reversed(const Cage& cage);
 /// Cuts segment `segment` at parameter t in (0, 1) by de Casteljau: the curve stays as it is.
 void insert_vertex(Cage& cage, Index segment, double t);
 
-/// Removes vertex `vertex`. Two straight segments become one; curved neighbours are refitted by
-/// least squares with the larger degree. The cage must have more than three segments.
-void erase_vertex(Cage& cage, Index vertex);
+/// What happens to curved neighbours of a vertex that is removed: they follow the old curve by
+/// least squares with the larger degree, or become one cubic with the outer tangents.
+enum class Refit { curve, tangents };
+
+/// Removes vertex `vertex`. Two straight segments become one; `refit` says what curved ones do. The
+/// cage must have more than three segments.
+void erase_vertex(Cage& cage, Index vertex, Refit refit = Refit::curve);
 
 /// Whether every segment runs along its chord at constant speed (degree-raised edges do).
 bool is_straight(const Cage& cage);

@@ -29,7 +29,7 @@ enum class Precision {
   full     ///< operators in double: for numbers that are written out
 };
 
-/// A point handle at rest; `turns` says that its pose prescribes an angle too.
+/// A point handle at rest; `turns` says that its pose prescribes an angle and a scale too.
 struct RestPin {
   Complex position;
   bool turns = false;
@@ -38,6 +38,7 @@ struct RestPin {
 struct PosePin {
   Complex position;
   double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin turns
+  double scale = 1.0;  ///< positive; used where the rest pin turns
   bool operator==(const PosePin&) const = default;
 };
 

@@ -21,7 +21,8 @@ Rest rest_of(const Scene& scene, Precision precision) {
 Pose pose_of(const Scene& scene) {
   Pose pose{scene.pose, {}};
   if (method_named(scene.method).uses_pins)
-    for (const Pin& pin : scene.pins) pose.pins.push_back({pin.pose, pin.angle.value_or(0.0)});
+    for (const Pin& pin : scene.pins)
+      pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
   return pose;
 }
 
@@ -30,6 +31,7 @@ Scene at_rest(Scene scene) {
   for (Pin& pin : scene.pins) {
     pin.pose = pin.rest;
     if (pin.angle) pin.angle = 0.0;
+    pin.scale = 1;
   }
   return scene;
 }

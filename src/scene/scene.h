@@ -20,11 +20,12 @@ struct ImageReference {
   bool operator==(const ImageReference&) const = default;
 };
 
-/// A point handle; with an angle it turns the picture around it, too.
+/// A point handle; with an angle it turns and scales the picture around it, too.
 struct Pin {
   Complex rest, pose;
   std::optional<double> angle;
   Extra extra;
+  double scale = 1;  ///< acts with an angle only
   bool operator==(const Pin&) const = default;
 };
 

@@ -52,6 +52,13 @@ class Reader {
     if (!std::isfinite(number)) fail("the number is not finite");
     return number;
   }
+  double within(double lowest, double highest) const {
+    const double n = number();
+    if (!(n >= lowest && n <= highest))
+      fail("a number from " + Json(lowest).dump() + " to " + Json(highest).dump() +
+           " is wanted here");
+    return n;
+  }
   int whole(int lowest, int highest) const {
     const double n = number();
     if (n != std::floor(n) || n < lowest || n > highest)
@@ -135,7 +142,8 @@ Pin read_pin(const Reader& reader) {
   pin.rest = reader["rest"].point();
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
   if (reader.has("angle")) pin.angle = reader["angle"].number();
-  pin.extra = reader.others({"rest", "pose", "angle"});
+  if (reader.has("scale")) pin.scale = reader["scale"].within(1e-3, 1e3);
+  pin.extra = reader.others({"rest", "pose", "angle", "scale"});
   return pin;
 }
 
@@ -294,6 +302,7 @@ std::string json_of(const Scene& scene) {
       item["rest"] = point_json(pin.rest);
       item["pose"] = point_json(pin.pose);
       if (pin.angle) item["angle"] = *pin.angle;
+      if (pin.scale != 1) item["scale"] = pin.scale;
       add_extra(item, pin.extra);
       document["pins"].push_back(std::move(item));
     }

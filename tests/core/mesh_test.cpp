@@ -40,8 +40,7 @@ void check_partition(const Points& polygon, const MeshOptions& options) {
   CHECK(static_cast<long>(mesh.vertices.size()) - static_cast<long>(edges.size()) +
             static_cast<long>(mesh.triangles.size()) ==
         1);
-  CHECK(mesh.vertices.size() <=
-        static_cast<size_t>(3 * options.vertices + 4 * polygon.size()));
+  CHECK(mesh.vertices.size() <= static_cast<size_t>(3 * options.vertices + 4 * polygon.size()));
 }
 
 }  // namespace

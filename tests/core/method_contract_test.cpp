@@ -1,6 +1,9 @@
 // The contract that every row of the table of methods fulfils, in both precisions.
 #include <catch2/catch.hpp>
 
+#include <Eigen/QR>
+
+#include "core/cauchy.h"
 #include "core/deformer.h"
 #include "core/error.h"
 #include "core/mesh.h"
@@ -43,7 +46,8 @@ Pose mapped(const Rest& rest, Complex a, Complex b) {
   Pose pose{rest.cage, {}};
   for (Points& segment : pose.cage.segments)
     for (Complex& z : segment) z = a * z + b;
-  for (const RestPin& pin : rest.pins) pose.pins.push_back({a * pin.position + b, std::arg(a)});
+  for (const RestPin& pin : rest.pins)
+    pose.pins.push_back({a * pin.position + b, std::arg(a), std::abs(a)});
   return pose;
 }
 
@@ -220,10 +224,61 @@ TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
   CHECK(std::abs(map.fz[1] - std::polar(1.0, 0.3)) < 1e-8);  // the pin that turns
 }
 
+TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins") {
+  const Method& pins = method_named("pins");
+  const double smoothness = 1e-4, weight = 0.5;
+  const Points polygon = shapes::star(100, 0.1, 3);  // as many vertices as the basis wants
+  const Cage cage = polygon_cage(polygon);
+  Rest rest;
+  rest.cage = cage;
+  rest.precision = Precision::full;
+  rest.parameters = {{"exact", 0}, {"smoothness", smoothness}, {"pin_weight", weight}};
+  Pose pose{cage, {}};
+  const Complex center = box_of(polygon).center();
+  VectorXc data(5);
+  for (int i = 0; i < 5; ++i) {
+    const Complex z = center + std::polar(30.0, 1.3 * i);
+    data[i] = Complex(4.0 * i, 9 - i * i);
+    rest.pins.push_back({z, false});
+    pose.pins.push_back({z + data[i], 0});
+    rest.samples.push_back(center + std::polar(45.0, 0.7 * i));
+  }
+  // minimise  smoothness mean |L^2 h''|^2 + weight mean |h - data|^2  over h = C g, by one QR.
+  const double length = perimeter(polygon) / (2 * kPi), m = 5, n = 100;
+  std::vector<BoundaryPoint> midpoints;
+  for (Index e = 0; e < cage.size(); ++e) midpoints.push_back({e, 0.5});
+  Points places;
+  for (const RestPin& pin : rest.pins) places.push_back(pin.position);
+  MatrixXc stacked(105, 100);
+  stacked << cauchy_coordinates(cage, midpoints, 2) * (length * length * std::sqrt(smoothness / n)),
+      cauchy_coordinates(cage, places) * std::sqrt(weight / m);
+  VectorXc right = VectorXc::Zero(105);
+  right.tail(5) = data * std::sqrt(weight / m);
+  const VectorXc g = stacked.colPivHouseholderQr().solve(right);
+  const VectorXc expected = samples_of(rest) + cauchy_coordinates(cage, rest.samples) * g;
+  CHECK((run(pins, rest, pose).f - expected).cwiseAbs().maxCoeff() <= 1e-7);
+}
+
+TEST_CASE("A pin that turns also scales") {
+  const Method& pins = method_named("pins");
+  Setup s = setup(pins, Precision::full);
+  s.rest.pins = {{{40, 40}, true}};
+  s.pose = mapped(s.rest, 1, 0);
+  s.pose.pins[0].angle = 0.5;
+  s.pose.pins[0].scale = 1.75;
+  const SampledMap map = run(pins, s.rest, s.pose);
+  const Complex a = std::polar(1.75, 0.5);
+  CHECK((map.fz.array() - a).abs().maxCoeff() < 1e-9);
+  CHECK((map.f.array() - (a * (samples_of(s.rest).array() - Complex(40, 40)) + Complex(40, 40)))
+            .abs()
+            .maxCoeff() < 1e-8);
+}
+
 TEST_CASE("The pins' correction minimises the smoothness energy among maps that meet them") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;
+  s.rest.parameters = {{"exact", 1}};
   for (RestPin& pin : s.rest.pins) pin.turns = false;
   const auto energy = [&](const Points& samples,
                           const SampledMap& map) {  // mean |f''|^2 by differences of f'

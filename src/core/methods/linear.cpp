@@ -61,7 +61,7 @@ void check_pose(const Rest& rest, const Pose& pose) {
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
   for (const PosePin& pin : pose.pins)
-    if (!is_finite(pin.position) || !std::isfinite(pin.angle))
+    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !std::isfinite(pin.scale))
       throw Error(ErrorKind::bad_input, "a posed pin is not finite");
 }
 

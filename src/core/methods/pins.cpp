@@ -118,7 +118,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     for (const size_t i : used_) all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
     for (const size_t i : used_)
       if (this->rest_.pins[i].turns)
-        all[row++] = basis_->length * (std::polar(1.0, pose.pins[i].angle) - 1.0);
+        all[row++] = basis_->length * (std::polar(pose.pins[i].scale, pose.pins[i].angle) - 1.0);
     all.tail(functionals()) -= base;
     return all;
   }
@@ -256,13 +256,14 @@ Method pins_method() {
           "Cage and pins",
           "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
           {{"exact", "Exact",
-            "The picture passes through every pin; off: it yields a little for smoothness",
-            ParameterSpec::Kind::toggle, 1, 0, 1, false},
+            "The picture passes through every pin, whatever that takes; off: it yields a little "
+            "where pins contradict each other",
+            ParameterSpec::Kind::toggle, 0, 0, 1, false},
            {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
             ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true},
            {"pin_weight", "Pin weight",
             "How much missing a pin costs when pins are soft (dimensionless)",
-            ParameterSpec::Kind::number, 0.1, 1e-3, 10, true}},
+            ParameterSpec::Kind::number, 10, 1e-3, 1e3, true}},
           true,
           prepare};
 }
