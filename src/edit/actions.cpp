@@ -66,19 +66,11 @@ void frame_selection(Workspace& w) {
   w.viewport.fit(box.empty() ? w.content_box() : box);
 }
 
-/// Arrow keys; pressing on with the same selection goes on with the same step.
+/// Arrow keys.
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
-  const Scene after = moved(w.scene(), w.selection, by, w.layer);
-  const History& history = w.document.history();
-  const bool goes_on = w.nudged == w.selection && w.layer == Layer::pose && history.index() > 0 &&
-                       history.entries()[history.index()].label == "Nudge";
-  if (goes_on) {
-    w.document.amend(after);
-  } else if (w.commit("Nudge", after)) {
-    w.nudged = w.selection;
-  }
+  w.commit_or_amend("Nudge", moved(w.scene(), w.selection, by, w.layer));
 }
 
 void select_all(Workspace& w) {
@@ -86,10 +78,9 @@ void select_all(Workspace& w) {
   w.selection = Selection(all.begin(), all.end());
 }
 
+template <Refit refit>
 void erase_selection(Workspace& w) {
-  const Scene after = erased(w.scene(), w.selection);
-  w.selection.clear();
-  w.commit("Delete", after);
+  w.erase(Selection(w.selection), refit);
 }
 
 void make_cage(Workspace& w) {
@@ -131,12 +122,12 @@ bool can_redo(const Workspace& w) {
   return !w.preview && w.document.history().can_redo();
 }
 void undo(Workspace& w) {
-  w.nudged.clear();
+  w.carried_on.clear();
   w.document.undo();
   w.prune_selection();
 }
 void redo(Workspace& w) {
-  w.nudged.clear();
+  w.carried_on.clear();
   w.document.redo();
   w.prune_selection();
 }
@@ -191,7 +182,14 @@ std::vector<Action> table() {
        "Edit",
        {Key::del, Key::backspace},
        has_selection,
-       erase_selection},
+       erase_selection<Refit::curve>},
+      {"edit.delete_plain",
+       "Delete, keep the neighbours' tangents",
+       "",
+       "Edit",
+       {{Key::del, kShift}},
+       has_selection,
+       erase_selection<Refit::tangents>},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
       {"edit.nudge_left", "Nudge left", "", "", {Key::left}, has_selection, nudge<-1, 0, 10>},
@@ -344,7 +342,7 @@ std::vector<Action> table() {
        "Zoom in",
        "",
        "View",
-       {'+', '=', {'=', kCtrl}},
+       {'+', '=', {'=', kCtrl}, {'+', kCtrl}, {'=', kCtrlShift}},
        has_content,
        [](Workspace& w) { zoom_by(w, 1.25); }},
       {"view.zoom_out",

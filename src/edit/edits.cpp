@@ -17,7 +17,9 @@ Cage& cage_of(Scene& scene, Layer layer) {
   return layer == Layer::rest ? scene.rest : scene.pose;
 }
 
-Complex& place(Scene& scene, Handle handle, Layer layer) {
+/// A handle's place, to read in a const scene and to change in another.
+template <class AnyScene>
+auto& place(AnyScene& scene, Handle handle, Layer layer) {
   if (handle.kind == Handle::Kind::pin)
     return layer == Layer::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
   return cage_of(scene, layer).segments[handle.index][handle.control];
@@ -26,9 +28,7 @@ Complex& place(Scene& scene, Handle handle, Layer layer) {
 }  // namespace
 
 Complex position_of(const Scene& scene, Handle handle, Layer layer) {
-  if (handle.kind == Handle::Kind::pin)
-    return layer == Layer::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
-  return cage_of(scene, layer).segments[handle.index][handle.control];
+  return place(scene, handle, layer);
 }
 
 bool exists(const Scene& scene, Handle handle, Layer layer) {
@@ -67,13 +67,19 @@ Scene placed(Scene scene, Handle handle, Complex at, Layer layer) {
   return moved(std::move(scene), {handle}, by, layer);
 }
 
+Complex center_of(const Scene& scene, const Selection& selection, Layer layer) {
+  Box box;
+  for (const Handle& handle : selection) box.include(position_of(scene, handle, layer));
+  return box.center();
+}
+
 Scene inserted(Scene scene, Index segment, double t) {
   insert_vertex(scene.rest, segment, t);
   insert_vertex(scene.pose, segment, t);
   return scene;
 }
 
-Scene erased(Scene scene, const Selection& selection) {
+Scene erased(Scene scene, const Selection& selection, Refit refit) {
   // From the highest number down, so that the remaining numbers stay valid.
   Index vertices = 0;
   for (const Handle& handle : selection)
@@ -84,8 +90,8 @@ Scene erased(Scene scene, const Selection& selection) {
     if (handle->kind == Handle::Kind::pin) {
       scene.pins.erase(scene.pins.begin() + handle->index);
     } else if (handle->control == 0) {
-      erase_vertex(scene.rest, handle->index);
-      erase_vertex(scene.pose, handle->index);
+      erase_vertex(scene.rest, handle->index, refit);
+      erase_vertex(scene.pose, handle->index, refit);
     }
   }
   return scene;
@@ -102,6 +108,13 @@ Scene turned(Scene scene, Index pin, double angle) {
   return scene;
 }
 
+Scene scaled(Scene scene, Index pin, double factor) {
+  Pin& p = scene.pins[pin];
+  p.angle = p.angle.value_or(0);
+  p.scale = std::clamp(p.scale * factor, 0.05, 20.0);
+  return scene;
+}
+
 Scene reset(Scene scene, const Selection& selection) {
   if (selection.empty()) return at_rest(std::move(scene));
   for (const Handle& handle : selection) {
@@ -109,6 +122,7 @@ Scene reset(Scene scene, const Selection& selection) {
       Pin& pin = scene.pins[handle.index];
       pin.pose = pin.rest;
       if (pin.angle) pin.angle = 0.0;
+      pin.scale = 1;
     } else if (handle.control == 0) {
       scene = placed(std::move(scene), handle, scene.rest.vertex(handle.index), Layer::pose);
     } else if (exists(scene, handle, Layer::pose)) {

@@ -37,18 +37,24 @@ Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer);
 /// Puts one handle at a place.
 Scene placed(Scene scene, Handle handle, Complex at, Layer layer);
 
+/// The middle of the handles' box.
+Complex center_of(const Scene& scene, const Selection& selection, Layer layer);
+
 /// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
 Scene inserted(Scene scene, Index segment, double t);
 
-/// Without these handles: vertices (neighbours refit) and pins. At least three segments stay:
-/// throws Error otherwise.
-Scene erased(Scene scene, const Selection& selection);
+/// Without these handles: vertices and pins. At least three segments stay: throws Error otherwise.
+Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve);
 
 /// With a pin more; the method becomes one that uses pins.
 Scene with_pin(Scene scene, Complex rest, Complex pose);
 
 /// A pin turned to an angle in radians; the pin turns the picture from then on.
 Scene turned(Scene scene, Index pin, double angle);
+
+/// A pin's scale times a factor, within 1/20 to 20; the pin turns and scales the picture from then
+/// on.
+Scene scaled(Scene scene, Index pin, double factor);
 
 /// The selected handles (all when none is) posed as they rest.
 Scene reset(Scene scene, const Selection& selection);

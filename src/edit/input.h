@@ -17,6 +17,7 @@ struct Input {
   Complex px, position;
   bool pressed = false, down = false, released = false, double_clicked = false;  ///< left button
   bool inside = false;  ///< over the canvas and not over a panel
+  double wheel = 0;     ///< lines scrolled upwards
   Modifiers mods;
 };
 

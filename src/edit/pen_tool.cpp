@@ -92,18 +92,19 @@ class PenTool final : public Tool {
       hover_ = handle_at(workspace, input.px);
       if (hover_) {
         if (!input.pressed) return;
-        if (input.mods.alt) return remove(*hover_, workspace);
+        if (input.mods.alt) {
+          workspace.erase({*hover_});
+          hover_.reset();
+          return;
+        }
         workspace.selection = {*hover_};
         drag_.start(input, workspace.selection, scene);
         return;
       }
-      const CageHit hit = nearest_on_cage(cage_of(scene, workspace.layer), input.position);
-      if (hit.distance * workspace.viewport.zoom < workspace.handle_px && hit.t > 1e-3 &&
-          hit.t < 1 - 1e-3) {
-        insertion_ = hit.point;
+      if (const auto hit = edge_at(workspace, input.px)) {
+        insertion_ = hit->point;
         if (!input.pressed) return;
-        workspace.commit("Insert point", inserted(scene, hit.segment, hit.t));
-        workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
+        insert_at(workspace, *hit);
         drag_.start(input, workspace.selection, workspace.scene());
         return;
       }
@@ -131,15 +132,6 @@ class PenTool final : public Tool {
     }
     workspace.layer = Layer::pose;
     workspace.tool = ToolId::select;
-  }
-
-  void remove(Handle handle, Workspace& workspace) {
-    try {
-      workspace.commit("Delete point", erased(workspace.scene(), {handle}));
-    } catch (const Error& error) {
-      workspace.complain(error);
-    }
-    hover_.reset();
   }
 
   /// In steps of 15 degrees from the last point.

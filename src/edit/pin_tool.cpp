@@ -16,11 +16,16 @@ class PinTool final : public Tool {
     if (ring_.active()) return ring_.follow(input, workspace);
     hover_.reset();
     ring_.hover(input, workspace);
+    ring_.scroll(input, workspace);
     if (!input.inside) return;
     hover_ = handle_at(workspace, input.px);
     if (!input.pressed) return;
     if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
-    if (hover_ && input.mods.alt) return remove(workspace);
+    if (hover_ && input.mods.alt) {
+      workspace.erase({*hover_});
+      hover_.reset();
+      return;
+    }
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
       workspace.selection.insert(*hover_);
@@ -54,6 +59,7 @@ class PinTool final : public Tool {
     ring_.cancel(workspace);
     hover_.reset();
   }
+  bool takes_wheel() const override { return ring_.hovered(); }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
     if (!busy()) workspace.selection.clear();
@@ -69,23 +75,13 @@ class PinTool final : public Tool {
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return "Pins act inside a cage: draw one with P first";
-    if (ring_.hovered() && !hover_) return "Drag the ring to turn the picture around the pin";
+    if (ring_.hovered() && !hover_)
+      return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"
                   : "Click on the picture to set a pin, and drag it";
   }
 
  private:
-  void remove(Workspace& workspace) {
-    try {
-      workspace.commit(hover_->kind == Handle::Kind::pin ? "Delete pin" : "Delete point",
-                       erased(workspace.scene(), {*hover_}));
-      workspace.selection.clear();
-    } catch (const Error& error) {
-      workspace.complain(error);
-    }
-    hover_.reset();
-  }
-
   static Complex posed(Complex rest, const Workspace& workspace) {
     const Mesh& mesh = *workspace.map.prepared()->mesh;
     const auto found = locate(mesh, mesh.vertices, rest);

@@ -17,15 +17,17 @@ class SelectTool final : public Tool {
     if (marquee_start_) return follow_marquee(input, workspace);
     hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
     ring_.hover(input, workspace);
+    ring_.scroll(input, workspace);
     if (!input.inside || !input.pressed) return;
     if (ring_.hovered() && !hover_) {
       ring_.start(input, workspace);
     } else if (hover_ && input.mods.alt) {
-      remove(*hover_, workspace);
+      workspace.erase({*hover_});
+      hover_.reset();
     } else if (hover_) {
       pick(input, workspace);
     } else if (input.double_clicked) {
-      insert(input, workspace);
+      if (const auto hit = edge_at(workspace, input.px)) insert_at(workspace, *hit);
     } else {
       marquee_start_ = input.px;
       marquee_end_ = input.px;
@@ -41,6 +43,7 @@ class SelectTool final : public Tool {
   bool busy() const override {
     return drag_.active() || ring_.active() || marquee_start_.has_value();
   }
+  bool takes_wheel() const override { return ring_.hovered(); }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
     const bool was_busy = busy();
@@ -67,7 +70,8 @@ class SelectTool final : public Tool {
       return "Draw a cage with P, or make one from the picture (Cage menu)";
     if (drag_.active()) return "Shift keeps the axis";
     if (ring_.active()) return "Shift snaps to 15 degrees";
-    if (ring_.hovered() && !hover_) return "Drag the ring to turn the picture around the pin";
+    if (ring_.hovered() && !hover_)
+      return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     if (hover_) return "Drag to move; Shift-click adds to the selection; Alt-click deletes";
     return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
                                             "edge inserts; Tab returns to the pose"
@@ -85,27 +89,6 @@ class SelectTool final : public Tool {
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
     selection.insert(*hover_);
     drag_.start(input, selection, workspace.scene());
-  }
-
-  void remove(Handle handle, Workspace& workspace) {
-    try {
-      workspace.commit(handle.kind == Handle::Kind::pin ? "Delete pin" : "Delete point",
-                       erased(workspace.scene(), {handle}));
-      workspace.selection.clear();
-    } catch (const Error& error) {
-      workspace.complain(error);
-    }
-    hover_.reset();
-  }
-
-  void insert(const Input& input, Workspace& workspace) {
-    const CageHit hit =
-        nearest_on_cage(cage_of(workspace.scene(), workspace.layer), input.position);
-    if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < 1e-3 ||
-        hit.t > 1 - 1e-3)
-      return;
-    workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t));
-    workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
   }
 
   void follow_marquee(const Input& input, Workspace& workspace) {

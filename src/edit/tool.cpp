@@ -63,6 +63,12 @@ void PinRing::follow(const Input& input, Workspace& workspace) {
   if (workspace.preview) workspace.commit("Turn pin", *workspace.preview);
 }
 
+void PinRing::scroll(const Input& input, Workspace& workspace) const {
+  if (!hovered_ || input.wheel == 0) return;
+  const double factor = std::pow(1.02, input.wheel);
+  workspace.commit_or_amend("Scale at pin", scaled(workspace.scene(), *pin_, factor));
+}
+
 void PinRing::cancel(Workspace& workspace) {
   if (active_) workspace.preview.reset();
   active_ = false;

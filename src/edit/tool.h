@@ -34,6 +34,8 @@ class Tool {
   /// Drops an unfinished gesture.
   virtual void cancel(Workspace& workspace) = 0;
   virtual bool busy() const = 0;
+  /// Whether the wheel is the tool's, at the pointer's place, and does not zoom.
+  virtual bool takes_wheel() const { return false; }
   virtual ToolOverlay overlay() const = 0;
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
@@ -70,7 +72,8 @@ class HandleDrag {
   bool active_ = false, moving_ = false;
 };
 
-/// The ring around the one selected pin: dragging it turns the picture around the pin.
+/// The ring around the one selected pin: dragging it turns the picture around the pin, the wheel
+/// scales it there.
 class PinRing {
  public:
   /// Finds the ring and whether the pointer is on it.
@@ -81,6 +84,9 @@ class PinRing {
   void start(const Input& input, const Workspace& workspace);
   /// Follows the pointer; on release commits.
   void follow(const Input& input, Workspace& workspace);
+  /// The wheel over the ring enlarges or shrinks the picture around the pin: one step of the
+  /// history as long as it goes on.
+  void scroll(const Input& input, Workspace& workspace) const;
   void cancel(Workspace& workspace);
 
  private:

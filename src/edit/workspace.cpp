@@ -1,13 +1,15 @@
 // Commits go through one gate, so that no unusable cage ever enters the history.
 #include "edit/workspace.h"
 
+#include <algorithm>
+
 #include "scene/scene_json.h"
 
 namespace holomorph {
 
 bool Workspace::commit(const std::string& label, Scene scene) {
   preview.reset();
-  nudged.clear();
+  carried_on.clear();
   if (scene.has_cage()) try {
       if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
       scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
@@ -18,6 +20,36 @@ bool Workspace::commit(const std::string& label, Scene scene) {
   const bool done = document.commit(label, std::move(scene));
   prune_selection();
   return done;
+}
+
+void Workspace::commit_or_amend(const std::string& label, Scene scene) {
+  const History& history = document.history();
+  // A rest cage is checked with every piece; amending a pose cannot make anything unusable.
+  if (carried_on == selection && layer == Layer::pose && history.can_undo() &&
+      history.entries()[history.index()].label == label)
+    return document.amend(std::move(scene));
+  if (commit(label, std::move(scene))) carried_on = selection;
+}
+
+void Workspace::erase(const Selection& handles, Refit refit) {
+  const bool pins = std::ranges::all_of(
+      handles, [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });
+  const std::string what = pins ? "Delete pin" : "Delete point";
+  try {
+    Scene after = erased(scene(), handles, refit);
+    selection.clear();
+    commit(handles.size() == 1 ? what : what + "s", std::move(after));
+  } catch (const Error& error) {
+    complain(error);
+  }
+}
+
+void Workspace::say(const std::string& text) {
+  toasts.push_back({text, false, {}});
+}
+
+void Workspace::complain(const Error& error) {
+  toasts.push_back({error.what(), true, error.where()});
 }
 
 void Workspace::prune_selection() {
@@ -57,6 +89,21 @@ void Workspace::open(Document opened) {
   layer = Layer::pose;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
   if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});
+}
+
+std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
+  constexpr double kAtVertex = 1e-3;
+  const CageHit hit = nearest_on_cage(cage_of(workspace.scene(), workspace.layer),
+                                      workspace.viewport.plane_at_px(px));
+  if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < kAtVertex ||
+      hit.t > 1 - kAtVertex)
+    return {};
+  return hit;
+}
+
+void insert_at(Workspace& workspace, const CageHit& hit) {
+  if (workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t)))
+    workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
 }
 
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {

@@ -51,7 +51,7 @@ struct Workspace {
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
-  Selection nudged;  ///< what the current step of the history has nudged, if that is what it did
+  Selection carried_on;  ///< whose step commit_or_amend may carry further; empty: nobody's
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window
 
@@ -62,10 +62,15 @@ struct Workspace {
 
   /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
   bool commit(const std::string& label, Scene scene);
+  /// The same for what is done in many small pieces: with the selection unchanged it carries the
+  /// last step further, if that has the same label.
+  void commit_or_amend(const std::string& label, Scene scene);
+  /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
+  void erase(const Selection& handles, Refit refit = Refit::curve);
   /// Drops handles that an undo or another edit took away.
   void prune_selection();
-  void say(std::string text) { toasts.push_back({std::move(text), false, {}}); }
-  void complain(const Error& error) { toasts.push_back({error.what(), true, error.where()}); }
+  void say(const std::string& text);
+  void complain(const Error& error);
 
   /// The rest place under a place of the shown picture; none outside it or before there is a map.
   std::optional<Complex> rest_at(Complex z) const;
@@ -77,5 +82,11 @@ struct Workspace {
 
 /// The nearest handle of the shown layer within picking distance.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
+
+/// The place on the shown layer's cage within picking distance, not at a vertex: where a click can
+/// insert one.
+std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
+/// Inserts a vertex there as one step and selects it.
+void insert_at(Workspace& workspace, const CageHit& hit);
 
 }  // namespace holomorph

@@ -241,8 +241,39 @@ TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
   REQUIRE(desk.scene().pins[0].angle);
   CHECK(*desk.scene().pins[0].angle == Approx(7.0).margin(0.05));
   CHECK(desk.scene().pins[0].pose == Complex(50, 50));
+  const size_t steps = desk.steps();
+  for (int i = 0; i < 5; ++i) {
+    Input input = desk.at(on_ring(1.0));
+    input.wheel = 2;
+    desk.tool().input(input, desk.workspace);
+    CHECK(desk.tool().takes_wheel());
+  }
+  CHECK(desk.scene().pins[0].scale == Approx(std::pow(1.02, 10)));
+  CHECK(desk.steps() == steps + 1);  // one step however often the wheel clicks
+  desk.hover({120, 50});
+  CHECK_FALSE(desk.tool().takes_wheel());
   run(action_named("edit.free_angle"), desk.workspace);
   CHECK_FALSE(desk.scene().pins[0].angle);
+}
+
+TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents") {
+  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  scene.pose.segments[1] = {{200, 0}, {230, 30}, {230, 70}};
+  scene.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
+  const Handle vertex{Handle::Kind::cage, 2, 0};
+  const Scene refitted = erased(scene, {vertex}), kept = erased(scene, {vertex}, Refit::tangents);
+  CHECK(refitted.pose.size() == scene.pose.size() - 1);
+  CHECK(refitted.rest == kept.rest);
+  CHECK(refitted.pose.degree(1) == 3);
+  CHECK(kept.pose.controls(1) == Points{{200, 0}, {230, 30}, {130, 130}, scene.pose.vertex(3)});
+  CHECK(refitted.pose != kept.pose);
+}
+
+TEST_CASE("Several handles move together around their middle") {
+  const Scene scene = with_cage(Scene{}, shapes::l_shape());
+  const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 2, 0}};
+  CHECK(center_of(scene, two, Layer::pose) == Complex(100, 50));
+  CHECK(center_of(moved(scene, two, {5, -3}, Layer::pose), two, Layer::pose) == Complex(105, 47));
 }
 
 TEST_CASE("Nudging, resetting and methods act on the scene as named") {
