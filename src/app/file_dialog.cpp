@@ -13,12 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 Path home() {
   const char* home = std::getenv("HOME");
   return home && *home ? Path(home) : Path("/");
@@ -44,7 +38,7 @@ void FileDialog::ask(FileQuestion question, Answer answer) {
 }
 
 bool FileDialog::shows(const Path& path) const {
-  const std::string extension = lower(path.extension().string());
+  const std::string extension = lower_case(path.extension().string());
   return std::find(question_.extensions.begin(), question_.extensions.end(), extension) !=
          question_.extensions.end();
 }
@@ -66,8 +60,8 @@ void FileDialog::enter(const Path& folder) {
     return;
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-    return std::make_pair(!a.folder, lower(a.path.filename().string())) <
-           std::make_pair(!b.folder, lower(b.path.filename().string()));
+    return std::make_pair(!a.folder, lower_case(a.path.filename().string())) <
+           std::make_pair(!b.folder, lower_case(b.path.filename().string()));
   });
   folder_ = fs::absolute(folder).lexically_normal();
   items_ = std::move(items);
@@ -87,7 +81,8 @@ void FileDialog::accept(const Path& wanted) {
     if (fs::exists(path, error) && !confirming_) {
       confirming_ = true;
       message_ =
-          path.filename().string() + " exists already. Press the button again to replace it.";
+          path.filename().string() + " exists already. Enter or Replace puts this in its place.";
+      focus_ = true;
       return;
     }
   }
@@ -138,8 +133,8 @@ void FileDialog::draw(double scale) {
   if (items_.empty()) ImGui::TextDisabled("No files of this kind here.");
   ImGui::EndChild();
 
-  if (opening_) ImGui::SetKeyboardFocusHere();
-  opening_ = false;
+  if (opening_ || focus_) ImGui::SetKeyboardFocusHere();
+  opening_ = focus_ = false;
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputTextWithHint(
       "##name", "File name or path", &name_,
@@ -157,7 +152,8 @@ void FileDialog::draw(double scale) {
     ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
                                   ? "Double-click opens."
                                   : "The extension is added when it is missing.");
-  const bool pressed = ImGui::Button(question_.button.c_str(), {120 * s, 0});
+  const bool pressed =
+      ImGui::Button(confirming_ ? "Replace" : question_.button.c_str(), {120 * s, 0});
   ImGui::SameLine();
   const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) ||
                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));

@@ -36,7 +36,7 @@ class FileDialog {
 
   FileQuestion question_;
   Answer answer_;
-  bool open_ = false, opening_ = false, confirming_ = false;
+  bool open_ = false, opening_ = false, confirming_ = false, focus_ = false;
   Path folder_;
   std::string name_, message_;
   double picture_scale_ = 1;

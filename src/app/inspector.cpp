@@ -46,7 +46,7 @@ void method_section(Workspace& workspace) {
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
       if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),
-                             static_cast<float>(spec.highest), "%.2e",
+                             static_cast<float>(spec.highest), "%.2g",
                              ImGuiSliderFlags_AlwaysClamp |
                                  (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
         Scene after = workspace.document.scene();
@@ -95,6 +95,31 @@ void one_handle(Workspace& workspace, Handle handle) {
   edit_number(
       "degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin",
       [&](const Scene& s, double degrees) { return turned(s, handle.index, degrees * kPi / 180); });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("scale", 100 * scene.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
+              "Scale at pin", [&](const Scene& s, double percent) {
+                return scaled(s, handle.index,
+                              std::max(percent, 1.0) / 100 / s.pins[handle.index].scale);
+              });
+}
+
+void many_handles(Workspace& workspace) {
+  const Selection selection = workspace.selection;
+  const Layer layer = workspace.layer;
+  ImGui::Text("%d handles, around", static_cast<int>(selection.size()));
+  const Complex center = center_of(workspace.scene(), selection, layer);
+  const float speed = static_cast<float>(1 / workspace.viewport.zoom);
+  const auto moved_to = [&](const Scene& scene, Complex to) {
+    return moved(scene, selection, to - center_of(scene, selection, layer), layer);
+  };
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("x", center.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
+    return moved_to(s, {x, center_of(s, selection, layer).imag()});
+  });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("y", center.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
+    return moved_to(s, {center_of(s, selection, layer).real(), y});
+  });
 }
 
 void selection_section(Workspace& workspace) {
@@ -105,8 +130,7 @@ void selection_section(Workspace& workspace) {
   if (workspace.selection.size() == 1) {
     one_handle(workspace, *workspace.selection.begin());
   } else {
-    ImGui::Text("%d handles", static_cast<int>(workspace.selection.size()));
-    ImGui::TextDisabled("Drag one to move all; arrow keys nudge.");
+    many_handles(workspace);
   }
   for (const char* id : {"edit.reset", "edit.delete"}) {
     const Action& action = action_named(id);

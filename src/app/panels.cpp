@@ -178,6 +178,14 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   ImGui::PopStyleVar(2);
 }
 
+void draw_context_menu(Workspace& workspace) {
+  if (!ImGui::BeginPopup("context")) return;
+  for (const char* id : {"edit.delete", "edit.reset", "edit.free_angle", "edit.select_all",
+                         "view.frame", "view.fit", "cage.rest"})
+    action_item(action_named(id), workspace);
+  ImGui::EndPopup();
+}
+
 void draw_cage_offer(Workspace& workspace, double scale) {
   if (!workspace.document.image() || workspace.scene().has_cage()) return;
   const float s = static_cast<float>(scale);
@@ -292,6 +300,7 @@ bool draw_help(double scale) {
       {"Double-click an edge", "insert a cage point"},
       {"Alt-click a point or pin", "delete it"},
       {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
+      {"Wheel on the ring", "scale the picture around the pin"},
       {"Middle drag, Space-drag", "pan"},
       {"Wheel", "zoom at the cursor"},
       {"Right click", "menu of what is under the cursor"},
@@ -329,15 +338,10 @@ bool draw_palette(Workspace& workspace, std::string& text, bool opening, double 
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
-  const auto lower = [](std::string t) {
-    std::transform(t.begin(), t.end(), t.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return t;
-  };
   const Action* chosen = nullptr;
   bool first = true;
   for (const Action& action : actions()) {
-    if (lower(action.label).find(lower(text)) == std::string::npos) continue;
+    if (lower_case(action.label).find(lower_case(text)) == std::string::npos) continue;
     const bool enabled = action.enabled(workspace);
     if (entered && first && enabled) chosen = &action;
     if (enabled) first = false;

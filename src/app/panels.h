@@ -1,11 +1,11 @@
 // The panels around the canvas: each is a function that draws itself and changes the workspace.
 #pragma once
 
+#include "app/samples.h"
 #include "app/theme.h"
 #include "app/window.h"
 #include "edit/actions.h"
 #include "edit/tool.h"
-#include "render/texture.h"
 #include "scene/preferences.h"
 
 namespace holomorph {
@@ -38,15 +38,12 @@ struct StatusLine {
 };
 void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale);
 
-/// A sample scene of the welcome page.
-struct Sample {
-  Path scene;
-  std::string title, text;
-  Texture thumbnail;
-};
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
                          const std::vector<Sample>& samples,
                          const std::vector<Recovery>& recoverable, double scale);
+
+/// What a right click on the canvas offers.
+void draw_context_menu(Workspace& workspace);
 
 /// The two buttons for a picture without a cage.
 void draw_cage_offer(Workspace& workspace, double scale);

@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-void write_state_file(const Path& path, const Workspace& workspace, bool gesture) {
+void StateFile::write(const Workspace& workspace, bool gesture) {
   static constexpr const char* kTools[] = {"select", "pen", "pin"};
   const Viewport& view = workspace.viewport;
   char text[900];
@@ -27,11 +27,10 @@ void write_state_file(const Path& path, const Workspace& workspace, bool gesture
       workspace.document.modified() ? "true" : "false", workspace.map.busy() ? "true" : "false",
       gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
       workspace.map.error() ? "true" : "false");
-  static std::string last;
-  if (text == last) return;
-  last = text;
+  if (text == last_) return;
+  last_ = text;
   try {
-    write_file(path, last);
+    write_file(path_, last_);
   } catch (const Error&) {
     // Whoever reads the file will notice that it is missing.
   }

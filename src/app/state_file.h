@@ -5,9 +5,17 @@
 
 namespace holomorph {
 
-/// Writes the state when it differs from what the file was last given. Plane points are found in
-/// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
-/// center_y) zoom.
-void write_state_file(const Path& path, const Workspace& workspace, bool gesture);
+class StateFile {
+ public:
+  explicit StateFile(Path path) : path_(std::move(path)) {}
+  /// Writes the state when it differs from what the file was last given. Plane points are found in
+  /// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
+  /// center_y) zoom.
+  void write(const Workspace& workspace, bool gesture);
+
+ private:
+  Path path_;
+  std::string last_;
+};
 
 }  // namespace holomorph

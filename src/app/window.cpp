@@ -121,7 +121,10 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->wake(); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->wake(); });
-  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->wake(); });
+  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) {
+    self(w)->moved_display_ = true;
+    self(w)->wake();
+  });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) {
     glfwSetWindowShouldClose(w, GLFW_FALSE);
     self(w)->close_ = true;
@@ -151,6 +154,7 @@ Window::~Window() {
 void Window::set_style(double ui_scale, bool light) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
+  wanted_scale_ = ui_scale;
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
   light_ = light;
   has_icons_ = apply_theme(scale_, light);
@@ -176,6 +180,7 @@ void Window::wake() {
 }
 
 void Window::begin_frame() {
+  if (std::exchange(moved_display_, false)) set_style(wanted_scale_, light_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   pump_events();
@@ -212,6 +217,10 @@ void Window::pump_events() {
           std::find(pressed.begin(), pressed.end(), event.code) != pressed.end())
         break;
       if (event.action != GLFW_RELEASE) pressed.push_back(event.code);
+      if (event.action == GLFW_RELEASE)
+        held_.erase(event.code);
+      else
+        held_[event.code] = printed_key(event.code, event.scancode);
       ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
       take_key(event);
     } else if (event.kind == Event::Kind::character) {
@@ -229,11 +238,12 @@ void Window::pump_events() {
 void Window::take_key(const Event& event) {
   if (event.action == GLFW_RELEASE) return;
   const int printed = printed_key(event.code, event.scancode);
-  if (printed == 0 || printed == '+' || printed == '?') return;  // those come as characters
+  const bool ctrl = (event.mods & GLFW_MOD_CONTROL) != 0;
+  // Without Ctrl these come as characters, wherever the layout has them.
+  if (printed == 0 || (!ctrl && (printed == '+' || printed == '?'))) return;
   Shortcut shortcut;
   shortcut.key = printed;
-  shortcut.mods = {(event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_SHIFT) != 0,
-                   (event.mods & GLFW_MOD_ALT) != 0};
+  shortcut.mods = {ctrl, (event.mods & GLFW_MOD_SHIFT) != 0, (event.mods & GLFW_MOD_ALT) != 0};
   keys_.push_back(shortcut);
 }
 
@@ -251,11 +261,9 @@ bool Window::take_close() {
   return std::exchange(close_, false);
 }
 
-bool Window::is_down(char key) const {
-  return glfwGetKey(window_, key) == GLFW_PRESS;
-}  // GLFW's codes are ASCII
-bool Window::is_down(Key key) const {
-  return key == Key::space && glfwGetKey(window_, GLFW_KEY_SPACE) == GLFW_PRESS;
+bool Window::is_down(const Shortcut& key) const {
+  return std::any_of(held_.begin(), held_.end(),
+                     [&](const auto& entry) { return entry.second == key.key; });
 }
 
 void Window::set_title(const std::string& title) {

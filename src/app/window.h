@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,8 @@ class Window {
   std::vector<Path> take_drops();
   /// Whether the user asked to close the window; asked once, answered by the program.
   bool take_close();
-  bool is_down(char key) const;
-  bool is_down(Key key) const;
+  /// Whether a key is held, by what the layout prints on it.
+  bool is_down(const Shortcut& key) const;
   void set_title(const std::string& title);
 
   int width() const;  ///< in window px
@@ -67,9 +68,10 @@ class Window {
   GLFWwindow* window_ = nullptr;
   std::atomic<bool> woken_{false};
   int owed_frames_ = 3;
-  double scale_ = 1;
-  bool light_ = false, has_icons_ = false, close_ = false;
+  double scale_ = 1, wanted_scale_ = 0;
+  bool light_ = false, has_icons_ = false, close_ = false, moved_display_ = false;
   std::vector<Shortcut> keys_;
+  std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};

@@ -84,6 +84,11 @@ class Editor:
         self.move(x, y)
         self.xdotool("click", button)
 
+    def press(self, x, y):
+        """A click at a window position."""
+        self.xdotool("mousemove", int(x), int(y))
+        self.xdotool("click", 1)
+
     def drag(self, start, end, steps=6):
         self.move(*start)
         self.xdotool("mousedown", 1)
@@ -97,6 +102,7 @@ class Editor:
 
     def type(self, text):
         self.xdotool("type", "--delay", "15", text)
+        time.sleep(0.3 + 0.04 * len(text))  # a key is a frame, and frames are drawn by the processor
 
     def screenshot(self, path):
         subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)

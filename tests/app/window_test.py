@@ -192,16 +192,101 @@ class WindowTest(unittest.TestCase):
             time.sleep(0.3)
             editor.process.kill()
             editor.process.wait()
-        saved = os.listdir(home + "/state/holomorph/autosave")
+        folder = home + "/state/holomorph/autosave"
+        saved = [name for name in os.listdir(folder) if name.endswith(".json")]
         self.assertEqual(len(saved), 1)
-        kept = load(home + "/state/holomorph/autosave/" + saved[0])
+        kept = load(os.path.join(folder, saved[0]))
         self.assertNotEqual(kept["cage"]["pose"][3], load(scene)["cage"]["pose"][3])
         self.assertEqual(kept["cage"]["pose"][4], load(scene)["cage"]["pose"][4])
         with Editor(PROGRAM, [], home=home) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             time.sleep(0.5)
             self.screenshot(editor, "welcome-recovery")
+            editor.press(184, 245)  # Recover
+            editor.wait(lambda s: s["cage_points"] == state["cage_points"] and s["modified"], "the recovered gecko")
+            path = os.path.join(self.work, "recovered.json")
+            self.save_as(editor, path)
+            self.assertEqual(load(path)["cage"]["pose"], kept["cage"]["pose"])
+            self.assertEqual(os.listdir(folder), [], "nothing is left to recover")
         shutil.rmtree(home)
+
+    def test_samples_recent_files_and_new(self):
+        with Editor(PROGRAM, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            time.sleep(0.5)
+            editor.press(150, 350)  # the first tile
+            giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
+            editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
+            editor.key("ctrl+n")
+            editor.wait(lambda s: s["empty"], "the welcome page again")
+            time.sleep(0.3)
+            picture = self.screenshot(editor, "welcome-recent")
+            rows = numpy.flatnonzero((picture[560:760, 45:240] > 150).any(axis=(1, 2)))
+            editor.press(100, 560 + rows[-1] - 4)  # the last line of the page is the recent file
+            editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe once more")
+
+    def test_export_asks_before_it_replaces(self):
+        target = os.path.join(self.work, "out.png")
+        with open(target, "w") as file:
+            file.write("precious")
+        with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            editor.key("ctrl+e")
+            time.sleep(0.4)
+            editor.key("ctrl+a")
+            editor.type(target)
+            editor.key("Return")
+            time.sleep(0.4)
+            with open(target) as file:
+                self.assertEqual(file.read(), "precious")
+            self.screenshot(editor, "export-replace")
+            editor.key("Return")
+            end = time.time() + 10
+            while os.path.getsize(target) < 100 and time.time() < end:
+                time.sleep(0.05)
+            subprocess.run([PROGRAM, "render", os.path.join(SOURCE, "assets/giraffe.json"), "--out",
+                            os.path.join(self.work, "render.png")], check=True, stdout=subprocess.DEVNULL)
+            exported = numpy.asarray(Image.open(target))
+            rendered = numpy.asarray(Image.open(os.path.join(self.work, "render.png")))
+            self.assertEqual(exported.shape, rendered.shape)
+            # The editor's operators are in single precision.
+            self.assertLessEqual(numpy.abs(exported.astype(int) - rendered).max(), 2)
+            os.remove(target)
+            editor.key("ctrl+shift+e")  # once more, without a question
+            end = time.time() + 10
+            while not os.path.exists(target) and time.time() < end:
+                time.sleep(0.05)
+            self.assertTrue(os.path.exists(target))
+
+    def test_a_number_in_the_inspector_moves_what_is_selected(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            x, y = load(scene)["cage"]["pose"][0][0]
+            editor.click(x, y)
+            editor.wait(lambda s: s["selected"] == 1, "a selected point")
+            time.sleep(0.3)
+            picture = self.screenshot(editor, "inspector")
+            # The selection's fields are the second section's; Ctrl-click on one types into it.
+            field = self.field_after(picture, "x")
+            editor.xdotool("keydown", "ctrl", "mousemove", *field, "click", 1, "keyup", "ctrl")
+            editor.key("ctrl+a")
+            editor.type("321.5")
+            editor.key("Return")
+            editor.wait(lambda s: s["step"] == 1 and s["modified"], "the typed place")
+            path = os.path.join(self.work, "typed.json")
+            self.save_as(editor, path)
+            self.assertEqual(load(path)["cage"]["pose"][0][0], [321.5, y])
+
+    def field_after(self, picture, _label):
+        """The middle of the first number field below the selection's heading: the inspector's only wide dark
+        boxes in its left half; the first section of method `cage` has a combo alone."""
+        column = picture[:, 1060]
+        panel = column[150]
+        boxes = numpy.flatnonzero(numpy.abs(column - panel).max(axis=1) > 4)
+        starts = [y for y in boxes if y - 1 not in boxes and 100 < y < 700]
+        tall = [y for y in starts if all(y + k in boxes for k in range(18))]
+        return 1060, int(tall[0]) + 12
 
     def test_unsaved_changes_are_asked_about(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")

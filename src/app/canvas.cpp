@@ -1,0 +1,78 @@
+// Values are compared with what the renderer has: a preparation's number, a flag for the picture.
+#include "app/canvas.h"
+
+#include <utility>
+
+namespace holomorph {
+
+void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
+  update_heat(workspace);
+  upload_picture(workspace);
+  upload_map(workspace.map);
+  const Viewport& view = workspace.viewport;
+  Frame frame;
+  frame.window_width = at.window_width;
+  frame.window_height = at.window_height;
+  frame.canvas_left = view.left * at.ratio;
+  frame.canvas_top = view.top * at.ratio;
+  frame.canvas_width = view.width * at.ratio;
+  frame.canvas_height = view.height * at.ratio;
+  frame.center = view.center;
+  frame.zoom = view.zoom * at.ratio;
+  frame.view = is_heat(workspace.view) && heat_values_.size() == 0 ? View::image : workspace.view;
+  frame.diverging = heat_scale_.diverging;
+  frame.wireframe = workspace.show_mesh;
+  frame.placement = workspace.at_rest() ? Placement::at_rest
+                    : by_operator_      ? Placement::by_operator
+                                        : Placement::positions;
+  frame.background = at.background;
+  frame.backdrop = at.backdrop;
+  renderer_.draw(frame);
+}
+
+void Canvas::update_heat(const Workspace& workspace) {
+  const LiveMap& map = workspace.map;
+  if (!is_heat(workspace.view) || !map.has_map() || map.map().fz.size() == 0) {
+    heat_values_.resize(0);
+    return;
+  }
+  heat_values_ = holomorph::heat_values(workspace.view, distortion_of(map.map()));
+  heat_scale_ = holomorph::heat_scale(workspace.view, heat_values_, workspace.automatic_range);
+}
+
+void Canvas::upload_picture(Workspace& workspace) {
+  if (!std::exchange(picture_changed_, false)) return;
+  const Image* image = workspace.document.image();
+  const int factor = image
+                         ? renderer_.set_picture(image->width, image->height, image->pixels.data())
+                         : renderer_.set_picture(0, 0, nullptr);
+  if (factor > 1)
+    workspace.say(
+        "The picture is larger than this driver's textures: the canvas shows it reduced " +
+        std::to_string(factor) + " times. Export uses all pixels.");
+}
+
+void Canvas::upload_map(const LiveMap& map) {
+  if (!map.has_map()) {
+    renderer_.set_mesh(nullptr);
+    uploaded_ = 0;
+    return;
+  }
+  if (uploaded_ != map.preparation()) {
+    renderer_.set_mesh(map.prepared()->mesh.get());
+    // On a processor-driven OpenGL the shader's sum is the slower one.
+    by_operator_ = !is_software_driver() &&
+                   renderer_.set_operator(map.prepared()->deformer->operator_matrix());
+    uploaded_ = map.preparation();
+  }
+  if (by_operator_ && map.posed())
+    renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
+  renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
+  if (heat_values_.size() != map.map().f.size()) return;
+  Eigen::VectorXf shades(heat_values_.size());
+  for (Index i = 0; i < shades.size(); ++i)
+    shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
+  renderer_.set_heat(shades);
+}
+
+}  // namespace holomorph

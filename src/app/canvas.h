@@ -1,0 +1,42 @@
+// The picture between the panels: what the workspace shows, handed to the renderer.
+#pragma once
+
+#include "edit/workspace.h"
+#include "render/renderer.h"
+
+namespace holomorph {
+
+/// Colours and the display's ratio of framebuffer to window px, which change from frame to frame.
+struct CanvasFrame {
+  int window_width = 1, window_height = 1;  ///< of the framebuffer
+  double ratio = 1;
+  Color background, backdrop;
+};
+
+/// Owns the renderer and what it was last given. Needs a current OpenGL context.
+class Canvas {
+ public:
+  /// The workspace has another document: its picture is uploaded with the next frame.
+  void replace_picture() { picture_changed_ = true; }
+  /// Uploads what changed since the last frame and draws. The map must be up to date.
+  void draw(Workspace& workspace, const CanvasFrame& frame);
+
+  const HeatScale& heat_scale() const { return heat_scale_; }
+  /// Per mesh vertex; empty without a heat map.
+  const Eigen::VectorXd& heat_values() const { return heat_values_; }
+  /// Whether the shader places the vertices itself.
+  bool by_operator() const { return by_operator_; }
+
+ private:
+  void update_heat(const Workspace& workspace);
+  void upload_picture(Workspace& workspace);
+  void upload_map(const LiveMap& map);
+
+  Renderer renderer_;
+  Eigen::VectorXd heat_values_;
+  HeatScale heat_scale_;
+  unsigned uploaded_ = 0;
+  bool picture_changed_ = true, by_operator_ = false;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,230 @@
+// Whatever would lose unsaved work goes through ask_then.
+#include "app/files.h"
+
+#include <imgui.h>
+
+#include <utility>
+
+#include "core/error.h"
+#include "raster/picture.h"
+
+namespace holomorph {
+
+Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced)
+    : workspace_(workspace),
+      preferences_(preferences),
+      replaced_(std::move(replaced)),
+      recoverable_(holomorph::recoverable(autosave_folder())) {}
+
+// ---- Opening
+// -------------------------------------------------------------------------------------
+
+void Files::ask_then(Then then) {
+  if (!workspace_.document.modified()) return then();
+  after_question_ = std::move(then);
+  question_ = true;
+}
+
+void Files::adopt(Document document) {
+  workspace_.document.remove_autosave(autosave_folder());
+  workspace_.open(std::move(document));
+  export_path_.clear();
+  replaced_();
+}
+
+void Files::open(const Path& path) {
+  try {
+    adopt(Document::open(path));
+    remember(preferences_, std::filesystem::absolute(path));
+    keep_preferences();
+  } catch (const Error& error) {
+    workspace_.complain(error);
+  }
+}
+
+void Files::ask_open(const Path& path) {
+  ask_then([this, path] { open(path); });
+}
+
+void Files::ask_recover(const Path& autosave) {
+  ask_then([this, autosave] { recover(autosave); });
+}
+
+void Files::recover(const Path& autosave) {
+  try {
+    adopt(Document::recover(autosave));
+    if (!workspace_.document.autosave(autosave_folder())) return;
+    discard(autosave);  // the document has written its own
+    workspace_.say("Recovered. Save it under a name to keep it.");
+  } catch (const Error& error) {
+    workspace_.complain(error);
+  }
+}
+
+void Files::discard(const Path& autosave) {
+  holomorph::discard(autosave);
+  std::erase_if(recoverable_, [&](const Recovery& r) { return r.path == autosave; });
+}
+
+// ---- Saving
+// --------------------------------------------------------------------------------------
+
+void Files::save_to(const Path& path, const Then& then) {
+  try {
+    workspace_.document.save(path);
+    workspace_.document.remove_autosave(autosave_folder());
+    remember(preferences_, workspace_.document.path());
+    keep_preferences();
+    workspace_.say("Saved " + path.filename().string() + ".");
+    if (then) then();
+  } catch (const Error& error) {
+    workspace_.complain(error);
+  }
+}
+
+void Files::save(bool as, const Then& then) {
+  const Document& document = workspace_.document;
+  if (!as && !document.path().empty()) return save_to(document.path(), then);
+  Path start = document.path();
+  if (start.empty() && !document.image_path().empty())
+    start = Path(document.image_path()).replace_extension(".json");
+  if (start.empty()) start = "scene.json";
+  dialog_.ask({FileQuestion::Mode::save, "Save the scene", "Save", {".json"}, start, false},
+              [this, then](const Path& path, double) { save_to(path, then); });
+}
+
+void Files::export_to(const Path& path, double scale) {
+  try {
+    PictureOptions options;
+    options.scale = scale;
+    options.view = workspace_.view;
+    options.automatic_range = workspace_.automatic_range;
+    const RasterResult result =
+        picture_of(workspace_.document.scene(), workspace_.document.image(), options);
+    write_file(path, encode_png(result.image));
+    export_path_ = path;
+    export_scale_ = scale;
+    workspace_.say("Exported " + path.filename().string() + ", " +
+                   std::to_string(result.image.width) + " x " +
+                   std::to_string(result.image.height) + " pixels.");
+  } catch (const Error& error) {
+    workspace_.complain(error);
+  }
+}
+
+void Files::ask_export() {
+  const Document& document = workspace_.document;
+  Path start = export_path_;
+  if (start.empty()) start = document.path().empty() ? document.image_path() : document.path();
+  if (start.empty()) start = "picture";
+  // Never offer to replace the source picture itself.
+  if (export_path_.empty()) start.replace_filename(start.stem().string() + "-bent.png");
+  dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
+              [this](const Path& path, double scale) { export_to(path, scale); });
+}
+
+void Files::autosave() {
+  if (workspace_.document.autosave(autosave_folder())) return;
+  if (!std::exchange(autosave_failed_, true))
+    workspace_.complain(
+        Error(ErrorKind::failed,
+              "Autosave does not work: nothing can be written to " + autosave_folder().string()));
+}
+
+void Files::keep_preferences() {
+  try {
+    save_preferences(preferences_);
+  } catch (const Error& error) {
+    workspace_.complain(error);
+  }
+}
+
+// ---- What actions ask for
+// ------------------------------------------------------------------------
+
+void Files::answer(Request request) {
+  switch (request) {
+    case Request::new_scene:
+      ask_then([this] {
+        recoverable_ = holomorph::recoverable(autosave_folder());
+        adopt(Document());
+      });
+      break;
+    case Request::open:
+      ask_then([this] {
+        dialog_.ask({FileQuestion::Mode::open,
+                     "Open a picture or a scene",
+                     "Open",
+                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json"},
+                     {},
+                     false},
+                    [this](const Path& path, double) { open(path); });
+      });
+      break;
+    case Request::save:
+      save(false);
+      break;
+    case Request::save_as:
+      save(true);
+      break;
+    case Request::export_picture:
+      ask_export();
+      break;
+    case Request::export_again:
+      if (export_path_.empty())
+        ask_export();
+      else
+        export_to(export_path_, export_scale_);
+      break;
+    case Request::quit:
+      ask_then([this] {
+        workspace_.document.remove_autosave(autosave_folder());
+        quit_ = true;
+      });
+      break;
+    case Request::none:
+    case Request::help:
+    case Request::palette:
+      break;
+  }
+}
+
+void Files::draw(double scale) {
+  dialog_.draw(scale);
+  draw_question(scale);
+}
+
+void Files::draw_question(double scale) {
+  if (question_) ImGui::OpenPopup("Unsaved changes");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal("Unsaved changes", nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  ImGui::TextUnformatted("There are changes that are not saved.");
+  ImGui::Dummy({0, 6});
+  const float width = 130 * static_cast<float>(scale);
+  const auto close = [&] {
+    question_ = false;
+    ImGui::CloseCurrentPopup();
+  };
+  if (ImGui::Button("Save", {width, 0}) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter))) {
+    close();
+    save(false, std::exchange(after_question_, {}));
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Do not save", {width, 0})) {
+    close();
+    if (const auto then = std::exchange(after_question_, {})) then();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {width, 0}) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    close();
+    after_question_ = {};
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,45 @@
+// Thumbnails are drawn by the raster, like every exported picture.
+#include "app/samples.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "raster/picture.h"
+#include "scene/document.h"
+
+namespace holomorph {
+namespace {
+
+struct Row {
+  const char *name, *title, *text;
+};
+constexpr Row kRows[] = {{"giraffe", "Giraffe",
+                          "A cage around the whole animal; its neck is bent by a few cage points."},
+                         {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
+                         {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
+constexpr double kThumbnail = 320;  ///< pixels of the longer side
+
+}  // namespace
+
+std::vector<Sample> load_samples() {
+  const Path folder = std::filesystem::exists(HOLOMORPH_ASSETS) ? Path(HOLOMORPH_ASSETS)
+                                                                : Path(HOLOMORPH_INSTALLED_ASSETS);
+  std::vector<Sample> samples;
+  for (const Row& row : kRows) {
+    Sample sample{folder / (std::string(row.name) + ".json"), row.title, row.text, {}};
+    if (!std::filesystem::exists(sample.scene)) continue;
+    try {
+      const LoadedScene loaded = load_scene(sample.scene);
+      PictureOptions options;
+      options.scale = kThumbnail / std::max({loaded.image->width, loaded.image->height, 1});
+      const Image image = picture_of(loaded.scene, loaded.image.get(), options).image;
+      sample.thumbnail = Texture(image.width, image.height, image.pixels.data());
+    } catch (const Error&) {
+      // The tile stays without a picture.
+    }
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
+}  // namespace holomorph

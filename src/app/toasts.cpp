@@ -1,0 +1,57 @@
+// One small window a message, below each other.
+#include "app/toasts.h"
+
+#include <utility>
+
+#include "core/clock.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kShownMs = 4500, kProblemMs = 9000;
+
+}  // namespace
+
+void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
+  for (Toast& toast : std::exchange(workspace.toasts, {})) {
+    const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
+    shown_.push_back({std::move(toast), until});
+  }
+  const float s = static_cast<float>(style.scale);
+  const Viewport& view = workspace.viewport;
+  const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
+  float y = static_cast<float>(view.top) + 6 * s;
+  for (size_t i = 0; i < shown_.size(); ++i) {
+    const Toast& toast = shown_[i].toast;
+    ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2), y}, ImGuiCond_Always,
+                            {0.5f, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {14 * s, 8 * s});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * s);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.5f * s);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, style.colors.panel);
+    ImGui::PushStyleColor(ImGuiCol_Border,
+                          toast.problem ? style.colors.warning : style.colors.accent);
+    ImGui::Begin(("toast" + std::to_string(i)).c_str(), nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                     (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+    ImGui::TextUnformatted(toast.text.c_str());
+    ImGui::PopTextWrapPos();
+    if (toast.where) {
+      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *toast.where;
+      draw_marker(workspace, *toast.where, style);
+    }
+    y += ImGui::GetWindowHeight() + 8 * s;
+    ImGui::End();
+    ImGui::PopStyleColor(2);
+    ImGui::PopStyleVar(3);
+  }
+}
+
+bool Toasts::expire() {
+  return std::erase_if(shown_, [](const Shown& shown) { return shown.until < now_ms(); }) > 0;
+}
+
+}  // namespace holomorph
