@@ -1,6 +1,8 @@
 // Each command reads, asks the library, writes; nothing is computed here.
 #include "cli/commands.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <iostream>
 
@@ -121,32 +123,45 @@ void run(const NewCommand& command) {
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(), cage.size());
 }
 
-void run(const ExportCommand& command) {
-  const LoadedScene loaded = load(command.scene);
+namespace {
+
+std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   const std::string& format = command.format;
-  if (format == "png") return run(RenderCommand{command.scene, command.out, 1, "image", false});
   if (format != "svg" && format != "obj" && format != "npy")
     throw Error(ErrorKind::bad_input,
                 "format '" + format +
                     "' is not available in this version; choose one of: obj, svg, npy, png");
   require_cage(loaded.scene, command.scene);
-  if (format == "svg") return write_file(command.out, svg_of(loaded.scene));
+  if (format == "svg") return svg_of(loaded.scene);
   const auto prepared = prepared_map(loaded.scene, Precision::full, MeshOptions{});
   SampledMap map;
   prepared->deformer->deform(pose_of(loaded.scene), map, false);
   const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
-  if (format == "npy") return write_file(command.out, npy_of(positions));
+  if (format == "npy") return npy_of(positions);
   const auto& image = loaded.scene.image;
-  write_file(command.out, obj_of(*prepared->mesh, positions, image ? image->width : 0,
-                                 image ? image->height : 0));
+  return obj_of(*prepared->mesh, positions, image ? image->width : 0, image ? image->height : 0);
+}
+
+}  // namespace
+
+void run(const ExportCommand& command) {
+  if (command.format == "png")
+    return run(RenderCommand{command.scene, command.out, 1, "image", false});
+  const std::string bytes = exported(load(command.scene), command);
+  write_file(command.out, bytes);
+  std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());
 }
 
 void run(const BenchCommand& command) {
+  // Where the table itself is not read as it grows, each line is shown on the way.
+  const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
   const std::vector<bench::Result> results =
-      bench::measured(command.filter, [](const bench::Result& result) {
-        std::fprintf(stderr, "%s\n", bench::line_of(result).c_str());
+      bench::measured(command.filter, [&](const bench::Result& result) {
+        const std::string line = bench::line_of(result) + "\n";
+        if (!command.json) std::cout << line << std::flush;
+        if (shows_progress) std::cerr << line;
       });
-  std::cout << (command.json ? bench::json_of(results) : bench::table_of(results));
+  if (command.json) std::cout << bench::json_of(results);
 }
 
 }  // namespace holomorph

@@ -97,6 +97,52 @@ class Editor:
             self.move(start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
         self.xdotool("mouseup", 1)
 
+    def drop(self, path, x, y):
+        """Drops a file on the window as a file manager does (the XDND protocol, version 5)."""
+        from Xlib import X, Xatom
+        from Xlib.display import Display
+        from Xlib.protocol import event
+        self.xdotool("mousemove", x, y)
+        display = Display(self.environment["DISPLAY"])
+        root = display.screen().root
+        source = root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
+        atom = display.intern_atom
+        pid = self.process.pid
+        found = subprocess.run(["xdotool", "search", "--pid", str(pid), "--name", "Holomorph"],
+                               env=self.environment, check=True, capture_output=True, text=True).stdout.split()
+        target = display.create_resource_object("window", int(found[-1]))
+        source.set_selection_owner(atom("XdndSelection"), X.CurrentTime)
+
+        def send(name, *data):
+            target.send_event(event.ClientMessage(window=target, client_type=atom(name),
+                                                  data=(32, [source.id, *data, *[0] * (4 - len(data))])))
+            display.flush()
+
+        def answer(name, seconds=5):
+            """The window's next message of this name; selection requests are served meanwhile."""
+            end = time.time() + seconds
+            while time.time() < end:
+                if not display.pending_events():
+                    time.sleep(0.01)
+                    continue
+                got = display.next_event()
+                if got.type == X.SelectionRequest:
+                    got.requestor.change_property(got.property, got.target, 8, ("file://" + path + "\r\n").encode())
+                    got.requestor.send_event(event.SelectionNotify(
+                        time=got.time, requestor=got.requestor, selection=got.selection, target=got.target,
+                        property=got.property))
+                    display.flush()
+                elif got.type == X.ClientMessage and got.client_type == atom(name):
+                    return got
+            raise AssertionError(f"the window sends no {name}")
+
+        send("XdndEnter", 5 << 24, atom("text/uri-list"), 0, 0)
+        send("XdndPosition", 0, x << 16 | y, X.CurrentTime, atom("XdndActionCopy"))
+        answer("XdndStatus")
+        send("XdndDrop", 0, X.CurrentTime)
+        answer("XdndFinished")
+        display.close()
+
     def key(self, name):
         self.xdotool("key", "--clearmodifiers", name)
 

@@ -307,6 +307,45 @@ class WindowTest(unittest.TestCase):
             editor.process.wait(timeout=10)
             self.assertEqual(editor.process.returncode, 0, editor.messages())
 
+    def test_a_dropped_picture_opens_and_asks_about_unsaved_work(self):
+        with Editor(PROGRAM, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            editor.drop(os.path.join(SOURCE, "assets/giraffe.json"), 500, 300)
+            editor.wait(lambda s: s["cage_points"] > 0, "the dropped scene")
+            editor.key("ctrl+a")
+            editor.key("Up")
+            editor.wait(lambda s: s["modified"], "an edit")
+            path = os.path.join(self.work, "kept.json")
+            self.save_as(editor, path)
+            editor.key("Up")
+            editor.wait(lambda s: s["modified"], "another edit")
+            editor.drop(self.picture, 500, 300)
+            time.sleep(0.5)
+            self.screenshot(editor, "drop-unsaved")
+            self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")
+            editor.key("Return")  # Save
+            editor.wait(lambda s: s["cage_points"] == 0 and not s["empty"], "the dropped picture")
+            before = load(os.path.join(SOURCE, "assets/giraffe.json"))["cage"]["pose"]
+            after = load(path)["cage"]["pose"]
+            self.assertEqual(round(after[0][0][1] - before[0][0][1]), 2, "both edits were saved")
+
+    def test_a_large_picture_fits_into_memory(self):
+        noise = numpy.random.default_rng(1).integers(0, 255, (2000, 2000, 4), dtype=numpy.uint8)
+        Image.fromarray(noise).save(os.path.join(self.work, "noise.png"))
+        turn = numpy.exp(2j * numpy.pi * numpy.arange(32) / 32) * 780 + 1000 + 1000j
+        scene = os.path.join(self.work, "noise.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "noise.png"},
+                       "cage": {"rest": [[[z.real, z.imag]] for z in turn]}}, file)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 32, "the scene")
+            editor.drag((1780, 1000), (1900, 1100))
+            editor.wait(lambda s: s["modified"], "a drag")
+            with open(f"/proc/{editor.process.pid}/status") as file:
+                most = [int(line.split()[1]) for line in file if line.startswith("VmHWM")][0]
+            print(f"{most // 1024} MB at most", file=sys.stderr)
+            self.assertLess(most, 300 * 1024)
+
     def test_idle_sleeps(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")
         with Editor(PROGRAM, [scene]) as editor:

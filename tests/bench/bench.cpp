@@ -221,12 +221,6 @@ std::string line_of(const Result& result) {
   return line;
 }
 
-std::string table_of(const std::vector<Result>& results) {
-  std::string table;
-  for (const Result& result : results) table += line_of(result) + "\n";
-  return table;
-}
-
 std::string json_of(const std::vector<Result>& results) {
   std::string json = "[\n";
   for (size_t i = 0; i < results.size(); ++i) {

@@ -10,13 +10,23 @@ using namespace holomorph;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   if (size < 1) return 0;
-  // The first byte chooses a scale; then coordinates of 16 bits, so that coincidences are common.
+  // The first byte chooses a scale, and whether coordinates have 16 bits, so that coincidences are
+  // common, or a few units in the last place more, so that near misses are.
   const double scale = std::ldexp(1.0, (data[0] % 24) - 12);
+  const bool jitters = data[0] >= 128;
+  const size_t stride = jitters ? 6 : 4;
   Points polygon;
-  for (size_t i = 1; i + 4 <= size && polygon.size() < 60; i += 4) {
+  for (size_t i = 1; i + stride <= size && polygon.size() < 60; i += stride) {
     std::int16_t xy[2];
     std::memcpy(xy, data + i, 4);
-    polygon.push_back(scale * Complex(xy[0], xy[1]));
+    Complex z(xy[0], xy[1]);
+    if (jitters)  // relative moves of 2^-52 to 2^-20
+      for (int k = 0; k < 2; ++k) {
+        const int byte = data[i + 4 + k];
+        const double by = std::ldexp(1.0, 15 - 52 + byte % 33) * (byte % 2 ? 1 : -1);
+        z += k ? Complex(0, by) : Complex(by, 0);
+      }
+    polygon.push_back(scale * z);
   }
   try {
     const Mesh mesh = domain_mesh(polygon, {120});

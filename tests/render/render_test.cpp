@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "raster/picture.h"
+#include "render/gl.h"
 #include "render/renderer.h"
 #include "render/texture.h"
 #include "scene/document.h"
@@ -111,6 +112,32 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
     CHECK(mean < 0.8);                        // of 255
     CHECK(far < 0.002 * 3 * width * height);  // silhouettes and small details alone
   }
+}
+
+TEST_CASE("A picture beyond the driver's textures is shown reduced, in its own place") {
+  const Context context(64, 64);
+  Renderer renderer;
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  Image wide(largest + 2, 4);  // red on the left, blue on the right
+  for (int r = 0; r < wide.height; ++r)
+    for (int c = 0; c < wide.width; ++c) {
+      wide.at(c, r)[c < wide.width / 2 ? 0 : 2] = 255;
+      wide.at(c, r)[3] = 255;
+    }
+  CHECK(renderer.set_picture(wide.width, wide.height, wide.pixels.data()) == 2);
+  Frame frame;
+  frame.window_width = frame.window_height = 64;
+  frame.canvas_width = frame.canvas_height = 64;
+  frame.center = {wide.width / 2.0, 2};
+  frame.zoom = 8;
+  renderer.draw(frame);
+  Image shown(64, 64);
+  read_framebuffer(64, 64, shown.pixels.data());
+  CHECK(shown.at(10, 32)[0] > 200);
+  CHECK(shown.at(10, 32)[2] < 50);
+  CHECK(shown.at(54, 32)[2] > 200);
+  CHECK(shown.at(54, 32)[0] < 50);
 }
 
 TEST_CASE("A mesh or an operator that is taken away is not drawn") {
