@@ -2,6 +2,7 @@
 #include "edit/edits.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "core/error.h"
 
@@ -86,12 +87,12 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
   if (scene.rest.size() - vertices < 3 && vertices > 0)
     throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
-  for (auto handle = selection.rbegin(); handle != selection.rend(); ++handle) {
-    if (handle->kind == Handle::Kind::pin) {
-      scene.pins.erase(scene.pins.begin() + handle->index);
-    } else if (handle->control == 0) {
-      erase_vertex(scene.rest, handle->index, refit);
-      erase_vertex(scene.pose, handle->index, refit);
+  for (const Handle& handle : std::views::reverse(selection)) {
+    if (handle.kind == Handle::Kind::pin) {
+      scene.pins.erase(scene.pins.begin() + handle.index);
+    } else if (handle.control == 0) {
+      erase_vertex(scene.rest, handle.index, refit);
+      erase_vertex(scene.pose, handle.index, refit);
     }
   }
   return scene;
@@ -124,7 +125,8 @@ Scene reset(Scene scene, const Selection& selection) {
       if (pin.angle) pin.angle = 0.0;
       pin.scale = 1;
     } else if (handle.control == 0) {
-      scene = placed(std::move(scene), handle, scene.rest.vertex(handle.index), Layer::pose);
+      const Complex rest = scene.rest.vertex(handle.index);
+      scene = placed(std::move(scene), handle, rest, Layer::pose);
     } else if (exists(scene, handle, Layer::pose)) {
       const double t = static_cast<double>(handle.control) / scene.pose.degree(handle.index);
       place(scene, handle, Layer::pose) = bezier_point(scene.rest.controls(handle.index), t);

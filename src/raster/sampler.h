@@ -44,6 +44,10 @@ inline void store(Float4 color, std::uint8_t* out) {
 }
 #endif
 
+inline bool same(Float4 a, Float4 b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+}
+
 /// The floor of a number of moderate size; the library's is a call where SSE 4.1 is not assumed.
 inline int floor_of(double x) {
   const int i = static_cast<int>(x);

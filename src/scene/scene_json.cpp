@@ -214,7 +214,7 @@ void write_value(const Json& value, int depth, std::string& out) {
   const std::string indent(2 * (depth + 1), ' ');
   const auto flat = [](const Json& list) {
     return std::none_of(list.begin(), list.end(), [](const Json& v) {
-      return v.is_object() || (v.is_array() && v.size() > 0 && v[0].is_array());
+      return v.is_object() || (v.is_array() && !v.empty() && v[0].is_array());
     });
   };
   if (value.is_object() && !value.empty()) {
