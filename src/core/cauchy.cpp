@@ -4,8 +4,10 @@
 // the same sums cancel and Gauss-Legendre quadrature converges fast. Together: 1e-14.
 #include "core/cauchy.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 
@@ -54,8 +56,8 @@ const GaussRule& gauss_rule_of_at_least(int size) {
   return rules.back();
 }
 
-/// z seen from one edge: s = 0 at its start, q = 0 at its end, L the logarithm of their ratio.
-struct EdgeView {
+/// One root of c(t) = z and the logarithm of q / -s, the integral of 1 / (t - s).
+struct View {
   Complex s, q, log;
 };
 
@@ -67,24 +69,22 @@ Complex inverse(Complex x) {
   return std::conj(x) / std::norm(x);
 }
 
-EdgeView edge_view(Complex a, Complex b, Complex z, bool on_edge) {
-  const Complex to_start = a - z, to_end = b - z, unit = inverse(b - a);
-  EdgeView view{-times(to_start, unit), times(to_end, unit), {}};
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
-                          (std::abs(a) + std::abs(b) + std::abs(z)) / std::abs(b - a);
-  on_edge =
-      on_edge || (std::abs(view.s.imag()) <= rounding && view.s.real() > 0 && view.s.real() < 1);
-  if (on_edge) {
-    view.s = view.s.real();
-    view.q = view.q.real();
-  }
-  view.log = {0.5 * std::log(std::norm(to_end) / std::norm(to_start)),
-              on_edge ? kPi : std::atan2(cross(to_start, to_end), dot(to_start, to_end))};
-  return view;
+View view_of(const Root& root, bool on_edge) {
+  const Complex s = on_edge ? root.s.real() : root.s, q = on_edge ? root.q.real() : root.q;
+  return {s,
+          q,
+          {0.5 * std::log(std::norm(q) / std::norm(s)),
+           on_edge ? kPi : std::atan2(cross(-s, q), dot(-s, q))}};
 }
 
-/// Degree raising of the moments, all orders up to `order` at once.
-VectorXc moments_near(const EdgeView& view, int degree, int order) {
+/// Whether a root lies on the open segment, as well as rounding of z and of the curve can tell.
+bool is_on_segment(const Root& root, Complex slope, double magnitude) {
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * magnitude / std::abs(slope);
+  return std::abs(root.s.imag()) <= rounding && root.s.real() > 0 && root.q.real() > 0;
+}
+
+/// Degree raising of the moments, all orders up to `order` at once: row n holds M_n.
+MatrixXc moments_near(const View& view, int degree, int order) {
   MatrixXc moments = MatrixXc::Zero(order + 1, degree + 1);
   moments(0, 0) = view.log;
   Complex start_power = 1, end_power = 1;
@@ -111,25 +111,37 @@ VectorXc moments_near(const EdgeView& view, int degree, int order) {
       }
     moments.leftCols(d + 1) = raised.leftCols(d + 1);
   }
-  return moments.row(order).transpose();
+  return moments;
 }
 
-VectorXc moments_far(const EdgeView& view, int degree, int order, double rho) {
-  const int wanted =
-      static_cast<int>(std::ceil(((37 + 2 * order) / std::log(rho) + degree) / 2)) + 1;
-  const GaussRule& rule = gauss_rule_of_at_least(wanted);
-  VectorXc moments = VectorXc::Zero(degree + 1);
-  std::vector<double> basis(degree + 1);
+/// Gauss-Legendre nodes that integrate a polynomial of `degree` over powers of (t - s) to `order`
+/// when s lies on the ellipse |s| + |q| = `ellipse`.
+int nodes_for(double ellipse, int degree, int order) {
+  const double rho = ellipse + std::sqrt(ellipse * ellipse - 1);
+  return static_cast<int>(std::ceil(((37 + 2 * order) / std::log(rho) + degree) / 2)) + 1;
+}
+
+/// Values of all Bernstein polynomials of a degree at t.
+void bernstein(int degree, double t, std::vector<double>& values) {
+  values.assign(degree + 1, 0);
+  values[0] = 1;
+  for (int d = 1; d <= degree; ++d)
+    for (int m = d; m >= 0; --m)
+      values[m] = (m < d ? (1 - t) * values[m] : 0.0) + (m > 0 ? t * values[m - 1] : 0.0);
+}
+
+MatrixXc moments_far(const View& view, int degree, int order, int nodes) {
+  const GaussRule& rule = gauss_rule_of_at_least(nodes);
+  MatrixXc moments = MatrixXc::Zero(order + 1, degree + 1);
+  std::vector<double> basis;
   for (size_t g = 0; g < rule.nodes.size(); ++g) {
-    const double t = rule.nodes[g];
-    basis[0] = 1;
-    for (int d = 1; d <= degree; ++d)
-      for (int m = d; m >= 0; --m)
-        basis[m] = (m < d ? (1 - t) * basis[m] : 0.0) + (m > 0 ? t * basis[m - 1] : 0.0);
-    const Complex kernel = inverse(t - view.s);
+    bernstein(degree, rule.nodes[g], basis);
+    const Complex kernel = inverse(rule.nodes[g] - view.s);
     Complex power = rule.weights[g] * kernel;
-    for (int n = 0; n < order; ++n) power = times(power, kernel);
-    for (int m = 0; m <= degree; ++m) moments[m] += basis[m] * power;
+    for (int n = 0; n <= order; ++n) {
+      for (int m = 0; m <= degree; ++m) moments(n, m) += basis[m] * power;
+      power = times(power, kernel);
+    }
   }
   return moments;
 }
@@ -138,43 +150,188 @@ double near_limit(int degree) {
   return degree == 1 ? 2.0 : degree <= 3 ? 1.6 : degree <= 6 ? 1.35 : 1.25;
 }
 
+/// Row n: M_n[m] = integral of B_m / (t - s)^(n + 1), which is also the n-th Taylor coefficient of
+/// M_0 as a function of s.
+MatrixXc moments_at(const View& view, int degree, int order) {
+  const double ellipse = std::abs(view.s) + std::abs(view.q);
+  return ellipse <= near_limit(degree)
+             ? moments_near(view, degree, order)
+             : moments_far(view, degree, order, nodes_for(ellipse, degree, order));
+}
+
+/// Taylor coefficients 1..order of the branch t(z + h) - t(z) of the inverse of a curve with these
+/// Taylor coefficients, in powers of h (reversion of series).
+std::vector<Complex> reversion(const std::vector<Complex>& curve, int order) {
+  std::vector<Complex> branch(order + 1);
+  const Complex unit = inverse(curve[1]);
+  for (int k = 1; k <= order; ++k) {
+    // [h^k] of the sum over j >= 2 of curve_j (branch)^j, which knows branch up to k - 1 only.
+    Complex rest = 0;
+    std::vector<Complex> power = branch;  // branch^j
+    for (int j = 2; j <= k; ++j) {
+      std::vector<Complex> next(order + 1);
+      for (int x = j - 1; x < k; ++x)
+        for (int y = 1; x + y <= k; ++y) next[x + y] += times(power[x], branch[y]);
+      power = std::move(next);
+      rest += times(curve[j], power[k]);
+    }
+    branch[k] = times((k == 1 ? Complex(1) : Complex(0)) - rest, unit);
+  }
+  return branch;
+}
+
+/// Adds the coefficient of h^order of M_0 along the branch of one root: M_0(t(z + h)).
+void add_branch(const SegmentPolynomial& segment, const Root& root, const MatrixXc& moments,
+                VectorXc& sum) {
+  const int order = static_cast<int>(moments.rows()) - 1;
+  if (order == 0) {
+    sum += moments.row(0).transpose();
+    return;
+  }
+  std::vector<Complex> curve(order + 1);
+  segment.taylor(root, curve);
+  const std::vector<Complex> branch = reversion(curve, order);
+  std::vector<Complex> power = branch;
+  for (int n = 1; n <= order; ++n) {
+    for (Index m = 0; m < sum.size(); ++m) sum[m] += times(moments(n, m), power[order]);
+    std::vector<Complex> next(order + 1);
+    for (int x = n; x < order; ++x)
+      for (int y = 1; x + y <= order; ++y) next[x + y] += times(power[x], branch[y]);
+    power = std::move(next);
+  }
+}
+
+/// integral of B_m c' / (c - z)^(order + 1) over [from, to] by quadrature, halved until every root
+/// is far from its piece. False when a root is on the curve.
+bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> roots, Complex z,
+                    double from, double to, int order, VectorXc& sum) {
+  constexpr double kFar = 1.3, kShortest = 1.0 / 4096;
+  const double length = to - from;
+  double ellipse = 1e300;
+  for (const Root& root : roots)
+    ellipse = std::min(ellipse, (std::abs(root.s - from) + std::abs(to - root.s)) / length);
+  if (ellipse < kFar) {
+    const double middle = 0.5 * (from + to);
+    return length > kShortest && add_quadrature(segment, roots, z, from, middle, order, sum) &&
+           add_quadrature(segment, roots, z, middle, to, order, sum);
+  }
+  const int degree = static_cast<int>(sum.size()) - 1;
+  const GaussRule& rule =
+      gauss_rule_of_at_least(nodes_for(ellipse, degree + segment.degree() * (order + 1), order));
+  std::vector<double> basis;
+  std::array<Complex, 2> curve;
+  for (size_t g = 0; g < rule.nodes.size(); ++g) {
+    const double t = from + length * rule.nodes[g];
+    bernstein(degree, t, basis);
+    segment.taylor({t, 1 - t}, curve);
+    const Complex kernel = inverse(curve[0] - z);
+    Complex value = length * rule.weights[g] * times(curve[1], kernel);
+    for (int n = 0; n < order; ++n) value = times(value, kernel);
+    for (int m = 0; m <= degree; ++m) sum[m] += basis[m] * value;
+  }
+  return true;
+}
+
+/// Whether two roots are so near to each other that they are better taken together, by quadrature:
+/// a double root has half the digits, and the derivatives of two near ones cancel.
+bool has_twins(std::span<const Root> roots, int order) {
+  const double apart = order == 0 ? 1e-3 : 0.05;
+  for (size_t i = 0; i < roots.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (std::norm(roots[i].s - roots[j].s) < apart * apart) return true;
+  return false;
+}
+
+/// order! / (2 pi i).
+Complex cauchy_factor(int order) {
+  Complex factor = inverse(2 * kPi * kI);
+  for (int n = 2; n <= order; ++n) factor *= n;
+  return factor;
+}
+
+/// The coordinates of a segment's control points (of a basis of `degree`) at z. `own` is the
+/// parameter that z is known to have on this segment, or none.
+VectorXc coordinates_of(const SegmentPolynomial& segment, int degree, Complex z, int order,
+                        std::optional<double> own) {
+  std::vector<Root> roots(segment.degree());
+  segment.roots(z, roots);
+  if (own) {  // the nearest root is this parameter, exactly
+    auto nearest = std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
+      return std::norm(x.s - *own) < std::norm(y.s - *own);
+    });
+    *nearest = {*own, 1 - *own};
+  }
+  VectorXc sum = VectorXc::Zero(degree + 1);
+  if (!own && has_twins(roots, order) && add_quadrature(segment, roots, z, 0, 1, order, sum))
+    return cauchy_factor(order) * sum;
+  sum.setZero();
+  for (const Root& root : roots) {
+    const bool on =
+        (own && root.s == Complex(*own)) ||
+        is_on_segment(root, segment.derivative(root), 2 * segment.magnitude() + std::abs(z));
+    add_branch(segment, root, moments_at(view_of(root, on), degree, order), sum);
+  }
+  return cauchy_factor(order) * sum;
+}
+
 double harmonic_number(int n) {
   double sum = 0;
   for (int k = 1; k <= n; ++k) sum += 1.0 / k;
   return sum;
 }
 
-/// One row of coordinates for a counter-clockwise cage. `edge` is the segment that z is known to
-/// lie on, or -1; z may also be a vertex.
+/// One row of coordinates for a counter-clockwise cage. `own` is where on the boundary z is known
+/// to lie, if it is; z may also be a vertex.
 class RowBuilder {
  public:
   RowBuilder(const Cage& cage, int order) : cage_(cage), order_(order) {
-    for (Index e = 0; e < cage.size(); ++e) offsets_.push_back(cage.control_offset(e));
+    for (Index e = 0; e < cage.size(); ++e) {
+      offsets_.push_back(cage.control_offset(e));
+      segments_.emplace_back(cage.controls(e));
+    }
   }
 
-  VectorXc row(Complex z, Index edge) const {
+  VectorXc row(Complex z, std::optional<BoundaryPoint> own) const {
     const Index n = cage_.size();
     VectorXc row = VectorXc::Zero(cage_.control_count());
     for (Index v = 0; v < n; ++v)
       if (cage_.vertex(v) == z) return vertex_row(v, row);
-    for (Index e = 0; e < n; ++e) add_edge(row, e, z, e == edge);
+    for (Index e = 0; e < n; ++e)
+      add(row, e,
+          coordinates_of(segments_[e], cage_.degree(e), z, order_,
+                         own && own->segment == e ? std::optional(own->t) : std::nullopt));
     if (order_ == 2) set_second_derivatives(row, z);
     return row;
   }
 
  private:
-  Index column(Index edge, int m) const {
-    return m < cage_.degree(edge) ? offsets_[edge] + m : offsets_[(edge + 1) % cage_.size()];
+  Index column(Index segment, int m) const {
+    return m < cage_.degree(segment) ? offsets_[segment] + m
+                                     : offsets_[(segment + 1) % cage_.size()];
   }
 
-  void add_edge(VectorXc& row, Index edge, Complex z, bool on_edge) const {
-    const VectorXc values = edge_coordinates(cage_.vertex(edge), cage_.vertex(edge + 1),
-                                             cage_.degree(edge), z, order_, on_edge);
-    for (int m = 0; m <= cage_.degree(edge); ++m) row[column(edge, m)] += values[m];
+  void add(VectorXc& row, Index segment, const VectorXc& values) const {
+    for (int m = 0; m <= cage_.degree(segment); ++m) row[column(segment, m)] += values[m];
   }
 
-  /// The limit at a vertex: the logarithms of the two edges cancel up to the ratio of their
-  /// lengths.
+  /// The roots of a segment at its own end z, without the end itself.
+  void add_other_roots(VectorXc& row, Index segment, Complex z, bool at_start) const {
+    const SegmentPolynomial& curve = segments_[segment];
+    std::vector<Root> roots(curve.degree());
+    curve.roots(z, roots);
+    const auto end =
+        std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
+          return std::norm(at_start ? x.s : x.q) < std::norm(at_start ? y.s : y.q);
+        });
+    roots.erase(end);
+    VectorXc sum = VectorXc::Zero(cage_.degree(segment) + 1);
+    for (const Root& root : roots)
+      sum += moments_at(view_of(root, false), cage_.degree(segment), 0).row(0).transpose();
+    add(row, segment, cauchy_factor(0) * sum);
+  }
+
+  /// The limit at a vertex: the logarithms of the two segments that meet there cancel up to the
+  /// ratio of their speeds.
   VectorXc vertex_row(Index vertex, VectorXc& row) const {
     const Index n = cage_.size(), before = (vertex + n - 1) % n;
     if (order_ > 0) {
@@ -184,15 +341,20 @@ class RowBuilder {
     }
     const Complex z = cage_.vertex(vertex);
     for (Index e = 0; e < n; ++e)
-      if (e != vertex && e != before) add_edge(row, e, z, false);
+      if (e != vertex && e != before)
+        add(row, e, coordinates_of(segments_[e], cage_.degree(e), z, 0, {}));
     const Complex turn = 2 * kPi * kI;
     const int degree_before = cage_.degree(before), degree = cage_.degree(vertex);
     for (int m = 0; m < degree_before; ++m)
       row[column(before, m)] -= 1.0 / (turn * static_cast<double>(degree_before - m));
     for (int m = 1; m <= degree; ++m)
       row[column(vertex, m)] += 1.0 / (turn * static_cast<double>(m));
-    row[column(vertex, 0)] += vertex_limit(cage_.vertex(vertex - 1), z, cage_.vertex(vertex + 1)) +
+    const Complex in = segments_[before].derivative({1, 0}),
+                  out = segments_[vertex].derivative({0, 1});
+    row[column(vertex, 0)] += vertex_limit(z - in, z, z + out) +
                               (harmonic_number(degree_before) - harmonic_number(degree)) / turn;
+    add_other_roots(row, before, z, false);
+    add_other_roots(row, vertex, z, true);
     return row;
   }
 
@@ -210,6 +372,7 @@ class RowBuilder {
   const Cage& cage_;
   int order_;
   std::vector<Index> offsets_;
+  std::vector<SegmentPolynomial> segments_;
 };
 
 /// Column of the reversed cage that holds column c of the cage.
@@ -227,10 +390,8 @@ std::vector<Index> reversal(const Cage& cage) {
 template <class RowOf>
 MatrixXc rows(const Cage& cage, Index count, int order, RowOf row_of) {
   if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
-  if (!is_straight(cage))
-    throw Error(ErrorKind::bad_input, "Cauchy coordinates need a cage whose rest is straight");
   MatrixXc result(count, cage.control_count());
-  const bool clockwise = signed_area(vertices_of(cage)) < 0;
+  const bool clockwise = signed_area(outline_of(cage)) < 0;
   const Cage turned = clockwise ? reversed(cage) : Cage{};
   const Cage& oriented = clockwise ? turned : cage;
   const RowBuilder builder(oriented, order);
@@ -245,20 +406,18 @@ MatrixXc rows(const Cage& cage, Index count, int order, RowOf row_of) {
 }  // namespace
 
 Complex position_of(const Cage& cage, BoundaryPoint point) {
-  return (1 - point.t) * cage.vertex(point.segment) + point.t * cage.vertex(point.segment + 1);
+  return bezier_point(cage.controls(point.segment), point.t);
 }
 
 VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order, bool on_edge) {
-  const EdgeView view = edge_view(a, b, z, on_edge);
-  const double ellipse = std::abs(view.s) + std::abs(view.q);
-  VectorXc moments =
-      ellipse <= near_limit(degree)
-          ? moments_near(view, degree, order)
-          : moments_far(view, degree, order, ellipse + std::sqrt(ellipse * ellipse - 1));
-  Complex factor = inverse(2 * kPi * kI);
-  for (int n = 1; n <= order; ++n) factor = times(factor, static_cast<double>(n) * inverse(b - a));
-  for (Complex& moment : moments) moment = times(moment, factor);
-  return moments;
+  const std::array<Complex, 2> ends{a, b};
+  const SegmentPolynomial segment(ends);
+  Root root;
+  segment.roots(z, std::span(&root, 1));
+  const bool on = on_edge || is_on_segment(root, b - a, std::abs(a) + std::abs(b) + std::abs(z));
+  VectorXc sum = VectorXc::Zero(degree + 1);
+  add_branch(segment, root, moments_at(view_of(root, on), degree, order), sum);
+  return cauchy_factor(order) * sum;
 }
 
 Complex vertex_limit(Complex before, Complex vertex, Complex after) {
@@ -268,33 +427,18 @@ Complex vertex_limit(Complex before, Complex vertex, Complex after) {
   return Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - angle) / (2 * kPi * kI);
 }
 
-std::array<Complex, 2> linear_edge_coordinates(Complex a, Complex b, Complex z, int order) {
-  const EdgeView view = edge_view(a, b, z, false);
-  if (std::abs(view.s) + std::abs(view.q) > near_limit(1)) {
-    const VectorXc values = edge_coordinates(a, b, 1, z, order);
-    return {values[0], values[1]};
-  }
-  const Complex factor = inverse(2 * kPi * kI);
-  if (order == 0)
-    return {times(factor, times(view.q, view.log) - 1.0),
-            times(factor, times(view.s, view.log) + 1.0)};
-  const Complex pole = inverse(-view.s) - inverse(view.q), slope = times(factor, inverse(b - a));
-  return {times(slope, times(view.q, pole) - view.log),
-          times(slope, times(view.s, pole) + view.log)};
-}
-
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
   return rows(cage, static_cast<Index>(points.size()), order,
-              [&](const RowBuilder& builder, Index i, bool) { return builder.row(points[i], -1); });
+              [&](const RowBuilder& builder, Index i, bool) { return builder.row(points[i], {}); });
 }
 
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order) {
   return rows(cage, static_cast<Index>(points.size()), order,
               [&](const RowBuilder& builder, Index i, bool clockwise) {
-                const Index segment = points[i].segment;
-                const Complex z =
-                    points[i].t == 0 ? cage.vertex(segment) : position_of(cage, points[i]);
-                return builder.row(z, clockwise ? cage.size() - 1 - segment : segment);
+                const auto [segment, t] = points[i];
+                const Complex z = t == 0 ? cage.vertex(segment) : position_of(cage, points[i]);
+                return builder.row(
+                    z, clockwise ? BoundaryPoint{cage.size() - 1 - segment, 1 - t} : points[i]);
               });
 }
 

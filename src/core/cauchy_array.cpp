@@ -92,11 +92,11 @@ class BlockFiller {
 
   void set_on_edge(Complex z, Index e, size_t i, kernel::Halves& halves) {
     const Complex a = polygon_[e], b = polygon_[(e + 1) % polygon_.size()];
-    std::array<Complex, 2> values{};
+    VectorXc values = VectorXc::Zero(2);
     if (z == a || z == b)
       at_vertex_[i] = true;  // finish_vertex_row adds the limit of both its edges
     else
-      values = linear_edge_coordinates(a, b, z, order_);
+      values = edge_coordinates(a, b, 1, z, order_);
     halves.start_re[i] = values[0].real();
     halves.start_im[i] = values[0].imag();
     halves.end_re[i] = values[1].real();

@@ -368,10 +368,8 @@ TEST_CASE("Points rounded onto an edge take the limit from inside") {
     }
 }
 
-TEST_CASE("Cauchy coordinates refuse curved cages and negative orders") {
-  Cage cage = polygon_cage(star(4, 0.1, 1));
+TEST_CASE("Cauchy coordinates refuse negative orders") {
+  const Cage cage = polygon_cage(star(4, 0.1, 1));
   const Complex z{0, 0};
   CHECK_THROWS_AS(cauchy_coordinates(cage, std::span(&z, 1), -1), Error);
-  cage.segments[1].push_back({500, 500});
-  CHECK_THROWS_AS(cauchy_coordinates(cage, std::span(&z, 1)), Error);
 }

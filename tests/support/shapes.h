@@ -27,6 +27,23 @@ inline Points star(int n, double ripple, unsigned seed) {
   return polygon;
 }
 
+/// A star whose edges are curves of `degree`: control points off the chord by up to `bulge` of its
+/// length.
+inline Cage curved_star(int n, int degree, double bulge, unsigned seed) {
+  const Points polygon = star(n, 0.15, seed);
+  std::mt19937 random(seed + 1);
+  std::uniform_real_distribution<double> off(-bulge, bulge);
+  Cage cage = polygon_cage(polygon);
+  for (Index e = 0; e < cage.size(); ++e) {
+    const Complex a = polygon[e], side = polygon[(e + 1) % polygon.size()] - a;
+    for (int m = 1; m < degree; ++m)
+      cage.segments[e].push_back(
+          a + side * Complex(static_cast<double>(m) / degree + 0.2 * off(random) / degree,
+                             off(random)));
+  }
+  return cage;
+}
+
 /// A closed comb: many thin teeth.
 inline Points comb(int teeth) {
   Points polygon{{0, 0}};

@@ -1,0 +1,49 @@
+// A Bezier segment as a polynomial c(t), and every place where it takes a given value.
+//
+// Over a segment c'(t) / (c(t) - z) = sum over the roots t_r of c(t) = z of 1 / (t - t_r):
+// integrals over a curve become integrals over the unit interval, one for each root.
+#pragma once
+
+#include <array>
+
+#include "core/curve.h"
+
+namespace holomorph {
+
+/// A root t of c(t) = z as s = t and q = 1 - t, each to its own relative precision: near the
+/// segment's ends the small one of the two is what matters.
+struct Root {
+  Complex s, q;
+};
+
+class SegmentPolynomial {
+ public:
+  /// From the control points. A curve whose degree was raised is known for what it was.
+  explicit SegmentPolynomial(std::span<const Complex> controls);
+
+  /// The number of roots: the true degree, 0 for a single point.
+  int degree() const { return static_cast<int>(middle_.size()) - 1; }
+  /// A straight segment run through at constant speed.
+  bool is_straight() const { return degree() == 1; }
+  /// The largest modulus among the control points.
+  double magnitude() const { return magnitude_; }
+
+  /// Writes the degree() roots of c(t) = z. `near`, when given, are the roots of a nearby z: they
+  /// start the iteration. Aberth's method, then Newton's from the nearer end; a double root comes
+  /// out to half the digits, as it must. Cost: about 100 ns a root.
+  void roots(Complex z, std::span<Root> out, std::span<const Root> near = {}) const;
+
+  /// c^(j)(t) / j! for j = 0 to order at a parameter.
+  void taylor(const Root& at, std::span<Complex> out) const;
+  /// c'(t).
+  Complex derivative(const Root& at) const;
+
+ private:
+  void refine(Complex z, Root& root) const;
+
+  // c in powers of 2t - 1, of s = t and of q = 1 - t.
+  Points middle_, start_, end_;
+  double magnitude_ = 0;
+};
+
+}  // namespace holomorph
