@@ -34,16 +34,13 @@ void require_cage(const Scene& scene, const Path& path) {
 
 /// The scene's map at points, in full precision; NaN outside the cage.
 SampledMap map_at(const Scene& scene, const Points& points) {
-  const Points corners = vertices_of(scene.rest);
-  const double on_edge = 1e-12 * box_of(corners).diagonal();
   Rest rest = rest_of(scene, Precision::full);
   rest.samples = points;
   SampledMap map;
   method_named(scene.method).prepare(rest, nullptr)->deform(pose_of(scene), map, true);
   const Complex nowhere(NAN, NAN);
   for (size_t i = 0; i < points.size(); ++i)
-    if (winding_number(corners, points[i]) == 0 &&
-        nearest_on_polygon(corners, points[i]).distance > on_edge) {
+    if (!contains(scene.rest, points[i])) {
       const Index at = static_cast<Index>(i);
       map.f[at] = map.fz[at] = map.fzbar[at] = nowhere;
     }

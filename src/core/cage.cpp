@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/segment.h"
 
 namespace holomorph {
 
@@ -84,6 +85,17 @@ Cage reversed(const Cage& cage) {
   return backwards;
 }
 
+std::vector<Index> reversed_columns(const Cage& cage) {
+  Cage tagged = cage;
+  Index c = 0;
+  for (Points& segment : tagged.segments)
+    for (Complex& z : segment) z = static_cast<double>(c++);
+  const VectorXc order = controls_of(reversed(tagged));
+  std::vector<Index> column(c);
+  for (Index i = 0; i < c; ++i) column[static_cast<Index>(order[i].real())] = i;
+  return column;
+}
+
 void insert_vertex(Cage& cage, Index segment, double t) {
   check(segment >= 0 && segment < cage.size() && t > 0 && t < 1, "insert_vertex: on a segment");
   SplitCurve halves = split(cage.controls(segment), t);
@@ -123,18 +135,47 @@ void erase_vertex(Cage& cage, Index vertex, Refit refit) {
   cage.segments.erase(cage.segments.begin() + vertex);
 }
 
-bool is_straight(const Cage& cage) {
-  for (Index i = 0; i < cage.size(); ++i) {
-    const Points controls = cage.controls(i);
-    const int degree = cage.degree(i);
-    const double tolerance = 1e-12 * (std::abs(controls.front()) + std::abs(controls.back()));
-    for (int m = 1; m < degree; ++m) {
-      const double t = static_cast<double>(m) / degree;
-      const Complex even = (1 - t) * controls.front() + t * controls.back();
-      if (!(std::abs(controls[m] - even) <= tolerance)) return false;
-    }
+bool is_straight(const Cage& cage, Index segment) {
+  const Points controls = cage.controls(segment);
+  const int degree = cage.degree(segment);
+  const double tolerance = 1e-12 * (std::abs(controls.front()) + std::abs(controls.back()));
+  for (int m = 1; m < degree; ++m) {
+    const double t = static_cast<double>(m) / degree;
+    const Complex even = (1 - t) * controls.front() + t * controls.back();
+    if (!(std::abs(controls[m] - even) <= tolerance)) return false;
   }
   return true;
+}
+
+bool is_straight(const Cage& cage) {
+  for (Index i = 0; i < cage.size(); ++i)
+    if (!is_straight(cage, i)) return false;
+  return true;
+}
+
+Complex position_of(const Cage& cage, BoundaryPoint point) {
+  return bezier_point(cage.controls(point.segment), point.t);
+}
+
+FlatCage flattened(const Cage& cage, double tolerance) {
+  FlatCage flat;
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    double bend = 0;  // the largest second difference bounds c'' / (n (n - 1))
+    for (size_t m = 0; m + 2 < controls.size(); ++m)
+      bend = std::max(bend, std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
+    const double n = cage.degree(i), sagitta = n * (n - 1) * bend / 8;
+    const int pieces =
+        is_straight(cage, i)
+            ? 1
+            : static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / tolerance)), 2.0, 256.0));
+    for (int k = 0; k < pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      flat.points.push_back(k == 0 ? cage.vertex(i) : bezier_point(controls, t));
+      flat.places.push_back({i, t});
+    }
+  }
+  return flat;
 }
 
 std::string point_text(Complex z) {
@@ -147,7 +188,8 @@ namespace {
 
 /// Vertices must keep a distance from the edges beside which they lie that survives rounding;
 /// otherwise which side they are on is nobody's to say.
-void check_gaps(const Points& polygon) {
+void check_gaps(const FlatCage& flat) {
+  const Points& polygon = flat.points;
   const Index n = static_cast<Index>(polygon.size());
   double largest = 0;
   for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
@@ -166,11 +208,48 @@ void check_gaps(const Points& polygon) {
         continue;
       if (nearest_on_segment(a, b, z).distance <= gap)
         throw Error(ErrorKind::bad_input,
-                    "the rest cage touches itself: point " + std::to_string(v) + " at " +
-                        point_text(z) + " lies on edge " + std::to_string(e) +
+                    "the rest cage touches itself: point " +
+                        std::to_string(flat.places[v].segment) + " at " + point_text(z) +
+                        " lies on segment " + std::to_string(flat.places[e].segment) +
                         "; move one of them away",
                     z);
     }
+  }
+}
+
+/// A curve must not stop: where c' = 0 there is a cusp, and the map's derivative has no limit.
+void check_speed(const Cage& cage, Index segment) {
+  if (is_straight(cage, segment)) return;
+  const Points controls = cage.controls(segment);
+  Points slopes;
+  for (size_t m = 0; m + 1 < controls.size(); ++m) slopes.push_back(controls[m + 1] - controls[m]);
+  const SegmentPolynomial speed(slopes);
+  std::vector<Root> stops(std::max(speed.degree(), 0));
+  if (speed.degree() > 0) speed.roots(0, stops);
+  constexpr double kNear = 1e-3;
+  for (const Root& stop : stops) {
+    const double t = stop.s.real();
+    if (std::abs(stop.s.imag()) > kNear || t < -kNear || t > 1 + kNear) continue;
+    const Complex z = bezier_point(controls, std::clamp(t, 0.0, 1.0));
+    const bool at_end = t < kNear || t > 1 - kNear;
+    throw Error(ErrorKind::bad_input,
+                "rest cage segment " + std::to_string(segment) +
+                    (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
+                    point_text(z) + "; pull its handles apart",
+                z);
+  }
+}
+
+void check_lengths(const Cage& cage) {
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    const bool moves =
+        std::any_of(controls.begin(), controls.end(), [&](Complex z) { return z != controls[0]; });
+    if (!moves || (cage.vertex(i) == cage.vertex(i + 1) && is_straight(cage, i)))
+      throw Error(ErrorKind::bad_input,
+                  "rest cage segment " + std::to_string(i) + " at " + point_text(cage.vertex(i)) +
+                      " has no length; delete one of its two points",
+                  cage.vertex(i));
   }
 }
 
@@ -185,26 +264,20 @@ void check_rest_cage(const Cage& cage) {
       if (!is_finite(z))
         throw Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i) +
                                               " has a coordinate that is no number");
-  for (Index i = 0; i < cage.size(); ++i)
-    if (cage.vertex(i) == cage.vertex(i + 1))
-      throw Error(ErrorKind::bad_input,
-                  "rest cage edge " + std::to_string(i) + " at " + point_text(cage.vertex(i)) +
-                      " has no length; delete one of its two points",
-                  cage.vertex(i));
-  if (!is_straight(cage))
+  check_lengths(cage);
+  for (Index i = 0; i < cage.size(); ++i) check_speed(cage, i);
+  constexpr double kFlat = 1e-4;
+  const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
+  if (const auto crossing = self_crossing(flat.points))
     throw Error(ErrorKind::bad_input,
-                "the rest cage has a curved segment; this version bends straight rest cages only "
-                "(the posed cage may be curved)");
-  const Points vertices = vertices_of(cage);
-  if (const auto crossing = self_crossing(vertices))
-    throw Error(ErrorKind::bad_input,
-                "the rest cage crosses itself: edges " + std::to_string(crossing->first) + " and " +
-                    std::to_string(crossing->second) + " meet near " + point_text(crossing->point) +
-                    "; move one of their points",
+                "the rest cage crosses itself: segments " +
+                    std::to_string(flat.places[crossing->first].segment) + " and " +
+                    std::to_string(flat.places[crossing->second].segment) + " meet near " +
+                    point_text(crossing->point) + "; move one of their points",
                 crossing->point);
-  check_gaps(vertices);
-  const Box box = box_of(vertices);
-  if (!(std::abs(signed_area(vertices)) > 1e-14 * box.diagonal() * box.diagonal()))
+  check_gaps(flat);
+  const Box box = box_of(flat.points);
+  if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
     throw Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
 }
 

@@ -28,6 +28,15 @@ struct Cage {
   Index control_offset(Index segment) const;
 };
 
+/// A point of the cage's boundary, addressed exactly: parameter t in [0, 1) on segment `segment`.
+struct BoundaryPoint {
+  Index segment = 0;
+  double t = 0.0;
+};
+
+/// The place of a boundary point in the plane.
+Complex position_of(const Cage& cage, BoundaryPoint point);
+
 /// A cage with straight edges.
 Cage polygon_cage(std::span<const Complex> vertices);
 
@@ -45,8 +54,19 @@ Cage elevated_to(const Cage& cage, const Cage& other);
 /// alone when straight.
 Points outline_of(const Cage& cage, int per_curve = 16);
 
+/// The loop as a polygon within `tolerance` of it: its vertices and where on the cage they are.
+/// Straight segments stay whole; curved ones are cut evenly in the parameter, into at most 256.
+struct FlatCage {
+  Points points;
+  std::vector<BoundaryPoint> places;
+};
+FlatCage flattened(const Cage& cage, double tolerance);
+
 /// The same loop run through backwards, from the same first vertex.
 Cage reversed(const Cage& cage);
+
+/// For each control point of the cage its number among those of the reversed cage.
+std::vector<Index> reversed_columns(const Cage& cage);
 
 /// Cuts segment `segment` at parameter t in (0, 1) by de Casteljau: the curve stays as it is.
 void insert_vertex(Cage& cage, Index segment, double t);
@@ -62,9 +82,12 @@ void erase_vertex(Cage& cage, Index vertex, Refit refit = Refit::curve);
 /// Whether every segment runs along its chord at constant speed (degree-raised edges do).
 bool is_straight(const Cage& cage);
 
-/// Throws Error unless the cage can be a rest cage: at least three segments, finite, straight,
-/// no edge of zero length, an area, and no crossing with itself. The message names the edges and
-/// the error's `where` is the place.
+/// Whether segment i is a straight edge, run through at constant speed.
+bool is_straight(const Cage& cage, Index segment);
+
+/// Throws Error unless the cage can be a rest cage: at least three segments, finite, no segment of
+/// zero length, no cusp, an area, and no crossing with itself. The message names the segments and
+/// the error's `where` is the place. Curves are judged by a polygon within 1e-4 of the cage's size.
 void check_rest_cage(const Cage& cage);
 
 /// "(12, 30.5)": how messages write a point.

@@ -314,24 +314,6 @@ class RowBuilder {
     for (int m = 0; m <= cage_.degree(segment); ++m) row[column(segment, m)] += values[m];
   }
 
-  /// The roots of a segment at its own end z, without the end itself.
-  void add_other_roots(VectorXc& row, Index segment, Complex z, bool at_start) const {
-    const SegmentPolynomial& curve = segments_[segment];
-    std::vector<Root> roots(curve.degree());
-    curve.roots(z, roots);
-    const auto end =
-        std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
-          return std::norm(at_start ? x.s : x.q) < std::norm(at_start ? y.s : y.q);
-        });
-    roots.erase(end);
-    VectorXc sum = VectorXc::Zero(cage_.degree(segment) + 1);
-    for (const Root& root : roots)
-      sum += moments_at(view_of(root, false), cage_.degree(segment), 0).row(0).transpose();
-    add(row, segment, cauchy_factor(0) * sum);
-  }
-
-  /// The limit at a vertex: the logarithms of the two segments that meet there cancel up to the
-  /// ratio of their speeds.
   VectorXc vertex_row(Index vertex, VectorXc& row) const {
     const Index n = cage_.size(), before = (vertex + n - 1) % n;
     if (order_ > 0) {
@@ -343,18 +325,10 @@ class RowBuilder {
     for (Index e = 0; e < n; ++e)
       if (e != vertex && e != before)
         add(row, e, coordinates_of(segments_[e], cage_.degree(e), z, 0, {}));
-    const Complex turn = 2 * kPi * kI;
-    const int degree_before = cage_.degree(before), degree = cage_.degree(vertex);
-    for (int m = 0; m < degree_before; ++m)
-      row[column(before, m)] -= 1.0 / (turn * static_cast<double>(degree_before - m));
-    for (int m = 1; m <= degree; ++m)
-      row[column(vertex, m)] += 1.0 / (turn * static_cast<double>(m));
-    const Complex in = segments_[before].derivative({1, 0}),
-                  out = segments_[vertex].derivative({0, 1});
-    row[column(vertex, 0)] += vertex_limit(z - in, z, z + out) +
-                              (harmonic_number(degree_before) - harmonic_number(degree)) / turn;
-    add_other_roots(row, before, z, false);
-    add_other_roots(row, vertex, z, true);
+    const VertexLimit limit = vertex_limit(segments_[before], cage_.degree(before),
+                                           segments_[vertex], cage_.degree(vertex));
+    add(row, before, limit.before);
+    add(row, vertex, limit.own);
     return row;
   }
 
@@ -375,18 +349,6 @@ class RowBuilder {
   std::vector<SegmentPolynomial> segments_;
 };
 
-/// Column of the reversed cage that holds column c of the cage.
-std::vector<Index> reversal(const Cage& cage) {
-  Cage tagged = cage;
-  Index c = 0;
-  for (Points& segment : tagged.segments)
-    for (Complex& z : segment) z = static_cast<double>(c++);
-  const VectorXc order = controls_of(reversed(tagged));
-  std::vector<Index> column(c);
-  for (Index i = 0; i < c; ++i) column[static_cast<Index>(order[i].real())] = i;
-  return column;
-}
-
 template <class RowOf>
 MatrixXc rows(const Cage& cage, Index count, int order, RowOf row_of) {
   if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
@@ -398,15 +360,32 @@ MatrixXc rows(const Cage& cage, Index count, int order, RowOf row_of) {
   for (Index i = 0; i < count; ++i) result.row(i) = row_of(builder, i, clockwise).transpose();
   if (!clockwise) return result;
   MatrixXc unturned(result.rows(), result.cols());
-  const std::vector<Index> column = reversal(cage);
+  const std::vector<Index> column = reversed_columns(cage);
   for (Index c = 0; c < result.cols(); ++c) unturned.col(c) = result.col(column[c]);
   return unturned;
 }
 
 }  // namespace
 
-Complex position_of(const Cage& cage, BoundaryPoint point) {
-  return bezier_point(cage.controls(point.segment), point.t);
+bool contains(const Cage& cage, Complex z) {
+  double turns = 0;
+  std::vector<Root> roots;
+  for (Index e = 0; e < cage.size(); ++e) {
+    if (cage.vertex(e) == z) return true;
+    const SegmentPolynomial segment(cage.controls(e));
+    roots.resize(segment.degree());
+    segment.roots(z, roots);
+    for (const Root& root : roots) {
+      if (is_on_segment(root, segment.derivative(root), 2 * segment.magnitude() + std::abs(z)))
+        return true;
+      turns += view_of(root, false).log.imag();
+    }
+  }
+  return std::abs(turns) > kPi;
+}
+
+VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, Complex z, int order) {
+  return coordinates_of(segment, degree, z, order, {});
 }
 
 VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order, bool on_edge) {
@@ -420,11 +399,40 @@ VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order
   return cauchy_factor(order) * sum;
 }
 
-Complex vertex_limit(Complex before, Complex vertex, Complex after) {
-  const Complex out = after - vertex, in = before - vertex;
+namespace {
+
+/// The moments of a segment's roots at its own end, without that end.
+VectorXc other_roots(const SegmentPolynomial& segment, int degree, bool at_start) {
+  VectorXc sum = VectorXc::Zero(degree + 1);
+  if (segment.is_straight()) return sum;
+  std::vector<Root> roots(segment.degree());
+  segment.roots(segment.at(at_start ? Root{0, 1} : Root{1, 0}), roots);
+  const auto end = std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
+    return std::norm(at_start ? x.s : x.q) < std::norm(at_start ? y.s : y.q);
+  });
+  roots.erase(end);
+  for (const Root& root : roots)
+    sum += moments_at(view_of(root, false), degree, 0).row(0).transpose();
+  return cauchy_factor(0) * sum;
+}
+
+}  // namespace
+
+// The logarithms of the two segments cancel up to the ratio of their speeds.
+VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
+                         const SegmentPolynomial& own, int degree) {
+  const Complex turn = 2 * kPi * kI;
+  VertexLimit limit{other_roots(before, degree_before, false), other_roots(own, degree, true)};
+  for (int m = 0; m < degree_before; ++m)
+    limit.before[m] -= 1.0 / (turn * static_cast<double>(degree_before - m));
+  for (int m = 1; m <= degree; ++m) limit.own[m] += 1.0 / (turn * static_cast<double>(m));
+  const Complex in = -before.derivative({1, 0}), out = own.derivative({0, 1});
   double angle = std::atan2(cross(out, in), dot(out, in));
   if (angle <= 0) angle += 2 * kPi;
-  return Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - angle) / (2 * kPi * kI);
+  limit.own[0] += (Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - angle) +
+                   harmonic_number(degree_before) - harmonic_number(degree)) /
+                  turn;
+  return limit;
 }
 
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order) {

@@ -16,15 +16,6 @@
 
 namespace holomorph {
 
-/// A point of the cage's boundary, addressed exactly: parameter t in [0, 1) on segment `segment`.
-struct BoundaryPoint {
-  Index segment = 0;
-  double t = 0.0;
-};
-
-/// The place of a boundary point in the plane.
-Complex position_of(const Cage& cage, BoundaryPoint point);
-
 /// Coordinates of the cage's control points at `points`: row i, column c is the weight of control
 /// point c (in the order of controls_of) at points[i], differentiated `order` >= 0 times.
 ///
@@ -41,14 +32,27 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, i
 /// The same at boundary points that are addressed by segment and parameter: limits from inside.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order = 0);
 
+/// Whether z lies inside the cage or on it, exactly, for curved cages too: the winding number is
+/// the sum of the same logarithms. Either orientation. Cost: as a row of order 0.
+bool contains(const Cage& cage, Complex z);
+
+/// The degree + 1 coordinates of a single segment for a basis of `degree`, differentiated `order`
+/// times. z must be neither end.
+VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, Complex z, int order);
+
 /// The degree + 1 coordinates of a single straight edge from a to b at z, differentiated `order`
 /// times. `on_edge` asks for the limit from the left of the edge; points within rounding of the
 /// open edge are taken to be on it. z must be neither a nor b.
 VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order,
                           bool on_edge = false);
 
-/// The coordinate of a vertex between two straight edges at that vertex, as the limit from inside a
-/// counter-clockwise cage: (ln|A_{j+1} / A_j| + i (2 pi - alpha_j)) / (2 pi i).
-Complex vertex_limit(Complex before, Complex vertex, Complex after);
+/// What the two segments that meet at a vertex contribute to its row of order 0, as limits from
+/// inside a counter-clockwise cage. The vertex's own coordinate is own[0]; before's last is 0.
+/// Between straight edges of degree 1 it is (ln|A_{j+1} / A_j| + i (2 pi - alpha_j)) / (2 pi i).
+struct VertexLimit {
+  VectorXc before, own;
+};
+VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
+                         const SegmentPolynomial& own, int degree);
 
 }  // namespace holomorph

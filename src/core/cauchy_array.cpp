@@ -1,4 +1,5 @@
-// Blocks of points times edges by the kernels; the stable formula for points on the edge itself.
+// Blocks of points times segments by the kernels; the stable formula for points on a segment
+// itself.
 #include "core/cauchy_array.h"
 
 #include <algorithm>
@@ -36,19 +37,21 @@ auto product_of(const kernel::Table& table, double) {
   return table.product_double;
 }
 
-/// One block of consecutive points and the columns that it fills.
+/// One block of consecutive points and the columns that it fills, segment by segment.
 template <class T>
 class BlockFiller {
  public:
-  BlockFiller(std::span<const Complex> polygon, double farthest, int order,
-              const kernel::Table& table, PlanarMatrix<T>& out)
-      : polygon_(polygon), order_(order), table_(table), out_(out) {
-    for (size_t e = 0; e < polygon.size(); ++e) {
-      const Complex a = polygon[e], side = polygon[(e + 1) % polygon.size()] - a;
-      const Complex unit = std::conj(side) / std::norm(side);
+  BlockFiller(const Cage& cage, double farthest, int order, const kernel::Table& table,
+              PlanarMatrix<T>& out)
+      : cage_(cage), order_(order), table_(table), out_(out) {
+    for (Index e = 0; e < cage.size(); ++e) {
+      offsets_.push_back(cage.control_offset(e));
+      segments_.emplace_back(cage.controls(e));
+      roots_.emplace_back(segments_.back().degree());
+      const Complex a = cage.vertex(e), b = cage.vertex(e + 1);
+      const Complex unit = std::conj(b - a) / std::norm(b - a);
       const double rounding = 16 * std::numeric_limits<double>::epsilon() *
-                              (std::abs(a) + std::abs(a + side) + farthest) / std::abs(side);
-      const Complex b = polygon[(e + 1) % polygon.size()];
+                              (std::abs(a) + std::abs(b) + farthest) / std::abs(b - a);
       edges_.push_back(
           {a.real(), a.imag(), b.real(), b.imag(), unit.real(), unit.imag(), rounding});
     }
@@ -56,79 +59,159 @@ class BlockFiller {
 
   void fill(std::span<const Complex> points, Index first) {
     const Index count = std::min<Index>(kernel::kBlock, static_cast<Index>(points.size()) - first);
-    const auto here = points.subspan(first, count);
-    const Complex center = box_of(here).center();
+    here_ = points.subspan(first, count);
+    take_points();
+    at_vertex_.fill(false);
+    // A vertex's column is the end of the segment before it and the start of the one after.
+    const Index n = cage_.size();
+    moments_of(n - 1, moments_[1]);
+    for (Index e = 0; e < n; ++e) {
+      kernel::Moments& own = moments_[e % 2];
+      const kernel::Moments& before = moments_[(e + 1) % 2];
+      moments_of(e, own);
+      const int last = cage_.degree((e + n - 1) % n);
+      write(own, 0, &before, last, first, offsets_[e]);
+      for (int m = 1; m < cage_.degree(e); ++m) write(own, m, nullptr, 0, first, offsets_[e] + m);
+    }
+    for (Index i = 0; i < count; ++i)
+      if (at_vertex_[i]) finish_vertex_row(here_[i], first + i);
+  }
+
+ private:
+  void take_points() {
+    const Complex center = box_of(here_).center();
     points_.center_x = center.real();
     points_.center_y = center.imag();
     points_.radius = 0;
-    for (Index i = 0; i < kernel::kBlock; ++i) {
-      const Complex z = here[std::min(i, count - 1)];
+    for (size_t i = 0; i < kernel::kBlock; ++i) {
+      const Complex z = here_[std::min(i, here_.size() - 1)];
       points_.x[i] = z.real();
       points_.y[i] = z.imag();
       points_.radius = std::max(points_.radius, std::norm(z - center));
     }
     points_.radius = std::sqrt(points_.radius);
-    at_vertex_.fill(false);
-    // A vertex's column is the end half of the edge before it and the start half of the edge after.
-    const Index n = static_cast<Index>(polygon_.size());
-    halves_of_edge(n - 1, here, halves_[1]);
-    for (Index e = 0; e < n; ++e) {
-      kernel::Halves& current = halves_[e % 2];
-      const kernel::Halves& before = halves_[(e + 1) % 2];
-      halves_of_edge(e, here, current);
-      join_of(table_, T{})(before, current, count, out_.re.col(e).data() + first,
-                           out_.im.col(e).data() + first);
+  }
+
+  void write(const kernel::Moments& own, int m, const kernel::Moments* before, int last,
+             Index first, Index column) {
+    join_of(table_, T{})(own.re[m], own.im[m], before ? before->re[last] : nullptr,
+                         before ? before->im[last] : nullptr, static_cast<long>(here_.size()),
+                         out_.re.col(column).data() + first, out_.im.col(column).data() + first);
+  }
+
+  void moments_of(Index e, kernel::Moments& moments) {
+    if (!segments_[e].is_straight()) return curved_moments_of(e, moments);
+    if (!table_.edge_moments(edges_[e], points_, cage_.degree(e), order_, moments)) return;
+    for (size_t i = 0; i < here_.size(); ++i)
+      if (moments.on_edge[i] != 0) set_exactly(e, i, moments);
+  }
+
+  /// Each root of a curve is a straight edge's s; those that need care are left to the exact path.
+  void curved_moments_of(Index e, kernel::Moments& moments) {
+    const SegmentPolynomial& segment = segments_[e];
+    std::vector<Root>& roots = roots_[e];  // of the point before, which is near
+    std::array<bool, kernel::kBlock> careful{};
+    all_roots_.resize(roots.size());
+    for (size_t i = 0; i < kernel::kBlock; ++i) {
+      const Complex z(points_.x[i], points_.y[i]);
+      std::vector<Root>& found = fresh_;
+      found.resize(roots.size());
+      segment.roots(z, found, warm_[e] ? std::span<const Root>(roots) : std::span<const Root>());
+      warm_[e] = true;
+      roots = found;
+      careful[i] = needs_care(found);
+      for (size_t r = 0; r < roots.size(); ++r) {
+        const Complex factor = order_ == 0 || careful[i] ? 1.0 : 1.0 / segment.derivative(roots[r]);
+        kernel::Roots& block = all_roots_[r];
+        // A place off the segment stands in for one that the exact path takes.
+        const Complex s = careful[i] ? Complex(0.5, 1) : roots[r].s,
+                      q = careful[i] ? 1.0 - s : roots[r].q;
+        block.s_re[i] = s.real(), block.s_im[i] = s.imag();
+        block.q_re[i] = q.real(), block.q_im[i] = q.imag();
+        block.factor_re[i] = factor.real(), block.factor_im[i] = factor.imag();
+      }
     }
-    for (Index i = 0; i < count; ++i)
-      if (at_vertex_[i]) finish_vertex_row(here[i], first + i);
+    for (int m = 0; m <= cage_.degree(e); ++m)
+      for (int i = 0; i < kernel::kBlock; ++i) moments.re[m][i] = moments.im[m][i] = 0;
+    for (const kernel::Roots& block : all_roots_)
+      table_.root_moments(block, cage_.degree(e), order_, moments);
+    for (size_t i = 0; i < here_.size(); ++i)
+      if (careful[i]) set_exactly(e, i, moments);
   }
 
- private:
-  void halves_of_edge(Index e, std::span<const Complex> points, kernel::Halves& halves) {
-    if (!table_.edge_series(edges_[e], points_, order_, halves)) return;
-    for (size_t i = 0; i < points.size(); ++i)
-      if (halves.on_edge[i] != 0) set_on_edge(points[i], e, i, halves);
+  /// Roots on the segment within rounding or nearly double.
+  static bool needs_care(std::span<const Root> roots) {
+    constexpr double kTwins = 0.05;
+    for (size_t r = 0; r < roots.size(); ++r) {
+      const Root& root = roots[r];
+      if (std::abs(root.s.imag()) < 1e-6 && root.s.real() > -1e-6 && root.q.real() > -1e-6)
+        return true;
+      for (size_t other = 0; other < r; ++other)
+        if (std::norm(root.s - roots[other].s) < kTwins * kTwins) return true;
+    }
+    return false;
   }
 
-  void set_on_edge(Complex z, Index e, size_t i, kernel::Halves& halves) {
-    const Complex a = polygon_[e], b = polygon_[(e + 1) % polygon_.size()];
-    VectorXc values = VectorXc::Zero(2);
-    if (z == a || z == b)
-      at_vertex_[i] = true;  // finish_vertex_row adds the limit of both its edges
+  void set_exactly(Index e, size_t i, kernel::Moments& moments) {
+    const Complex z = here_[i];
+    VectorXc values = VectorXc::Zero(cage_.degree(e) + 1);
+    if (z == cage_.vertex(e) || z == cage_.vertex(e + 1))
+      at_vertex_[i] = true;  // finish_vertex_row adds the limit of both its segments
     else
-      values = edge_coordinates(a, b, 1, z, order_);
-    halves.start_re[i] = values[0].real();
-    halves.start_im[i] = values[0].imag();
-    halves.end_re[i] = values[1].real();
-    halves.end_im[i] = values[1].imag();
+      values = segment_coordinates(segments_[e], cage_.degree(e), z, order_);
+    for (int m = 0; m <= cage_.degree(e); ++m) {
+      moments.re[m][i] = values[m].real();
+      moments.im[m][i] = values[m].imag();
+    }
   }
 
-  /// The limit at a vertex: its two edges, left out so far, contribute to three columns.
+  /// The limit at a vertex: its two segments have been left out so far.
   void finish_vertex_row(Complex z, Index row) {
-    const Index n = static_cast<Index>(polygon_.size());
-    const Index vertex = std::find(polygon_.begin(), polygon_.end(), z) - polygon_.begin();
     if (order_ > 0) {
       out_.re.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
       out_.im.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
       return;
     }
-    const Index before = (vertex + n - 1) % n, after = (vertex + 1) % n;
-    const Complex own = vertex_limit(polygon_[before], z, polygon_[after]);
-    out_.re(row, vertex) += static_cast<T>(own.real());
-    out_.im(row, vertex) += static_cast<T>(own.imag());
-    out_.im(row, before) += static_cast<T>(1 / (2 * kPi));
-    out_.im(row, after) -= static_cast<T>(1 / (2 * kPi));
+    const Index n = cage_.size();
+    Index vertex = 0;
+    while (cage_.vertex(vertex) != z) ++vertex;
+    const Index before = (vertex + n - 1) % n;
+    const VertexLimit limit = vertex_limit(segments_[before], cage_.degree(before),
+                                           segments_[vertex], cage_.degree(vertex));
+    const auto add = [&](Index segment, int m, Complex value) {
+      const Index column =
+          m < cage_.degree(segment) ? offsets_[segment] + m : offsets_[(segment + 1) % n];
+      out_.re(row, column) += static_cast<T>(value.real());
+      out_.im(row, column) += static_cast<T>(value.imag());
+    };
+    for (int m = 0; m <= cage_.degree(before); ++m) add(before, m, limit.before[m]);
+    for (int m = 0; m <= cage_.degree(vertex); ++m) add(vertex, m, limit.own[m]);
   }
 
-  std::span<const Complex> polygon_;
+  const Cage& cage_;
   int order_;
   const kernel::Table& table_;
   PlanarMatrix<T>& out_;
+  std::vector<Index> offsets_;
+  std::vector<SegmentPolynomial> segments_;
   std::vector<kernel::Edge> edges_;
-  kernel::Halves halves_[2]{};
+  std::vector<std::vector<Root>> roots_;  ///< per segment, of the last point
+  std::vector<char> warm_ = std::vector<char>(static_cast<size_t>(cage_.size()), 0);
+  std::vector<Root> fresh_;
+  std::vector<kernel::Roots> all_roots_;
+  std::span<const Complex> here_;
+  kernel::Moments moments_[2]{};
   kernel::Block points_{};
   std::array<bool, kernel::kBlock> at_vertex_{};
 };
+
+/// The exact path for what the kernels do not integrate.
+template <class T>
+void exactly(const Cage& cage, std::span<const Complex> points, int order, PlanarMatrix<T>& out) {
+  const MatrixXc exact = cauchy_coordinates(cage, points, order);
+  out.re = exact.real().template cast<T>();
+  out.im = exact.imag().template cast<T>();
+}
 
 }  // namespace
 
@@ -141,30 +224,34 @@ bool has_avx2() {
 }
 
 template <class T>
-PlanarMatrix<T> polygon_coordinates(std::span<const Complex> polygon,
-                                    std::span<const Complex> points, int order, Kernel choice) {
+PlanarMatrix<T> planar_coordinates(const Cage& cage, std::span<const Complex> points, int order,
+                                   Kernel choice) {
   PlanarMatrix<T> result;
-  polygon_coordinates(polygon, points, order, choice, result);
+  planar_coordinates(cage, points, order, choice, result);
   return result;
 }
 
 template <class T>
-void polygon_coordinates(std::span<const Complex> polygon, std::span<const Complex> points,
-                         int order, Kernel choice, PlanarMatrix<T>& out) {
-  check(order == 0 || order == 1, "polygon_coordinates: order 0 or 1");
-  if (signed_area(polygon) < 0) {  // the same first vertex, the others backwards
-    Points turned(polygon.begin(), polygon.end());
-    std::reverse(turned.begin() + 1, turned.end());
-    polygon_coordinates<T>(turned, points, order, choice, out);
-    const Index others = out.cols() - 1;
-    out.re.rightCols(others) = out.re.rightCols(others).rowwise().reverse().eval();
-    out.im.rightCols(others) = out.im.rightCols(others).rowwise().reverse().eval();
+void planar_coordinates(const Cage& cage, std::span<const Complex> points, int order, Kernel choice,
+                        PlanarMatrix<T>& out) {
+  check(order == 0 || order == 1, "planar_coordinates: order 0 or 1");
+  if (signed_area(outline_of(cage)) < 0) {
+    PlanarMatrix<T> turned;
+    planar_coordinates<T>(reversed(cage), points, order, choice, turned);
+    out.resize(turned.rows(), turned.cols());
+    const std::vector<Index> column = reversed_columns(cage);
+    for (Index c = 0; c < out.cols(); ++c) {
+      out.re.col(c) = turned.re.col(column[c]);
+      out.im.col(c) = turned.im.col(column[c]);
+    }
     return;
   }
-  out.resize(static_cast<Index>(points.size()), static_cast<Index>(polygon.size()));
+  for (Index e = 0; e < cage.size(); ++e)
+    if (cage.degree(e) > kernel::kMostDegree) return exactly(cage, points, order, out);
+  out.resize(static_cast<Index>(points.size()), cage.control_count());
   double farthest = 0;
   for (const Complex& z : points) farthest = std::max(farthest, std::abs(z));
-  BlockFiller<T> filler(polygon, farthest, order, table_of(choice), out);
+  BlockFiller<T> filler(cage, farthest, order, table_of(choice), out);
   for (Index first = 0; first < out.rows(); first += kernel::kBlock) filler.fill(points, first);
 }
 
@@ -187,14 +274,14 @@ void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, Pla
   }
 }
 
-template PlanarMatrix<float> polygon_coordinates<float>(std::span<const Complex>,
-                                                        std::span<const Complex>, int, Kernel);
-template PlanarMatrix<double> polygon_coordinates<double>(std::span<const Complex>,
-                                                          std::span<const Complex>, int, Kernel);
-template void polygon_coordinates<float>(std::span<const Complex>, std::span<const Complex>, int,
-                                         Kernel, PlanarMatrix<float>&);
-template void polygon_coordinates<double>(std::span<const Complex>, std::span<const Complex>, int,
-                                          Kernel, PlanarMatrix<double>&);
+template PlanarMatrix<float> planar_coordinates<float>(const Cage&, std::span<const Complex>, int,
+                                                       Kernel);
+template PlanarMatrix<double> planar_coordinates<double>(const Cage&, std::span<const Complex>, int,
+                                                         Kernel);
+template void planar_coordinates<float>(const Cage&, std::span<const Complex>, int, Kernel,
+                                        PlanarMatrix<float>&);
+template void planar_coordinates<double>(const Cage&, std::span<const Complex>, int, Kernel,
+                                         PlanarMatrix<double>&);
 template void multiply<float>(const PlanarMatrix<float>&, const PlanarMatrix<float>&,
                               PlanarMatrix<float>&, Kernel);
 template void multiply<double>(const PlanarMatrix<double>&, const PlanarMatrix<double>&,

@@ -1,12 +1,14 @@
-// The two inner loops that are compiled twice, for any processor and for AVX2 with FMA.
+// The inner loops that are compiled several times, for any processor and for wider instructions.
 // Plain pointers and no templates of other headers: nothing compiled with wider instructions can
 // leak into the rest of the program through the linker.
 #pragma once
 
 namespace holomorph::kernel {
 
-/// Points per call of an EdgeSeries.
+/// Points per call.
 inline constexpr int kBlock = 32;
+/// Basis degrees that the kernels integrate.
+inline constexpr int kMostDegree = 4;
 
 /// One edge from (ax, ay) to (bx, by), (ux, uy) = 1 / (b - a); a point whose offset from the edge
 /// is at most `rounding` edge lengths may be on it.
@@ -15,23 +17,35 @@ struct Edge {
 };
 
 /// kBlock points and a disc around them.
-struct Block {
+struct alignas(64) Block {
   double x[kBlock], y[kBlock], center_x, center_y, radius;
 };
 
-/// The start and end halves of an edge's coordinates at kBlock points.
-struct Halves {
-  double start_re[kBlock], start_im[kBlock], end_re[kBlock], end_im[kBlock], on_edge[kBlock];
+/// One root of a curve for each point of a block (see segment.h), and the factor of its moments: 1,
+/// or 1 / c' for derivatives.
+struct alignas(64) Roots {
+  double s_re[kBlock], s_im[kBlock], q_re[kBlock], q_im[kBlock], factor_re[kBlock],
+      factor_im[kBlock];
 };
 
-/// Fills `out` for the points of a block, order 0 or 1. Returns whether some points may be on
-/// the edge or its end points; then on_edge marks them with 1 and their halves are not meaningful.
-using EdgeSeries = bool (*)(const Edge& edge, const Block& block, int order, Halves& out);
+/// Coordinates of a segment's control points at kBlock points; on_edge marks points with 1.
+struct alignas(64) Moments {
+  double re[kMostDegree + 1][kBlock], im[kMostDegree + 1][kBlock], on_edge[kBlock];
+};
 
-/// A vertex's column: the end half of the edge before it plus the start half of its own edge, for
-/// the first `count` points.
+/// Fills `out` for the points of a block: a basis of degree 1 to kMostDegree, order 0 or 1. Returns
+/// whether some points may be on the edge or its end points; then on_edge marks them with 1 and
+/// their moments are not meaningful.
+using EdgeMoments = bool (*)(const Edge& edge, const Block& block, int degree, int order,
+                             Moments& out);
+
+/// Adds one root's part of a curved segment's coordinates. Roots are off the segment.
+using RootMoments = void (*)(const Roots& roots, int degree, int order, Moments& sum);
+
+/// The first `count` sums of two rows (the second may be null) as a column.
 template <class T>
-using Join = void (*)(const Halves& before, const Halves& own, long count, T* re, T* im);
+using Join = void (*)(const double* re, const double* im, const double* more_re,
+                      const double* more_im, long count, T* out_re, T* out_im);
 
 /// out += matrix * factors for a block of rows: matrix is column-major with leading dimension
 /// `stride`, `rows` x `inner`; factors are inner complex numbers.
@@ -40,7 +54,8 @@ using BlockProduct = void (*)(const T* re, const T* im, long stride, long rows, 
                               const T* factor_re, const T* factor_im, T* out_re, T* out_im);
 
 struct Table {
-  EdgeSeries edge_series;
+  EdgeMoments edge_moments;
+  RootMoments root_moments;
   Join<float> join_float;
   Join<double> join_double;
   BlockProduct<float> product_float;

@@ -244,7 +244,50 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   return mesh;
 }
 
+/// Moves the vertices that refinement put on the chords of a flattened cage onto the curve.
+void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
+  std::vector<int> corner(mesh.vertices.size(), -1);
+  for (size_t i = 0; i < flat.points.size(); ++i)
+    corner[mesh.cage_vertices[i]] = static_cast<int>(i);
+  int last = -1;
+  for (const int v : mesh.boundary) {
+    if (corner[v] >= 0) {
+      last = corner[v];
+      continue;
+    }
+    // The boundary runs counter-clockwise, a clockwise cage the other way: the chord is the one
+    // between the last corner and the next one in either direction.
+    const size_t n = flat.points.size();
+    const size_t next = (static_cast<size_t>(last) + 1) % n, before = (last + n - 1) % n;
+    const auto off = [&](size_t other) {
+      return nearest_on_segment(flat.points[last], flat.points[other], mesh.vertices[v]);
+    };
+    const bool forward = off(next).distance <= off(before).distance;
+    const size_t from = forward ? static_cast<size_t>(last) : before;
+    const size_t to = (from + 1) % n;
+    const Index segment = flat.places[from].segment;
+    if (is_straight(cage, segment)) continue;
+    const double t0 = flat.places[from].t,
+                 t1 = flat.places[to].segment == segment ? flat.places[to].t : 1.0;
+    const double share = nearest_on_segment(flat.points[from], flat.points[to], mesh.vertices[v]).t;
+    mesh.vertices[v] = position_of(cage, {segment, t0 + share * (t1 - t0)});
+  }
+}
+
 }  // namespace
+
+Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
+  constexpr double kFlat = 5e-5;
+  const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
+  Mesh mesh = domain_mesh(flat.points, options);
+  if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
+  settle_on(cage, flat, mesh);
+  std::vector<int> vertices;
+  for (size_t i = 0; i < flat.points.size(); ++i)
+    if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
+  mesh.cage_vertices = std::move(vertices);
+  return mesh;
+}
 
 Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   check_rest_cage(polygon_cage(polygon));

@@ -138,6 +138,11 @@ void SegmentPolynomial::taylor(const Root& at, std::span<Complex> out) const {
   }
 }
 
+Complex SegmentPolynomial::at(const Root& parameter) const {
+  const bool from_start = std::norm(parameter.s) <= std::norm(parameter.q);
+  return horner(from_start ? start_ : end_, 0, from_start ? parameter.s : parameter.q).value;
+}
+
 Complex SegmentPolynomial::derivative(const Root& at) const {
   const bool from_start = std::norm(at.s) <= std::norm(at.q);
   const Value value = horner(from_start ? start_ : end_, 0, from_start ? at.s : at.q);

@@ -35,7 +35,8 @@ class SegmentPolynomial {
 
   /// c^(j)(t) / j! for j = 0 to order at a parameter.
   void taylor(const Root& at, std::span<Complex> out) const;
-  /// c'(t).
+  /// c(t) and c'(t).
+  Complex at(const Root& parameter) const;
   Complex derivative(const Root& at) const;
 
  private:

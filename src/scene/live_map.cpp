@@ -20,16 +20,25 @@ bool same_rest(const Scene& a, const Scene& b) {
   return true;
 }
 
+namespace {
+
+/// The same place for every segment, whatever degrees straight ones are written with.
+bool is_same_curve(const Cage& a, const Cage& b) {
+  return a == b || (vertices_of(a) == vertices_of(b) && is_straight(a) && is_straight(b));
+}
+
+}  // namespace
+
 std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precision,
                                           const MeshOptions& options, const PreparedMap* previous) {
   const double start = now_ms();
   auto prepared = std::make_unique<PreparedMap>();
   prepared->rest = rest_of(scene, precision);
   prepared->method = scene.method;
-  const Points polygon = vertices_of(scene.rest);
-  const bool same_cage = previous && previous->mesh && vertices_of(previous->rest.cage) == polygon;
+  const bool same_cage =
+      previous && previous->mesh && is_same_curve(previous->rest.cage, prepared->rest.cage);
   prepared->mesh =
-      same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(polygon, options));
+      same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(scene.rest, options));
   prepared->rest.samples = prepared->mesh->vertices;
   prepared->rest.derivative_samples =
       same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/cauchy.h"
 #include "core/clock.h"
 
 namespace holomorph {
@@ -25,12 +26,11 @@ double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map
 double pin_distance(const PreparedMap& prepared, const Scene& scene) {
   if (prepared.rest.pins.empty()) return 0;
   Rest rest = prepared.rest;
-  const Points corners = vertices_of(rest.cage);
   rest.samples.clear();
   rest.derivative_samples.clear();
   Points targets;
   for (size_t i = 0; i < rest.pins.size(); ++i)
-    if (winding_number(corners, rest.pins[i].position) != 0) {
+    if (contains(rest.cage, rest.pins[i].position)) {
       rest.samples.push_back(rest.pins[i].position);
       targets.push_back(scene.pins[i].pose);
     }
@@ -78,7 +78,7 @@ SceneReport report_of(const Scene& scene) {
   report.mesh_triangles = static_cast<int>(prepared->mesh->triangles.size());
   report.prepare_milliseconds = prepared->milliseconds;
   report.map = report_of(*prepared->mesh, map);
-  const double length = perimeter(vertices_of(scene.rest)) / (2 * kPi);
+  const double length = perimeter(outline_of(scene.rest)) / (2 * kPi);
   report.smoothness_energy =
       smoothness(*prepared->mesh, prepared->rest.derivative_samples, map, length);
   report.pin_rms = pin_distance(*prepared, scene);

@@ -80,8 +80,9 @@ double coordinates_ns(Kernel kernel, int order, int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {kAsked});
   PlanarMatrix<float> out;
-  const double ms =
-      median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices, order, kernel, out); });
+  const double ms = median_ms(runs, [&] {
+    planar_coordinates<float>(polygon_cage(cage), mesh.vertices, order, kernel, out);
+  });
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
@@ -97,6 +98,41 @@ double scalar_log_ns(int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
+/// 20 segments around (500, 500), each a curve of `degree`.
+Cage wavy_curves(int degree, double bulge) {
+  Cage cage = polygon_cage(wavy(20, {500, 500}, 350));
+  const Points corners = vertices_of(cage);
+  for (Index e = 0; e < cage.size(); ++e) {
+    const Complex a = corners[e], side = corners[(e + 1) % corners.size()] - a;
+    for (int m = 1; m < degree; ++m)
+      cage.segments[e].push_back(
+          a + side * Complex(static_cast<double>(m) / degree, m % 2 ? bulge : -bulge));
+  }
+  return cage;
+}
+
+double curved_prepare_ms(int runs) {
+  Scene scene;
+  scene.rest = wavy_curves(3, 0.2);
+  scene.pose = wavy_curves(3, 0.1);
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {8700}); });
+}
+
+/// Per point and edge of a straight cage whose pose has this degree.
+double raised_coordinates_ns(int degree, int runs) {
+  const Cage straight = polygon_cage(wavy(100, {500, 500}, 350));
+  Cage raised = straight;
+  for (Points& segment : raised.segments) segment.resize(degree);
+  raised = elevated_to(straight, raised);
+  const Mesh mesh = domain_mesh(straight, {kAsked});
+  PlanarMatrix<float> out;
+  const double ms = median_ms(runs, [&] {
+    planar_coordinates<float>(raised, mesh.vertices, 0,
+                              has_avx2() ? Kernel::avx2 : Kernel::portable, out);
+  });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
+}
+
 double prepare_ms(int runs) {
   const Scene scene = scene_with(wavy(100, {500, 500}, 350));
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
@@ -105,7 +141,7 @@ double prepare_ms(int runs) {
 double coordinates_ms(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {kAsked});
-  return median_ms(runs, [&] { polygon_coordinates<float>(cage, mesh.vertices); });
+  return median_ms(runs, [&] { planar_coordinates<float>(polygon_cage(cage), mesh.vertices); });
 }
 
 double frame_ms(int runs) {
@@ -184,6 +220,10 @@ const Entry kEntries[] = {
      }},
     {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0,
      9, scalar_log_ns},
+    {"coordinates: degree 3 on straight edges, AVX2, per point and edge", "ns", 9, 9,
+     [](int runs) { return raised_coordinates_ns(3, runs); }},
+    {"prepare: curved to curved, 20 cubic segments, 10k vertices, mesh and coordinates", "ms", 300,
+     5, curved_prepare_ms},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
     {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},

@@ -193,8 +193,8 @@ TEST_CASE("Degree 1 gives the regular coordinates C, D and D2, by both paths") {
           CHECK(std::abs(row[j] - exact) <= kGolden * std::max(scale, vertex ? 1e-3 : 0.0));
           if (order < 2 && query["kind"] != "edge_limit") {
             for (const Kernel choice : {Kernel::portable, Kernel::automatic}) {
-              const auto array =
-                  polygon_coordinates<double>(polygon, std::span(&z, 1), order, choice);
+              const auto array = planar_coordinates<double>(polygon_cage(polygon), std::span(&z, 1),
+                                                            order, choice);
               CHECK(std::abs(array(0, j) - exact) <=
                     kGolden * std::max(scale, vertex ? 1e-3 : 0.0));
             }
@@ -277,8 +277,9 @@ TEST_CASE("Cauchy coordinates: scaling by a power of two scales the rows exactly
     CHECK(after * std::pow(scale, order) == before);
   }
   for (int order = 0; order < 2; ++order) {
-    const auto before = polygon_coordinates<double>(polygon, points, order);
-    const auto after = polygon_coordinates<double>(scaled_polygon, scaled_points, order);
+    const auto before = planar_coordinates<double>(polygon_cage(polygon), points, order);
+    const auto after =
+        planar_coordinates<double>(polygon_cage(scaled_polygon), scaled_points, order);
     CHECK(after.re * std::pow(scale, order) == before.re);
     CHECK(after.im * std::pow(scale, order) == before.im);
   }
@@ -298,7 +299,7 @@ TEST_CASE("A clockwise cage gives the coordinates of the reversed one, column by
     for (Index r = 0; r < b.size(); ++r)
       if (b[c] == turned[r]) CHECK((C.col(c) - R.col(r)).cwiseAbs().maxCoeff() <= 1e-15);
   Points back = vertices_of(clockwise);
-  const auto array = polygon_coordinates<double>(back, points);
+  const auto array = planar_coordinates<double>(polygon_cage(back), points);
   const MatrixXc reference = cauchy_coordinates(polygon_cage(back), points);
   CHECK((array.re - reference.real()).cwiseAbs().maxCoeff() <= 1e-14);
   CHECK((array.im - reference.imag()).cwiseAbs().maxCoeff() <= 1e-14);
@@ -312,10 +313,11 @@ TEST_CASE("The array path equals the stable formula, and AVX2 equals portable, t
     points.push_back(0.5 * (polygon[0] + polygon[1]));  // an edge, as well as rounding allows
     for (int order = 0; order < 2; ++order) {
       const MatrixXc exact = cauchy_coordinates(polygon_cage(polygon), points, order);
-      const auto portable = polygon_coordinates<double>(polygon, points, order, Kernel::portable);
+      const auto portable =
+          planar_coordinates<double>(polygon_cage(polygon), points, order, Kernel::portable);
       for (const Kernel choice :
            {has_avx2() ? Kernel::avx2 : Kernel::portable, Kernel::automatic}) {
-        const auto fast = polygon_coordinates<double>(polygon, points, order, choice);
+        const auto fast = planar_coordinates<double>(polygon_cage(polygon), points, order, choice);
         for (Index i = 0; i < exact.rows(); ++i) {
           if (!exact.row(i).allFinite()) {
             CHECK_FALSE(std::isfinite(fast.re.row(i).sum()));

@@ -119,6 +119,18 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
                  {0, 0}, {50, 10}, {100, 0}, {100, 90}, {60, 90}, {25, 5 * (1 + 4e-16)}, {0, 90}})),
              Catch::Contains("touches itself"));
   Cage curved = polygon_cage(shapes::rectangle(5, 5));
-  curved.segments[0].push_back({2, 9});
-  CHECK_THAT(message(curved), Catch::Contains("curved"));
+  curved.segments[0] = {{0, 0}, {2, -1}, {3, 1}};
+  CHECK(message(curved).empty());
+  CHECK(message(shapes::curved_star(12, 4, 0.3, 5)).empty());
+  curved.segments[0] = {{0, 0}, {2, 14}};
+  CHECK_THAT(message(curved), Catch::Contains("segments 0 and 2 meet near ("));
+  curved.segments[0] = {{0, 0}, {12, 4}, {-7, 4}};  // a loop
+  CHECK_THAT(message(curved), Catch::Contains("segments 0 and 0 meet"));
+  curved.segments[0] = {{0, 0}, {0, 0}, {3, 1}};
+  CHECK_THAT(message(curved), Catch::Contains("tangent handle on its point at (0, 0)"));
+  curved.segments[0] = {{0, 0}, {5, 4}, {0, 4}};  // c'(1/2) = 0
+  CHECK_THAT(message(curved), Catch::Contains("cusp at (2.5, 3)"));
+  curved.segments[0] = {{0, 0}, {0, 0}};
+  curved.segments[1][0] = {0, 0};
+  CHECK_THAT(message(curved), Catch::Contains("no length"));
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "core/cauchy.h"
 #include "core/error.h"
 #include "support/shapes.h"
 
@@ -76,6 +77,32 @@ TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repea
   check_partition({{0, 0}, {1e-3, 0}, {1e-3, 1e-3}, {0, 1e-3}}, options);  // tiny
   for (unsigned seed = 1; seed <= 12; ++seed)
     check_partition(shapes::star(4 + 20 * static_cast<int>(seed), 0.6, seed), options);
+}
+
+TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles") {
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    for (const int degree : {2, 3, 6}) {
+      Cage cage = shapes::curved_star(4 + static_cast<int>(seed), degree, 0.3, seed);
+      if (seed % 2) cage = reversed(cage);
+      const Mesh mesh = domain_mesh(cage, {600});
+      double area = 0;
+      for (const Triangle& t : mesh.triangles) {
+        CHECK(triangle_area(mesh, t) > 0);
+        area += triangle_area(mesh, t);
+      }
+      CHECK(area == Approx(std::abs(signed_area(outline_of(cage, 400))))
+                        .epsilon(3e-4));  // sagitta times perimeter
+      REQUIRE(mesh.cage_vertices.size() == static_cast<size_t>(cage.size()));
+      for (Index e = 0; e < cage.size(); ++e)
+        CHECK(mesh.vertices[mesh.cage_vertices[e]] == cage.vertex(e));
+      const Points outline = outline_of(cage, 2000);
+      std::set<int> boundary(mesh.boundary.begin(), mesh.boundary.end());
+      for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+        CHECK(contains(cage, mesh.vertices[v]));
+        if (boundary.contains(static_cast<int>(v)))
+          CHECK(nearest_on_polygon(outline, mesh.vertices[v]).distance < 1e-3);
+      }
+    }
 }
 
 TEST_CASE("A point is located with its weights, on top where the mesh overlaps") {

@@ -9,7 +9,7 @@ template <class T>
 class CageDeformer final : public LinearDeformer<T> {
  public:
   explicit CageDeformer(const Rest& rest) : LinearDeformer<T>(rest) {
-    this->value_ = cage_coordinates<T>(rest.cage, rest.samples, 0);
+    this->value_ = planar_coordinates<T>(rest.cage, rest.samples, 0);
   }
   VectorXc controls(const Pose& pose) const override {
     return cage_displacement(this->rest_, pose);
@@ -17,7 +17,7 @@ class CageDeformer final : public LinearDeformer<T> {
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {
-    return cage_coordinates<T>(this->rest_.cage, this->derivative_points(), 1);
+    return planar_coordinates<T>(this->rest_.cage, this->derivative_points(), 1);
   }
 };
 

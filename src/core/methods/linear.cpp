@@ -70,17 +70,6 @@ VectorXc cage_displacement(const Rest& rest, const Pose& pose) {
 }
 
 template <class T>
-PlanarMatrix<T> cage_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
-  if (cage.control_count() == cage.size())
-    return polygon_coordinates<T>(vertices_of(cage), points, order);
-  const MatrixXc exact = cauchy_coordinates(cage, points, order);
-  PlanarMatrix<T> result(exact.rows(), exact.cols());
-  result.re = exact.real().template cast<T>();
-  result.im = exact.imag().template cast<T>();
-  return result;
-}
-
-template <class T>
 PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right) {
   PlanarMatrix<T> both(left.rows(), left.cols() + right.cols());
   both.re << left.re, right.re;
@@ -90,8 +79,6 @@ PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right
 
 template class LinearDeformer<float>;
 template class LinearDeformer<double>;
-template PlanarMatrix<float> cage_coordinates<float>(const Cage&, std::span<const Complex>, int);
-template PlanarMatrix<double> cage_coordinates<double>(const Cage&, std::span<const Complex>, int);
 template PlanarMatrix<float> beside(const PlanarMatrix<float>&, const PlanarMatrix<float>&);
 template PlanarMatrix<double> beside(const PlanarMatrix<double>&, const PlanarMatrix<double>&);
 

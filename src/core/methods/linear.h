@@ -40,11 +40,6 @@ void check_pose(const Rest& rest, const Pose& pose);
 /// degrees.
 VectorXc cage_displacement(const Rest& rest, const Pose& pose);
 
-/// Coordinates of the cage's control points at points, by the array path where all edges are
-/// straight.
-template <class T>
-PlanarMatrix<T> cage_coordinates(const Cage& cage, std::span<const Complex> points, int order);
-
 /// Two operators side by side.
 template <class T>
 PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right);

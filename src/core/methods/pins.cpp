@@ -1,5 +1,6 @@
 // Method `pins`: f = f_cage + h, h holomorphic, h(u_i) = v_i - f_cage(u_i), and as smooth as can
-// be: the energy mean |h''|^2 at edge midpoints (Segall, Ben-Chen 2016, E_s and E_p2p).
+// be: the energy mean |h''|^2 over the boundary, at the midpoints of straight edges (Segall,
+// Ben-Chen 2016, E_s and E_p2p; Lin, Chen 2024, 4.5, where the cage is curved).
 //
 // With the energy's rows in QR form, R g = y, the minimiser is spanned by the pins themselves, as
 // thin-plate splines are: (M M* + ridge) lambda + T c = data with M = P R^-1 and T the affine maps,
@@ -16,23 +17,44 @@
 namespace holomorph {
 namespace {
 
-constexpr int kBasisVertices = 100;
+constexpr int kBasisControls = 100;
 constexpr double kSpread = 1e-9;  ///< pins nearer than this, in units of L, are one pin
 
-/// The cage's polygon with long edges cut until it has about kBasisVertices.
-Points basis_polygon(const Cage& cage) {
-  const Points corners = vertices_of(cage);
-  const double step = perimeter(corners) / kBasisVertices;
-  Points polygon;
+/// The cage with long segments cut until it has about kBasisControls control points; straight ones
+/// keep two each.
+Cage basis_cage(const Cage& cage) {
+  const double step = perimeter(outline_of(cage)) / kBasisControls;
+  Cage basis;
   for (Index e = 0; e < cage.size(); ++e) {
-    const Complex a = cage.vertex(e), b = cage.vertex(e + 1);
-    const int parts = static_cast<Index>(corners.size()) >= kBasisVertices
-                          ? 1
-                          : std::max(1, static_cast<int>(std::lround(std::abs(b - a) / step)));
-    for (int k = 0; k < parts; ++k)
-      polygon.push_back(a + (b - a) * (static_cast<double>(k) / parts));
+    const Points ends{cage.vertex(e), cage.vertex(e + 1)};
+    Points controls = is_straight(cage, e) ? ends : cage.controls(e);
+    const double controls_each = static_cast<double>(controls.size()) - 1;
+    double length = 0;
+    for (size_t m = 0; m + 1 < controls.size(); ++m)
+      length += std::abs(controls[m + 1] - controls[m]);
+    const int parts =
+        cage.size() >= kBasisControls
+            ? 1
+            : std::max(1, static_cast<int>(std::lround(length / step / controls_each)));
+    for (int left = parts; left > 1; --left) {
+      SplitCurve halves = split(controls, 1.0 / left);
+      halves.before.pop_back();
+      basis.segments.push_back(std::move(halves.before));
+      controls = std::move(halves.after);
+    }
+    controls.pop_back();
+    basis.segments.push_back(std::move(controls));
   }
-  return polygon;
+  return basis;
+}
+
+/// Where the smoothness is measured: as many places on each segment as it has control points, away
+/// from its ends, where f'' has poles.
+std::vector<BoundaryPoint> smoothness_places(const Cage& basis) {
+  std::vector<BoundaryPoint> places;
+  for (Index e = 0; e < basis.size(); ++e)
+    for (int k = 0; k < basis.degree(e); ++k) places.push_back({e, (k + 0.5) / basis.degree(e)});
+  return places;
 }
 
 /// What does not depend on the pins: the basis at the samples and the smoothness energy's factor.
@@ -40,46 +62,44 @@ template <class T>
 struct PinBasis {
   Cage cage;
   Points samples;
-  Points polygon;
+  Cage basis;
   double length = 1;  ///< L = perimeter / 2 pi, the unit of all energies
   PlanarMatrix<T> cage_value, value;
   MatrixXc factor;  ///< upper triangular R
 
   explicit PinBasis(const Rest& rest)
-      : cage(rest.cage), samples(rest.samples), polygon(basis_polygon(rest.cage)) {
-    length = perimeter(polygon) / (2 * kPi);
-    cage_value = cage_coordinates<T>(cage, samples, 0);
-    value = polygon_coordinates<T>(polygon, samples, 0);
-    const Cage basis = polygon_cage(polygon);
-    std::vector<BoundaryPoint> midpoints;
-    for (Index e = 0; e < basis.size(); ++e) midpoints.push_back({e, 0.5});
-    MatrixXc rows(basis.size() + 2, basis.size());
-    rows.topRows(basis.size()) = cauchy_coordinates(basis, midpoints, 2) *
-                                 (length * length / std::sqrt(static_cast<double>(basis.size())));
+      : cage(rest.cage), samples(rest.samples), basis(basis_cage(rest.cage)) {
+    length = perimeter(outline_of(basis)) / (2 * kPi);
+    cage_value = planar_coordinates<T>(cage, samples, 0);
+    value = planar_coordinates<T>(basis, samples, 0);
+    const Index n = basis.control_count();
+    MatrixXc rows(n + 2, n);
+    rows.topRows(n) = cauchy_coordinates(basis, smoothness_places(basis), 2) *
+                      (length * length / std::sqrt(static_cast<double>(n)));
     // The energy leaves affine maps free; two rows at an inner point make R invertible. They do not
     // change the minimiser, because the affine part is solved for separately.
     const Complex anchor = inner_point();
-    rows.row(basis.size()) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
-    rows.row(basis.size() + 1) =
-        length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
+    rows.row(n) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
+    rows.row(n + 1) = length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
     const Eigen::HouseholderQR<MatrixXc> qr(rows);
-    factor = qr.matrixQR().topRows(basis.size()).template triangularView<Eigen::Upper>();
+    factor = qr.matrixQR().topRows(n).template triangularView<Eigen::Upper>();
   }
 
   /// The deepest of a grid of points.
   Complex inner_point() const {
-    const Box box = box_of(polygon);
+    const Points outline = outline_of(basis);
+    const Box box = box_of(outline);
     Complex best;
     double depth = -1;
     constexpr int kGrid = 24;
     for (int i = 1; i < kGrid; ++i)
       for (int j = 1; j < kGrid; ++j) {
         const Complex z(box.left + box.width() * i / kGrid, box.bottom + box.height() * j / kGrid);
-        if (winding_number(polygon, z) == 0) continue;
-        if (const double here = nearest_on_polygon(polygon, z).distance; here > depth)
+        if (winding_number(outline, z) == 0) continue;
+        if (const double here = nearest_on_polygon(outline, z).distance; here > depth)
           best = z, depth = here;
       }
-    return depth > 0 ? best : 0.5 * (polygon[0] + polygon[1]);
+    return depth > 0 ? best : 0.5 * (outline[0] + outline[1]);
   }
 };
 
@@ -126,10 +146,10 @@ class PinsDeformer final : public LinearDeformer<T> {
  protected:
   PlanarMatrix<T> derivative_matrix() const override {
     const Points& points = this->derivative_points();
-    PlanarMatrix<T> cage = cage_coordinates<T>(this->rest_.cage, points, 1);
+    PlanarMatrix<T> cage = planar_coordinates<T>(this->rest_.cage, points, 1);
     if (used_.empty()) return cage;
     PlanarMatrix<T> correction(static_cast<Index>(points.size()), coefficients_.re.cols());
-    multiply(polygon_coordinates<T>(basis_->polygon, points, 1), coefficients_, correction);
+    multiply(planar_coordinates<T>(basis_->basis, points, 1), coefficients_, correction);
     add_affine(correction, points, 1);
     return beside(cage, correction);
   }
@@ -140,14 +160,13 @@ class PinsDeformer final : public LinearDeformer<T> {
   /// Pins outside the cage, or on the spot of an earlier one, are left out and named in the note.
   void choose_pins() {
     const auto& pins = this->rest_.pins;
-    const Points corners = vertices_of(this->rest_.cage);
     std::string outside, doubled;
     for (size_t i = 0; i < pins.size(); ++i) {
       const Complex z = pins[i].position;
       const auto name = [&](std::string& list) {
         list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
       };
-      if (!is_finite(z) || winding_number(corners, z) == 0) {
+      if (!is_finite(z) || !contains(this->rest_.cage, z)) {
         name(outside);
         continue;
       }
@@ -176,9 +195,9 @@ class PinsDeformer final : public LinearDeformer<T> {
     }
     const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()),
                 m = p + q;
-    const Index n = static_cast<Index>(basis_->polygon.size());
+    const Cage& basis = basis_->basis;
+    const Index n = basis.control_count();
     const double length = basis_->length;
-    const Cage basis = polygon_cage(basis_->polygon);
     MatrixXc rows(m, n);
     rows.topRows(p) = cauchy_coordinates(basis, places, 0);
     cage_at_pins_.resize(m, this->rest_.cage.control_count());
