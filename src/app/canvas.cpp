@@ -19,7 +19,9 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   frame.canvas_height = view.height * at.ratio;
   frame.center = view.center;
   frame.zoom = view.zoom * at.ratio;
-  frame.view = is_heat(workspace.view) && heat_values_.size() == 0 ? View::image : workspace.view;
+  const bool shows_picture =
+      !workspace.map.has_map() || (is_heat(workspace.view) && heat_values_.size() == 0);
+  frame.view = shows_picture ? View::image : workspace.view;
   frame.diverging = heat_scale_.diverging;
   frame.wireframe = workspace.show_mesh;
   frame.placement = workspace.at_rest() ? Placement::at_rest

@@ -26,7 +26,7 @@ class Editor {
     tools_.push_back(pin_tool());
     workspace_.map.on_ready([this] { window_.wake(); });
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
-    if (!options.file.empty()) files_.open(options.file);
+    if (!options.file.empty()) files_.ask_open(options.file);
     if (!options.file.empty() && !files_.recoverable().empty())
       workspace_.say("There is unsaved work from an earlier session: File > New shows it.");
     if (workspace_.document.empty()) samples_ = load_samples();
@@ -53,6 +53,7 @@ class Editor {
     layout(sizes);
     take_events();
     Input input = take_input();
+    if (input.wheel != 0 && current_tool().scroll(input, workspace_)) input.wheel = 0;
     navigate(input);
     use_tool(input);
     open_context_menu(input);
@@ -76,9 +77,6 @@ class Editor {
     workspace_.handle_px = 10 * window_.scale();
     if (std::exchange(fit_, false)) view.fit(workspace_.content_box());
   }
-
-  // ---- Events
-  // ------------------------------------------------------------------------------------
 
   void take_events() {
     for (const Path& path : window_.take_drops()) files_.ask_open(path);
@@ -120,6 +118,7 @@ class Editor {
     input.down = ImGui::IsMouseDown(0);
     input.released = ImGui::IsMouseReleased(0);
     input.wheel = input.inside ? io.MouseWheel : 0;
+    input.position = workspace_.viewport.plane_at_px(input.px);
     return input;
   }
 
@@ -129,8 +128,7 @@ class Editor {
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (input.wheel != 0 && !current_tool().takes_wheel())
-      workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
+    if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -169,6 +167,7 @@ class Editor {
 
   void answer(const PanelAnswer& wanted) {
     if (wanted.open) files_.ask_open(*wanted.open);
+    if (wanted.sample) files_.ask_sample(*wanted.sample);
     if (wanted.recover) files_.ask_recover(*wanted.recover);
     if (wanted.discard) files_.discard(*wanted.discard);
     if (wanted.style_changed) {
@@ -183,9 +182,6 @@ class Editor {
     fit_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
-
-  // ---- Drawing
-  // -----------------------------------------------------------------------------------
 
   void update_title() {
     const Document& document = workspace_.document;

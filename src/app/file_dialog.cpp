@@ -23,6 +23,7 @@ Path home() {
 void FileDialog::ask(FileQuestion question, Answer answer) {
   question_ = std::move(question);
   answer_ = std::move(answer);
+  ++questions_;
   open_ = opening_ = true;
   confirming_ = false;
   picture_scale_ = 1;
@@ -48,12 +49,13 @@ void FileDialog::enter(const Path& folder) {
   message_.clear();
   std::vector<Item> items;
   std::error_code error;
-  for (const auto& entry :
-       fs::directory_iterator(folder, fs::directory_options::skip_permission_denied, error)) {
-    if (entry.path().filename().string().starts_with(".")) continue;
+  for (fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename().string().starts_with(".")) continue;
     std::error_code ignored;
-    const bool is_folder = entry.is_directory(ignored);
-    if (is_folder || shows(entry.path())) items.push_back({entry.path(), is_folder});
+    const bool is_folder = entry->is_directory(ignored);
+    if (is_folder || shows(entry->path())) items.push_back({entry->path(), is_folder});
   }
   if (error) {
     message_ = folder.string() + " cannot be read: " + error.message();
@@ -73,7 +75,7 @@ void FileDialog::accept(const Path& wanted) {
   if (fs::is_directory(path, error)) return enter(path);
   if (question_.mode == FileQuestion::Mode::open) {
     if (!fs::exists(path, error)) {
-      message_ = "There is no file " + path.filename().string() + " here.";
+      message_ = "There is no file '" + path.filename().string() + "' here.";
       return;
     }
   } else {
@@ -86,10 +88,15 @@ void FileDialog::accept(const Path& wanted) {
       return;
     }
   }
+  const Answer answer = answer_;
+  const unsigned question = questions_;
+  const std::string problem = answer(path, picture_scale_);
+  if (questions_ != question) return;  // the answer led to another question
+  message_ = problem;
+  confirming_ = false;
+  if (!problem.empty()) return;
   open_ = false;
   ImGui::CloseCurrentPopup();
-  const Answer answer = std::exchange(answer_, {});  // it may ask the next question
-  answer(path, picture_scale_);
 }
 
 void FileDialog::draw(double scale) {
@@ -147,7 +154,7 @@ void FileDialog::draw(double scale) {
       picture_scale_ = value;
   }
   if (!message_.empty())
-    ImGui::TextUnformatted(message_.c_str());
+    ImGui::TextWrapped("%s", message_.c_str());
   else
     ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
                                   ? "Double-click opens."

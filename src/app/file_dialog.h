@@ -22,7 +22,8 @@ struct FileQuestion {
 /// Shows one question at a time; the answer comes through the callback, once.
 class FileDialog {
  public:
-  using Answer = std::function<void(const Path& path, double scale)>;
+  /// Does what was asked for; returns what is wrong, and the dialog stays open, or "".
+  using Answer = std::function<std::string(const Path& path, double scale)>;
 
   void ask(FileQuestion question, Answer answer);
   bool open() const { return open_; }
@@ -36,6 +37,7 @@ class FileDialog {
 
   FileQuestion question_;
   Answer answer_;
+  unsigned questions_ = 0;  ///< asked so far
   bool open_ = false, opening_ = false, confirming_ = false, focus_ = false;
   Path folder_;
   std::string name_, message_;

@@ -16,9 +16,6 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       replaced_(std::move(replaced)),
       recoverable_(holomorph::recoverable(autosave_folder())) {}
 
-// ---- Opening
-// -------------------------------------------------------------------------------------
-
 void Files::ask_then(Then then) {
   if (!workspace_.document.modified()) return then();
   after_question_ = std::move(then);
@@ -32,18 +29,35 @@ void Files::adopt(Document document) {
   replaced_();
 }
 
-void Files::open(const Path& path) {
+std::string Files::open(const Path& path) {
   try {
     adopt(Document::open(path));
-    remember(preferences_, std::filesystem::absolute(path));
+    remember(preferences_, std::filesystem::absolute(path).lexically_normal());
     keep_preferences();
   } catch (const Error& error) {
-    workspace_.complain(error);
+    if (!std::filesystem::exists(path) && std::erase(preferences_.recent, path) > 0)
+      keep_preferences();
+    return error.what();
   }
+  return "";
+}
+
+void Files::complain(const std::string& problem) {
+  if (!problem.empty()) workspace_.complain(Error(ErrorKind::failed, problem));
 }
 
 void Files::ask_open(const Path& path) {
-  ask_then([this, path] { open(path); });
+  ask_then([this, path] { complain(open(path)); });
+}
+
+void Files::ask_sample(const Path& scene) {
+  ask_then([this, scene] {
+    try {
+      adopt(Document::copy_of(scene));
+    } catch (const Error& error) {
+      workspace_.complain(error);
+    }
+  });
 }
 
 void Files::ask_recover(const Path& autosave) {
@@ -66,38 +80,37 @@ void Files::discard(const Path& autosave) {
   std::erase_if(recoverable_, [&](const Recovery& r) { return r.path == autosave; });
 }
 
-// ---- Saving
-// --------------------------------------------------------------------------------------
-
-void Files::save_to(const Path& path, const Then& then) {
+std::string Files::save_to(const Path& path, const Then& then) {
   try {
     workspace_.document.save(path);
     workspace_.document.remove_autosave(autosave_folder());
     remember(preferences_, workspace_.document.path());
     keep_preferences();
     workspace_.say("Saved " + path.filename().string() + ".");
-    if (then) then();
   } catch (const Error& error) {
-    workspace_.complain(error);
+    return error.what();
   }
+  if (then) then();
+  return "";
 }
 
 void Files::save(bool as, const Then& then) {
   const Document& document = workspace_.document;
-  if (!as && !document.path().empty()) return save_to(document.path(), then);
+  if (!as && !document.path().empty()) return complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.image_path().empty())
     start = Path(document.image_path()).replace_extension(".json");
   if (start.empty()) start = "scene.json";
   dialog_.ask({FileQuestion::Mode::save, "Save the scene", "Save", {".json"}, start, false},
-              [this, then](const Path& path, double) { save_to(path, then); });
+              [this, then](const Path& path, double) { return save_to(path, then); });
 }
 
-void Files::export_to(const Path& path, double scale) {
+std::string Files::export_to(const Path& path, double scale) {
   try {
+    check_not_a_source(path, workspace_.document.path(), workspace_.document.image_path());
     PictureOptions options;
     options.scale = scale;
-    options.view = workspace_.view;
+    options.view = workspace_.scene().has_cage() ? workspace_.view : View::image;
     options.automatic_range = workspace_.automatic_range;
     const RasterResult result =
         picture_of(workspace_.document.scene(), workspace_.document.image(), options);
@@ -108,8 +121,9 @@ void Files::export_to(const Path& path, double scale) {
                    std::to_string(result.image.width) + " x " +
                    std::to_string(result.image.height) + " pixels.");
   } catch (const Error& error) {
-    workspace_.complain(error);
+    return error.what();
   }
+  return "";
 }
 
 void Files::ask_export() {
@@ -120,7 +134,7 @@ void Files::ask_export() {
   // Never offer to replace the source picture itself.
   if (export_path_.empty()) start.replace_filename(start.stem().string() + "-bent.png");
   dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
-              [this](const Path& path, double scale) { export_to(path, scale); });
+              [this](const Path& path, double scale) { return export_to(path, scale); });
 }
 
 void Files::autosave() {
@@ -139,9 +153,6 @@ void Files::keep_preferences() {
   }
 }
 
-// ---- What actions ask for
-// ------------------------------------------------------------------------
-
 void Files::answer(Request request) {
   switch (request) {
     case Request::new_scene:
@@ -158,7 +169,7 @@ void Files::answer(Request request) {
                      {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json"},
                      {},
                      false},
-                    [this](const Path& path, double) { open(path); });
+                    [this](const Path& path, double) { return open(path); });
       });
       break;
     case Request::save:
@@ -174,7 +185,7 @@ void Files::answer(Request request) {
       if (export_path_.empty())
         ask_export();
       else
-        export_to(export_path_, export_scale_);
+        complain(export_to(export_path_, export_scale_));
       break;
     case Request::quit:
       ask_then([this] {

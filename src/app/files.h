@@ -8,14 +8,19 @@
 
 namespace holomorph {
 
+/// Knows the document's path and picture, the dialogs and the recent files; asks before unsaved
+/// work is lost.
 class Files {
  public:
   /// `replaced` is called whenever the workspace has got another document.
   Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced);
 
-  /// Opens a scene or a picture at once, or after the user has decided about unsaved work.
-  void open(const Path& path);
+  /// Opens a scene or a picture at once, or after the user has decided about unsaved work. Returns
+  /// what is wrong, or "".
+  std::string open(const Path& path);
   void ask_open(const Path& path);
+  /// Opens a copy of a scene, which has no file of its own yet.
+  void ask_sample(const Path& scene);
   /// Does what an action asked for, if it is about files.
   void answer(Request request);
   /// Recovers or deletes what an earlier session left.
@@ -36,9 +41,11 @@ class Files {
   void ask_then(Then then);
   void adopt(Document document);
   void recover(const Path& autosave);
-  void save_to(const Path& path, const Then& then);
+  std::string save_to(const Path& path, const Then& then);
   void save(bool as, const Then& then = {});
-  void export_to(const Path& path, double scale);
+  std::string export_to(const Path& path, double scale);
+  /// Shows a problem that no dialog is there to show.
+  void complain(const std::string& problem);
   void ask_export();
   void draw_question(double scale);
 

@@ -1,4 +1,6 @@
 // The panel on the right: method, selection, cage, heat map, history.
+#include <utility>
+
 #include "app/panels.h"
 #include "scene/auto_cage.h"
 
@@ -41,7 +43,8 @@ void method_section(Workspace& workspace) {
         workspace.commit(spec.label, after);
       }
     } else {
-      const bool unused = method.id == "pins" && parameter(method, scene.parameters, "exact") != 0;
+      const bool unused =
+          !spec.idle_with.empty() && parameter(method, scene.parameters, spec.idle_with) != 0;
       ImGui::BeginDisabled(unused);
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
@@ -144,13 +147,12 @@ void selection_section(Workspace& workspace) {
 void cage_section(Workspace& workspace) {
   const Scene& scene = workspace.scene();
   if (scene.has_cage())
-    ImGui::Text("%d cage points, %d pins", static_cast<int>(scene.rest.size()),
-                static_cast<int>(scene.pins.size()));
+    ImGui::Text("%d cage points, %d pins%s", static_cast<int>(scene.rest.size()),
+                static_cast<int>(scene.pins.size()),
+                scene.pins.empty() || method_named(scene.method).uses_pins ? "" : " (at rest)");
   else
     ImGui::TextDisabled("No cage yet.");
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
+  points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
   float margin = static_cast<float>(std::max(workspace.auto_cage_margin, -1.0));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
@@ -191,6 +193,10 @@ void history_section(Workspace& workspace) {
   const History& history = workspace.document.history();
   ImGui::BeginChild("history", {0, std::max(ImGui::GetContentRegionAvail().y,
                                             7 * ImGui::GetTextLineHeightWithSpacing())});
+  // Scrolls to the current step when that has changed, and otherwise leaves the list to the user.
+  int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);
+  const bool moved =
+      std::exchange(shown, static_cast<int>(history.index())) != static_cast<int>(history.index());
   for (size_t i = history.entries().size(); i-- > 0;) {
     const bool current = i == history.index();
     if (i > history.index())
@@ -198,11 +204,10 @@ void history_section(Workspace& workspace) {
     ImGui::PushID(static_cast<int>(i));
     const bool go = ImGui::Selectable(history.entries()[i].label.c_str(), current);
     ImGui::PopID();
-    if (current && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+    if (current && moved) ImGui::SetScrollHereY();
     if (i > history.index()) ImGui::PopStyleColor();
     if (go) {
-      workspace.document.go_to(i);
-      workspace.prune_selection();
+      workspace.go_to(i);
       break;
     }
   }

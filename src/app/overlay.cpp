@@ -92,7 +92,8 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     const ImVec2 at = px(workspace, workspace.scene().pins[*gesture.ring].pose);
     const float radius = static_cast<float>(kRingRadius * workspace.handle_px);
     list.AddCircle(at, radius, style.colors.outline, 0, 4.5f * s);
-    list.AddCircle(at, radius, style.colors.pin, 0, 2.2f * s);
+    list.AddCircle(at, radius, gesture.ring_hovered ? style.colors.hover : style.colors.pin, 0,
+                   (gesture.ring_hovered ? 3.2f : 2.2f) * s);
   }
 }
 
@@ -112,9 +113,11 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
+      const float width = static_cast<float>(style.scale);
+      list.AddPolyline(line.data(), static_cast<int>(line.size()), IM_COL32(0, 0, 0, 70),
+                       ImDrawFlags_Closed, 2.6f * width);
       list.AddPolyline(line.data(), static_cast<int>(line.size()),
-                       (color & 0x00ffffff) | 0x70000000, ImDrawFlags_Closed,
-                       static_cast<float>(style.scale));
+                       (color & 0x00ffffff) | 0xb0000000, ImDrawFlags_Closed, 1.3f * width);
     } else if (scene.has_cage())
       draw_cage(list, workspace, cage_of(scene, layer), color, style);
     for (const Handle& handle : handles_of(scene, layer)) {
@@ -186,8 +189,12 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
     std::snprintf(text, sizeof text, "folded here");
   list.AddCircle(p, 9 * s, IM_COL32_BLACK, 0, 4 * s);
   list.AddCircle(p, 9 * s, IM_COL32_WHITE, 0, 2 * s);
-  list.AddText({p.x + 13 * s + 1, p.y - 8 * s + 1}, IM_COL32_BLACK, text);
-  list.AddText({p.x + 13 * s, p.y - 8 * s}, IM_COL32_WHITE, text);
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 corner(p.x + 14 * s, p.y - size.y / 2);
+  list.AddRectFilled({corner.x - 5 * s, corner.y - 2 * s},
+                     {corner.x + size.x + 5 * s, corner.y + size.y + 2 * s}, style.colors.panel,
+                     4 * s);
+  list.AddText(corner, style.colors.text, text);
 }
 
 }  // namespace holomorph

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "scene/report.h"
+
 namespace holomorph {
 
 PanelSizes PanelSizes::at(double scale) {
@@ -34,9 +36,18 @@ void menu_of(const char* name, Workspace& workspace) {
 
 }  // namespace
 
+void points_slider(Workspace& workspace, float width) {
+  ImGui::SetNextItemWidth(width);
+  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("For the next cage that is made from the picture; an opaque one gets four");
+}
+
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
+  const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   for (const char* name : {"File", "Edit", "Tools", "Cage", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;
     if (std::string_view(name) == "File" &&
@@ -48,10 +59,9 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     menu_of(name, workspace);
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
-      ImGui::SetNextItemWidth(160);
-      ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
-                       ImGuiSliderFlags_AlwaysClamp);
+      points_slider(workspace, 160);
     }
+    if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {
       ImGui::Separator();
       if (ImGui::MenuItem("Light theme", "", preferences.light_theme)) {
@@ -145,7 +155,10 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     if (const auto fold = map.fold()) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
       ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *fold;
+      if (ImGui::SmallButton("Show me")) {
+        workspace.viewport.center = *fold;
+        workspace.toasts.push_back({"The picture folds over itself here.", true, fold});
+      }
       ImGui::SameLine();
     }
   }
@@ -160,7 +173,9 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.viewport.zoom);
   if (map.has_map()) {
     add("%s: ", method_named(workspace.scene().method).label.c_str());
-    add("%s, %.2f ms%s   ", map.map().status == SampledMap::Status::exact ? "exact" : "",
+    const bool closed_form = map.map().status == SampledMap::Status::exact;
+    add("%s%.2f ms%s   ",
+        closed_form ? "" : (std::string(name_of(map.map().status)) + ", ").c_str(),
         map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
   }
   if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
@@ -183,6 +198,7 @@ void draw_context_menu(Workspace& workspace) {
   for (const char* id : {"edit.delete", "edit.reset", "edit.free_angle", "edit.select_all",
                          "view.frame", "view.fit", "cage.rest"})
     action_item(action_named(id), workspace);
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
@@ -201,9 +217,7 @@ void draw_cage_offer(Workspace& workspace, double scale) {
     run(action_named("cage.from_picture"), workspace);
   ImGui::SameLine();
   if (ImGui::Button("\uf040  Draw it (P)", {150 * s, 0})) workspace.tool = ToolId::pen;
-  ImGui::SetNextItemWidth(190 * s);
-  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
+  points_slider(workspace, 190 * s);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
@@ -227,11 +241,13 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s}))
     run(action_named("file.open"), workspace);
   ImGui::SameLine();
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (40 * s - ImGui::GetTextLineHeight()) / 2);
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (40 * s - ImGui::GetTextLineHeight()) / 2 - 5 * s);
   ImGui::TextDisabled("or drop a file on this window");
   if (!recoverable.empty()) {
     ImGui::Dummy({0, 8 * s});
-    ImGui::TextColored({0.98f, 0.7f, 0.25f, 1}, "Work that was not saved:");
+    ImGui::PushStyleColor(ImGuiCol_Text, canvas_colors(preferences.light_theme).warning);
+    ImGui::TextUnformatted("Work that was not saved:");
+    ImGui::PopStyleColor();
     for (const auto& [path, label] : recoverable) {
       ImGui::PushID(path.c_str());
       ImGui::AlignTextToFramePadding();
@@ -239,7 +255,12 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
       ImGui::SameLine();
       if (ImGui::Button("Recover")) answer.recover = path;
       ImGui::SameLine();
-      if (ImGui::Button("Discard")) answer.discard = path;
+      // Twice, because it cannot be undone.
+      bool& sure = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("sure"));
+      if (ImGui::Button(sure ? "Really discard?###discard" : "Discard###discard")) {
+        if (sure) answer.discard = path;
+        sure = !sure;
+      }
       ImGui::PopID();
     }
   }
@@ -252,7 +273,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
     if (i > 0 && ImGui::GetItemRectMax().x + tile + 60 * s < display.x) ImGui::SameLine(0, 20 * s);
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::Button("##tile", {tile, tile})) answer.open = sample.scene;
+    if (ImGui::Button("##tile", {tile, tile})) answer.sample = sample.scene;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (sample.thumbnail.id()) {
       const float w = static_cast<float>(sample.thumbnail.width()),
@@ -304,6 +325,7 @@ bool draw_help(double scale) {
       {"Middle drag, Space-drag", "pan"},
       {"Wheel", "zoom at the cursor"},
       {"Right click", "menu of what is under the cursor"},
+      {"Ctrl-click a number field", "type into it"},
       {"Hold H", "hide cage and pins"},
       {"Hold \\", "show the original picture"},
       {"Enter, Backspace, Esc", "while drawing: close, take a point back, cancel"}};
@@ -318,7 +340,9 @@ bool draw_help(double scale) {
     for (const auto& line : kMouse) row(line[0], line[1]);
     for (const Action& action : actions()) {
       std::string keys;
-      for (const Shortcut& key : action.keys) keys += (keys.empty() ? "" : ", ") + text_of(key);
+      for (const Shortcut& key : action.keys)
+        if (keys.find(text_of(key)) == std::string::npos || text_of(key).size() == 1)
+          keys += (keys.empty() ? "" : ", ") + text_of(key);
       if (!keys.empty()) row(keys, action.label);
     }
     ImGui::EndTable();
@@ -344,7 +368,7 @@ bool draw_palette(Workspace& workspace, std::string& text, bool opening, double 
     if (lower_case(action.label).find(lower_case(text)) == std::string::npos) continue;
     const bool enabled = action.enabled(workspace);
     if (entered && first && enabled) chosen = &action;
-    if (enabled) first = false;
+    first = false;
     ImGui::BeginDisabled(!enabled);
     if (ImGui::Selectable((action.label + "###" + action.id).c_str())) chosen = &action;
     ImGui::EndDisabled();
@@ -353,6 +377,7 @@ bool draw_palette(Workspace& workspace, std::string& text, bool opening, double 
       ImGui::TextDisabled("%s", text_of(action.keys[0]).c_str());
     }
   }
+  if (first) ImGui::TextDisabled("Nothing is called that.");
   const bool left =
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) ||
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));

@@ -12,7 +12,8 @@ namespace holomorph {
 
 /// What a panel can ask of the editor beyond actions.
 struct PanelAnswer {
-  std::optional<Path> open;     ///< a recent file or a sample
+  std::optional<Path> open;     ///< a recent file
+  std::optional<Path> sample;   ///< a scene to start from
   std::optional<Path> recover;  ///< an autosave
   std::optional<Path> discard;  ///< an autosave to delete
   bool style_changed = false;   ///< theme or scale in the preferences
@@ -44,6 +45,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 
 /// What a right click on the canvas offers.
 void draw_context_menu(Workspace& workspace);
+
+/// How many points the next cage from the picture has.
+void points_slider(Workspace& workspace, float width);
 
 /// The two buttons for a picture without a cage.
 void draw_cage_offer(Workspace& workspace, double scale);

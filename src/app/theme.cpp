@@ -11,7 +11,7 @@ ImVec4 rgb(unsigned hex, float alpha = 1) {
           static_cast<float>(hex & 255) / 255, alpha};
 }
 
-bool add_fonts(float size) {
+void add_fonts(float size) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
   static const ImWchar text[] = {0x20,   0x24f,  0x370,  0x3ff,  0x2010, 0x2044,
@@ -30,21 +30,19 @@ bool add_fonts(float size) {
   };
   if (!std::filesystem::exists(HOLOMORPH_ICON_FONT_FILE)) {
     add_title();
-    return false;
+    return;
   }
   ImFontConfig merge;
   merge.MergeMode = true;
   merge.GlyphMinAdvanceX = size * 1.2f;
   merge.GlyphOffset = {0, 0};
-  const bool has_icons =
-      fonts.AddFontFromFileTTF(HOLOMORPH_ICON_FONT_FILE, size, &merge, icons) != nullptr;
+  fonts.AddFontFromFileTTF(HOLOMORPH_ICON_FONT_FILE, size, &merge, icons);
   add_title();
-  return has_icons;
 }
 
 }  // namespace
 
-bool apply_theme(double scale, bool light) {
+void apply_theme(double scale, bool light) {
   const float s = static_cast<float>(scale);
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
@@ -76,13 +74,16 @@ bool apply_theme(double scale, bool light) {
   c[ImGuiCol_FrameBg] = c[ImGuiCol_Button] = rgb(frame);
   c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_ButtonHovered] = rgb(hover);
   c[ImGuiCol_FrameBgActive] = c[ImGuiCol_ButtonActive] = rgb(accent, 0.55f);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = rgb(accent);
+  c[ImGuiCol_CheckMark] = rgb(accent);
+  c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);  // the value shows through
+  c[ImGuiCol_SliderGrabActive] = rgb(accent, 0.75f);
+  c[ImGuiCol_ModalWindowDimBg] = rgb(0x000000, 0.5f);
   c[ImGuiCol_Header] = rgb(accent, light ? 0.22f : 0.30f);
   c[ImGuiCol_HeaderHovered] = rgb(accent, light ? 0.30f : 0.40f);
   c[ImGuiCol_HeaderActive] = rgb(accent, 0.5f);
   c[ImGuiCol_Separator] = rgb(light ? 0xd3d4d9 : 0x3a3c43);
   c[ImGuiCol_TextSelectedBg] = rgb(accent, 0.35f);
-  return add_fonts(static_cast<float>(static_cast<int>(16 * scale + 0.5)));
+  add_fonts(static_cast<float>(static_cast<int>(16 * scale + 0.5)));
 }
 
 ImFont* title_font() {

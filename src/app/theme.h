@@ -7,8 +7,8 @@
 
 namespace holomorph {
 
-/// Sets ImGui's fonts and style. Returns whether the icon font was found.
-bool apply_theme(double scale, bool light);
+/// Sets ImGui's fonts and style.
+void apply_theme(double scale, bool light);
 
 /// The large font of titles.
 ImFont* title_font();

@@ -13,9 +13,13 @@ constexpr double kShownMs = 4500, kProblemMs = 9000;
 }  // namespace
 
 void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
+  const size_t step = workspace.document.history().index();
+  // A place that a message is about is another one after the next step.
+  std::erase_if(shown_,
+                [&](const Shown& shown) { return shown.toast.where && shown.step != step; });
   for (Toast& toast : std::exchange(workspace.toasts, {})) {
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
-    shown_.push_back({std::move(toast), until});
+    shown_.push_back({std::move(toast), until, step});
   }
   const float s = static_cast<float>(style.scale);
   const Viewport& view = workspace.viewport;

@@ -18,6 +18,7 @@ class Toasts {
   struct Shown {
     Toast toast;
     double until;
+    size_t step;  ///< of the history, when it was said
   };
   std::vector<Shown> shown_;
 };

@@ -53,9 +53,13 @@ int printed_key(int key, int scancode) {
     default:
       break;
   }
+  // The number row is digits whatever it prints without Shift (French layouts), and letters of
+  // other alphabets are the keys of GLFW's own.
+  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;
   const char* name = glfwGetKeyName(key, scancode);
-  if (!name || name[0] == 0 || name[1] != 0) return 0;
-  return std::toupper(static_cast<unsigned char>(name[0]));
+  const bool ascii = name && name[0] > ' ' && name[0] < 127 && name[1] == 0;
+  if (ascii) return std::toupper(static_cast<unsigned char>(name[0]));
+  return key > ' ' && key < 127 ? key : 0;
 }
 
 }  // namespace
@@ -157,7 +161,7 @@ void Window::set_style(double ui_scale, bool light) {
   wanted_scale_ = ui_scale;
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
   light_ = light;
-  has_icons_ = apply_theme(scale_, light);
+  apply_theme(scale_, light);
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again from the new fonts with the next frame
   ImGui_ImplOpenGL3_CreateFontsTexture();
   wake();

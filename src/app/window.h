@@ -37,7 +37,6 @@ class Window {
   void set_style(double ui_scale, bool light);
   double scale() const { return scale_; }
   bool light() const { return light_; }
-  bool has_icons() const { return has_icons_; }
 
   /// Key presses since the last call, repeats included.
   std::vector<Shortcut> take_keys();
@@ -69,7 +68,7 @@ class Window {
   std::atomic<bool> woken_{false};
   int owed_frames_ = 3;
   double scale_ = 1, wanted_scale_ = 0;
-  bool light_ = false, has_icons_ = false, close_ = false, moved_display_ = false;
+  bool light_ = false, close_ = false, moved_display_ = false;
   std::vector<Shortcut> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;

@@ -20,9 +20,18 @@ namespace holomorph {
 namespace {
 
 LoadedScene load(const Path& path) {
+  if (lower_case(path.extension().string()) != ".json" && std::filesystem::is_regular_file(path) &&
+      !read_file(path).starts_with("{"))
+    throw Error(ErrorKind::bad_input, path.string() +
+                                          ": this is no scene; make one from a picture with "
+                                          "'holomorph new PICTURE --out SCENE'");
   LoadedScene loaded = load_scene(path);
   if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
   return loaded;
+}
+
+void check_out(const Path& out, const Path& scene, const LoadedScene& loaded) {
+  check_not_a_source(out, scene, loaded.scene.image ? image_path_of(loaded.scene, scene) : Path());
 }
 
 void require_cage(const Scene& scene, const Path& path) {
@@ -91,6 +100,7 @@ void run(const CoordinatesCommand& command) {
 
 void run(const RenderCommand& command) {
   const LoadedScene loaded = load(command.scene);
+  check_out(command.out, command.scene, loaded);
   PictureOptions options;
   options.view = view_named(command.view);
   options.scale = command.scale;
@@ -144,7 +154,9 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 void run(const ExportCommand& command) {
   if (command.format == "png")
     return run(RenderCommand{command.scene, command.out, 1, "image", false});
-  const std::string bytes = exported(load(command.scene), command);
+  const LoadedScene loaded = load(command.scene);
+  check_out(command.out, command.scene, loaded);
+  const std::string bytes = exported(loaded, command);
   write_file(command.out, bytes);
   std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());
 }

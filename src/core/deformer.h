@@ -22,6 +22,7 @@ struct ParameterSpec {
   Kind kind = Kind::number;
   double fallback = 0, lowest = 0, highest = 1;
   bool logarithmic = false;
+  std::string idle_with;  ///< the key of a toggle that leaves this one without effect
 };
 
 enum class Precision {
@@ -35,10 +36,11 @@ struct RestPin {
   bool turns = false;
   bool operator==(const RestPin&) const = default;
 };
+inline constexpr double kLeastPinScale = 0.01, kMostPinScale = 100;
 struct PosePin {
   Complex position;
   double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin turns
-  double scale = 1.0;  ///< positive; used where the rest pin turns
+  double scale = 1.0;  ///< kLeastPinScale to kMostPinScale; used where the rest pin turns
   bool operator==(const PosePin&) const = default;
 };
 

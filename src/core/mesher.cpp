@@ -148,8 +148,7 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
   std::vector<Point> points;
   const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
   const Box& box = sizing.box();
-  const int rows = static_cast<int>(box.height() / row_height),
-            columns = static_cast<int>(box.width() / step) + 1;
+  const int rows = static_cast<int>(box.height() / row_height);
   std::vector<double> crossings;
   for (int r = 1; r <= rows; ++r) {
     const double y = box.bottom + r * row_height;
@@ -161,18 +160,19 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
                             (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
     }
     std::sort(crossings.begin(), crossings.end());
-    size_t passed = 0;
-    for (int c = 0; c <= columns; ++c) {
-      const Complex z(box.left + (c + 0.5 * (r % 2)) * step, y);
-      while (passed < crossings.size() && crossings[passed] < z.real()) ++passed;
-      if (passed % 2 == 0) continue;
-      const int level = sizing.level(z);
-      // A sub-lattice of even rows and columns is again a triangular lattice.
-      if (level > 1 &&
-          (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
-        continue;
-      if (sizing.distance(z) < 0.7 * step) continue;
-      points.push_back(point_of(z));
+    for (size_t inside = 0; inside + 1 < crossings.size(); inside += 2) {
+      const auto column = [&](double x) { return (x - box.left) / step - 0.5 * (r % 2); };
+      const int last = static_cast<int>(std::floor(column(crossings[inside + 1])));
+      for (int c = static_cast<int>(std::ceil(column(crossings[inside]))); c <= last; ++c) {
+        const Complex z(box.left + (c + 0.5 * (r % 2)) * step, y);
+        const int level = sizing.level(z);
+        // A sub-lattice of even rows and columns is again a triangular lattice.
+        if (level > 1 &&
+            (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
+          continue;
+        if (sizing.distance(z) < 0.7 * step) continue;
+        points.push_back(point_of(z));
+      }
     }
   }
   return points;
@@ -294,9 +294,12 @@ Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
   double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
-  for (int step = 0; step < 6; ++step) {
+  // A few steps settle ordinary polygons; a needle's finest length is one of its perimeter's parts.
+  for (int step = 0; step < 60; ++step) {
     sizing.set_scale(finest);
-    finest *= std::clamp(std::sqrt(sizing.expected_vertices(polygon) / wanted), 0.3, 3.0);
+    const double ratio = std::sqrt(sizing.expected_vertices(polygon) / wanted);
+    finest *= std::clamp(ratio, 0.3, 3.0);
+    if (std::abs(ratio - 1) < 0.05 && step >= 6) break;
   }
   sizing.set_scale(finest);
 

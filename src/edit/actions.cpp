@@ -122,14 +122,10 @@ bool can_redo(const Workspace& w) {
   return !w.preview && w.document.history().can_redo();
 }
 void undo(Workspace& w) {
-  w.carried_on.clear();
-  w.document.undo();
-  w.prune_selection();
+  w.go_to(w.document.history().index() - 1);
 }
 void redo(Workspace& w) {
-  w.carried_on.clear();
-  w.document.redo();
-  w.prune_selection();
+  w.go_to(w.document.history().index() + 1);
 }
 
 // Glyphs of Font Awesome 4.

@@ -33,7 +33,9 @@ Complex position_of(const Scene& scene, Handle handle, Layer layer) {
 }
 
 bool exists(const Scene& scene, Handle handle, Layer layer) {
-  if (handle.kind == Handle::Kind::pin) return handle.index < static_cast<Index>(scene.pins.size());
+  if (handle.kind == Handle::Kind::pin)
+    return method_named(scene.method).uses_pins &&
+           handle.index < static_cast<Index>(scene.pins.size());
   const Cage& cage = cage_of(scene, layer);
   return handle.index < cage.size() && handle.control < cage.degree(handle.index);
 }
@@ -112,24 +114,38 @@ Scene turned(Scene scene, Index pin, double angle) {
 Scene scaled(Scene scene, Index pin, double factor) {
   Pin& p = scene.pins[pin];
   p.angle = p.angle.value_or(0);
-  p.scale = std::clamp(p.scale * factor, 0.05, 20.0);
+  p.scale = std::clamp(p.scale * factor, kLeastPinScale, kMostPinScale);
   return scene;
 }
 
+namespace {
+
+/// Where an inner control point of a posed segment is when that segment is posed as it rests.
+Complex rest_control(const Scene& scene, Handle handle) {
+  const Points rest = scene.rest.controls(handle.index);
+  const int degree = scene.pose.degree(handle.index);
+  if (static_cast<int>(rest.size()) - 1 <= degree) return elevated(rest, degree)[handle.control];
+  return bezier_point(rest, static_cast<double>(handle.control) / degree);
+}
+
+}  // namespace
+
 Scene reset(Scene scene, const Selection& selection) {
   if (selection.empty()) return at_rest(std::move(scene));
+  // Vertices first: they take the tangents along that are not selected themselves.
+  for (const Handle& handle : selection)
+    if (handle.kind == Handle::Kind::cage && handle.control == 0) {
+      const Complex rest = scene.rest.vertex(handle.index);
+      scene = placed(std::move(scene), handle, rest, Layer::pose);
+    }
   for (const Handle& handle : selection) {
     if (handle.kind == Handle::Kind::pin) {
       Pin& pin = scene.pins[handle.index];
       pin.pose = pin.rest;
       if (pin.angle) pin.angle = 0.0;
       pin.scale = 1;
-    } else if (handle.control == 0) {
-      const Complex rest = scene.rest.vertex(handle.index);
-      scene = placed(std::move(scene), handle, rest, Layer::pose);
-    } else if (exists(scene, handle, Layer::pose)) {
-      const double t = static_cast<double>(handle.control) / scene.pose.degree(handle.index);
-      place(scene, handle, Layer::pose) = bezier_point(scene.rest.controls(handle.index), t);
+    } else if (handle.control > 0 && exists(scene, handle, Layer::pose)) {
+      place(scene, handle, Layer::pose) = rest_control(scene, handle);
     }
   }
   return scene;

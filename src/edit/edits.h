@@ -52,8 +52,8 @@ Scene with_pin(Scene scene, Complex rest, Complex pose);
 /// A pin turned to an angle in radians; the pin turns the picture from then on.
 Scene turned(Scene scene, Index pin, double angle);
 
-/// A pin's scale times a factor, within 1/20 to 20; the pin turns and scales the picture from then
-/// on.
+/// A pin's scale times a factor, kept within the bounds of PosePin; the pin turns and scales the
+/// picture from then on.
 Scene scaled(Scene scene, Index pin, double factor);
 
 /// The selected handles (all when none is) posed as they rest.

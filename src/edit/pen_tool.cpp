@@ -1,6 +1,5 @@
 // P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
 #include "edit/tool.h"
-#include "scene/auto_cage.h"
 
 namespace holomorph {
 namespace {
@@ -11,10 +10,7 @@ class PenTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     pointer_ = input.inside ? std::optional(input.position) : std::nullopt;
-    if (drag_.active()) {
-      drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move");
-      return;
-    }
+    if (drag_.active()) return void(drag_.follow(input, workspace));
     closes_ = false;
     hover_.reset();
     insertion_.reset();
@@ -103,15 +99,14 @@ class PenTool final : public Tool {
       }
       if (const auto hit = edge_at(workspace, input.px)) {
         insertion_ = hit->point;
-        if (!input.pressed) return;
-        insert_at(workspace, *hit);
-        drag_.start(input, workspace.selection, workspace.scene());
+        if (!input.pressed || !insert_at(workspace, *hit)) return;
+        drag_.start_amending(input, workspace.selection, workspace.scene());
         return;
       }
     }
     if (!input.pressed) return;
     // A cage is drawn around the picture as it rests.
-    if (scene.has_cage() && scene.pose != scene.rest) {
+    if (scene.has_cage() && scene != at_rest(scene)) {
       if (workspace.layer == Layer::pose)
         workspace.say(
             "Drawing another cage on the picture at rest. Closing it replaces the cage; Ctrl+Z "

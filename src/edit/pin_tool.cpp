@@ -9,14 +9,10 @@ class PinTool final : public Tool {
   ToolId id() const override { return ToolId::pin; }
 
   void input(const Input& input, Workspace& workspace) override {
-    if (drag_.active()) {
-      drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move pin");
-      return;
-    }
+    if (drag_.active()) return void(drag_.follow(input, workspace));
     if (ring_.active()) return ring_.follow(input, workspace);
     hover_.reset();
     ring_.hover(input, workspace);
-    ring_.scroll(input, workspace);
     if (!input.inside) return;
     hover_ = handle_at(workspace, input.px);
     if (!input.pressed) return;
@@ -45,13 +41,13 @@ class PinTool final : public Tool {
     }
     const bool switches = !method_named(workspace.scene().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
-    const Complex pose = workspace.layer == Layer::pose ? input.position : posed(*rest, workspace);
-    workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose));
+    const Complex pose = workspace.at_rest() ? posed(*rest, workspace) : input.position;
+    if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose))) return;
     if (switches)
       workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
     workspace.selection = {
         {Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
-    drag_.start(input, workspace.selection, workspace.scene());
+    drag_.start_amending(input, workspace.selection, workspace.scene());
   }
 
   void cancel(Workspace& workspace) override {
@@ -59,7 +55,9 @@ class PinTool final : public Tool {
     ring_.cancel(workspace);
     hover_.reset();
   }
-  bool takes_wheel() const override { return ring_.hovered(); }
+  bool scroll(const Input& input, Workspace& workspace) override {
+    return ring_.scroll(input, workspace);
+  }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
     if (!busy()) workspace.selection.clear();
@@ -71,6 +69,7 @@ class PinTool final : public Tool {
     ToolOverlay overlay;
     overlay.hover = hover_;
     overlay.ring = ring_.pin();
+    overlay.ring_hovered = ring_.hovered() || ring_.active();
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {

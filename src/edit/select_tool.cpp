@@ -10,14 +10,10 @@ class SelectTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     if (ring_.active()) return ring_.follow(input, workspace);
-    if (drag_.active()) {
-      drag_.follow(input, workspace, workspace.layer == Layer::rest ? "Move at rest" : "Move");
-      return;
-    }
+    if (drag_.active()) return void(drag_.follow(input, workspace));
     if (marquee_start_) return follow_marquee(input, workspace);
     hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
     ring_.hover(input, workspace);
-    ring_.scroll(input, workspace);
     if (!input.inside || !input.pressed) return;
     if (ring_.hovered() && !hover_) {
       ring_.start(input, workspace);
@@ -43,7 +39,9 @@ class SelectTool final : public Tool {
   bool busy() const override {
     return drag_.active() || ring_.active() || marquee_start_.has_value();
   }
-  bool takes_wheel() const override { return ring_.hovered(); }
+  bool scroll(const Input& input, Workspace& workspace) override {
+    return ring_.scroll(input, workspace);
+  }
   bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape) return false;
     const bool was_busy = busy();
@@ -56,6 +54,7 @@ class SelectTool final : public Tool {
     ToolOverlay overlay;
     overlay.hover = hover_;
     overlay.ring = ring_.pin();
+    overlay.ring_hovered = ring_.hovered() || ring_.active();
     if (marquee_start_ && std::abs(marquee_end_ - *marquee_start_) >= kDragThresholdPx) {
       Box box;
       box.include(*marquee_start_);

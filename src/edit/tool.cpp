@@ -1,9 +1,11 @@
 // The gestures that tools share.
 #include "edit/tool.h"
 
+#include <algorithm>
+
 namespace holomorph {
 
-bool HandleDrag::follow(const Input& input, Workspace& workspace, const std::string& label) {
+bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) moving_ = true;
   if (moving_) {
     Complex by = input.position - start_;
@@ -14,7 +16,16 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace, const std::str
   }
   if (!input.released && input.down) return false;
   active_ = false;
-  if (workspace.preview) workspace.commit(label, *workspace.preview);
+  if (!workspace.preview) return true;
+  const bool pins = std::ranges::all_of(
+      what_, [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });
+  if (amends_)
+    workspace.amend(*workspace.preview);
+  else
+    workspace.commit(workspace.layer == Layer::rest ? "Move at rest"
+                     : pins                         ? "Move pin"
+                                                    : "Move",
+                     *workspace.preview);
   return true;
 }
 
@@ -63,10 +74,12 @@ void PinRing::follow(const Input& input, Workspace& workspace) {
   if (workspace.preview) workspace.commit("Turn pin", *workspace.preview);
 }
 
-void PinRing::scroll(const Input& input, Workspace& workspace) const {
-  if (!hovered_ || input.wheel == 0) return;
-  const double factor = std::pow(1.02, input.wheel);
+bool PinRing::scroll(const Input& input, Workspace& workspace) {
+  hover(input, workspace);
+  if (!hovered_) return false;
+  const double factor = std::pow(1.05, input.wheel);
   workspace.commit_or_amend("Scale at pin", scaled(workspace.scene(), *pin_, factor));
+  return true;
 }
 
 void PinRing::cancel(Workspace& workspace) {

@@ -17,6 +17,7 @@ struct ToolOverlay {
   std::optional<Handle> hover;
   std::optional<Complex> insertion;  ///< where a click inserts a point
   std::optional<Index> ring;         ///< the pin that shows its rotation ring
+  bool ring_hovered = false;
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -34,8 +35,8 @@ class Tool {
   /// Drops an unfinished gesture.
   virtual void cancel(Workspace& workspace) = 0;
   virtual bool busy() const = 0;
-  /// Whether the wheel is the tool's, at the pointer's place, and does not zoom.
-  virtual bool takes_wheel() const { return false; }
+  /// Uses the wheel at the pointer's place; false leaves it to zooming.
+  virtual bool scroll(const Input&, Workspace&) { return false; }
   virtual ToolOverlay overlay() const = 0;
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
@@ -48,7 +49,13 @@ std::unique_ptr<Tool> pin_tool();
 /// the tools that drag.
 class HandleDrag {
  public:
+  /// A drag that carries the last step on, which set or inserted what is dragged.
+  void start_amending(const Input& input, Selection what, const Scene& scene) {
+    start(input, std::move(what), scene);
+    amends_ = true;
+  }
   void start(const Input& input, Selection what, const Scene& scene) {
+    amends_ = false;
     start_px_ = input.px;
     start_ = input.position;
     what_ = std::move(what);
@@ -58,8 +65,8 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
-  /// Follows the pointer; on release commits with `label`. Returns true when the drag has ended.
-  bool follow(const Input& input, Workspace& workspace, const std::string& label);
+  /// Follows the pointer; on release commits. Returns true when the drag has ended.
+  bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
     if (active_) workspace.preview.reset();
     active_ = false;
@@ -69,7 +76,7 @@ class HandleDrag {
   Complex start_px_, start_;
   Selection what_;
   Scene scene_;
-  bool active_ = false, moving_ = false;
+  bool active_ = false, moving_ = false, amends_ = false;
 };
 
 /// The ring around the one selected pin: dragging it turns the picture around the pin, the wheel
@@ -86,7 +93,7 @@ class PinRing {
   void follow(const Input& input, Workspace& workspace);
   /// The wheel over the ring enlarges or shrinks the picture around the pin: one step of the
   /// history as long as it goes on.
-  void scroll(const Input& input, Workspace& workspace) const;
+  bool scroll(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 
  private:

@@ -7,28 +7,54 @@
 
 namespace holomorph {
 
+bool Workspace::accepts(const Scene& scene) {
+  if (!scene.has_cage()) return true;
+  try {
+    if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
+    scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
+  } catch (const Error& error) {
+    complain(Error(error.kind(), "Not done: " + std::string(error.what()), error.where()));
+    return false;
+  }
+  return true;
+}
+
 bool Workspace::commit(const std::string& label, Scene scene) {
   preview.reset();
   carried_on.clear();
-  if (scene.has_cage()) try {
-      if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
-      scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
-    } catch (const Error& error) {
-      complain(Error(error.kind(), "Not done: " + std::string(error.what()), error.where()));
-      return false;
-    }
+  if (!accepts(scene)) return false;
   const bool done = document.commit(label, std::move(scene));
   prune_selection();
   return done;
 }
 
+bool Workspace::amend(Scene scene) {
+  preview.reset();
+  if (!accepts(scene)) return false;
+  document.amend(std::move(scene));
+  return true;
+}
+
 void Workspace::commit_or_amend(const std::string& label, Scene scene) {
   const History& history = document.history();
-  // A rest cage is checked with every piece; amending a pose cannot make anything unusable.
   if (carried_on == selection && layer == Layer::pose && history.can_undo() &&
       history.entries()[history.index()].label == label)
-    return document.amend(std::move(scene));
-  if (commit(label, std::move(scene))) carried_on = selection;
+    amend(std::move(scene));
+  else if (commit(label, std::move(scene)))
+    carried_on = selection;
+}
+
+void Workspace::go_to(size_t entry) {
+  const Scene before = document.scene();
+  carried_on.clear();
+  document.go_to(entry);
+  // Numbers mean other points in another structure.
+  const bool other_cage = before.rest.size() != scene().rest.size(),
+             other_pins = before.pins.size() != scene().pins.size();
+  std::erase_if(selection, [&](const Handle& handle) {
+    return handle.kind == Handle::Kind::pin ? other_pins : other_cage;
+  });
+  prune_selection();
 }
 
 void Workspace::erase(const Selection& handles, Refit refit) {
@@ -86,7 +112,9 @@ void Workspace::open(Document opened) {
   map.clear();
   preview.reset();
   selection.clear();
+  carried_on.clear();
   layer = Layer::pose;
+  view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
   if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});
 }
@@ -101,13 +129,16 @@ std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   return hit;
 }
 
-void insert_at(Workspace& workspace, const CageHit& hit) {
-  if (workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t)))
-    workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
+bool insert_at(Workspace& workspace, const CageHit& hit) {
+  if (!workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t)))
+    return false;
+  workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
+  return true;
 }
 
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   std::optional<Handle> best;
+  if (!workspace.show_cage || workspace.hide_overlays) return best;
   double distance = workspace.handle_px;
   const Scene& scene = workspace.scene();
   for (const Handle& handle : handles_of(scene, workspace.layer)) {

@@ -62,12 +62,16 @@ struct Workspace {
 
   /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
   bool commit(const std::string& label, Scene scene);
+  /// The last step, carried further; refused in the same way.
+  bool amend(Scene scene);
+  /// Another entry of the history; drops what is selected of a structure that it changes.
+  void go_to(size_t entry);
   /// The same for what is done in many small pieces: with the selection unchanged it carries the
   /// last step further, if that has the same label.
   void commit_or_amend(const std::string& label, Scene scene);
   /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
   void erase(const Selection& handles, Refit refit = Refit::curve);
-  /// Drops handles that an undo or another edit took away.
+  /// Drops handles that an edit took away.
   void prune_selection();
   void say(const std::string& text);
   void complain(const Error& error);
@@ -76,8 +80,12 @@ struct Workspace {
   std::optional<Complex> rest_at(Complex z) const;
   /// The box of picture and cage as shown.
   Box content_box() const;
-  /// Replaces the document; selection, preview and layer start afresh.
+  /// Replaces the document; selection, preview, layer and view start afresh.
   void open(Document opened);
+
+ private:
+  /// Whether a scene may enter the history; says why not.
+  bool accepts(const Scene& scene);
 };
 
 /// The nearest handle of the shown layer within picking distance.
@@ -86,7 +94,7 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
 /// The place on the shown layer's cage within picking distance, not at a vertex: where a click can
 /// insert one.
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
-/// Inserts a vertex there as one step and selects it.
-void insert_at(Workspace& workspace, const CageHit& hit);
+/// Inserts a vertex there as one step and selects it; false when that is refused.
+bool insert_at(Workspace& workspace, const CageHit& hit);
 
 }  // namespace holomorph

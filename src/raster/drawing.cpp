@@ -344,8 +344,8 @@ class Drawing {
     for (const int p : band.pieces) draw_piece(pieces_[p], canvas);
     for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
       const auto& samples = canvas.samples[slot];
-      const bool alike =
-          std::all_of(samples.begin(), samples.end(), [&](Float4 s) { return same(s, samples[0]); });
+      const bool alike = std::all_of(samples.begin(), samples.end(),
+                                     [&](Float4 s) { return same(s, samples[0]); });
       Float4 sum{};
       for (Float4 sample : samples) {
         const float alpha = sample[3];

@@ -83,6 +83,13 @@ RasterResult rasterized(const RasterJob& job) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
   const double height = job.source ? job.source->height : 0;
+  constexpr double kLargest = 16384;
+  const auto check_size = [&](double width, double height) {
+    if (!(width <= kLargest && height <= kLargest))
+      throw Error(ErrorKind::bad_input,
+                  "the picture would have more than 16384 pixels a side; choose a smaller scale");
+  };
+  if (job.source) check_size(job.source->width * scale, height * scale);
   Frame least{0, 0, 0, 0};
   if (job.source)
     least = {0, 0, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
@@ -99,10 +106,7 @@ RasterResult rasterized(const RasterJob& job) {
       bottom = std::max(bottom, std::ceil((height - box.bottom) * scale - kRounding));
     }
   }
-  constexpr double kLargest = 16384;
-  if (!(right - left <= kLargest && bottom - top <= kLargest))
-    throw Error(ErrorKind::bad_input,
-                "the picture would have more than 16384 pixels a side; choose a smaller scale");
+  check_size(right - left, bottom - top);
   if (right <= left || bottom <= top)
     throw Error(ErrorKind::bad_input, "there is nothing to draw: no picture and no cage");
   Frame frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),

@@ -211,9 +211,4 @@ Points auto_cage(const Image& image, const AutoCageOptions& options) {
   return self_crossing(rounded) ? cage : rounded;
 }
 
-Scene with_cage(Scene scene, const Points& polygon) {
-  scene.rest = polygon_cage(polygon);
-  return at_rest(std::move(scene));
-}
-
 }  // namespace holomorph

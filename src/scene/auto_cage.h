@@ -1,8 +1,8 @@
 // A cage from a picture's alpha.
 #pragma once
 
+#include "core/cage.h"
 #include "scene/image.h"
-#include "scene/scene.h"
 
 namespace holomorph {
 
@@ -24,8 +24,5 @@ Points auto_cage(const Image& image, const AutoCageOptions& options = {});
 /// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty
 /// when there is no content.
 std::vector<std::uint8_t> largest_part(const Image& image);
-
-/// The scene with this cage, everything at rest: pins keep their rest and return to it.
-Scene with_cage(Scene scene, const Points& polygon);
 
 }  // namespace holomorph

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <random>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.h"
 #include "scene/scene_json.h"
 
@@ -20,15 +22,32 @@ std::string fresh_id() {
   return text;
 }
 
-Path image_path_of(const Scene& scene, const Path& scene_path) {
-  if (!scene.image) return {};
-  const Path file(scene.image->file);
-  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file)
-      .lexically_normal();
-}
-
 Path autosave_path(const Path& folder, const std::string& id) {
   return folder / (id + ".json");
+}
+
+// An autosave remembers the file that its scene was opened from, under a key of its own.
+constexpr const char* kOrigin = "autosave_of";
+
+std::string with_origin(const std::string& json, const Path& origin) {
+  if (origin.empty()) return json;
+  nlohmann::ordered_json value = nlohmann::ordered_json::parse(json);
+  value[kOrigin] = origin.string();
+  return value.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Path origin_of(const std::string& json) {
+  const auto value = nlohmann::json::parse(json, nullptr, false);
+  return value.is_object() && value.contains(kOrigin) && value[kOrigin].is_string()
+             ? Path(value[kOrigin].get<std::string>())
+             : Path();
+}
+
+Extra without_origin(const Extra& extra) {
+  if (extra.empty()) return extra;
+  auto value = nlohmann::ordered_json::parse(extra);
+  value.erase(kOrigin);
+  return value.empty() ? "" : value.dump();
 }
 
 /// Beside an autosave: locked while the program that writes it runs.
@@ -38,8 +57,11 @@ Path lock_path(const Path& autosave) {
 
 }  // namespace
 
-bool is_scene_path(const Path& path) {
-  return lower_case(path.extension().string()) == ".json";
+Path image_path_of(const Scene& scene, const Path& scene_path) {
+  if (!scene.image) return {};
+  const Path file(scene.image->file);
+  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file)
+      .lexically_normal();
 }
 
 LoadedScene load_scene(const Path& path) {
@@ -63,6 +85,15 @@ LoadedScene load_scene(const Path& path) {
   return loaded;
 }
 
+void check_not_a_source(const Path& out, const Path& scene, const Path& image) {
+  std::error_code ignored;
+  for (const auto& [source, what] :
+       {std::pair(scene, "the scene itself"), std::pair(image, "the picture that the scene bends")})
+    if (!source.empty() && fs::equivalent(out, source, ignored))
+      throw Error(ErrorKind::bad_input,
+                  out.string() + ": this is " + what + "; choose another name");
+}
+
 LoadedScene scene_of_image(const Path& path) {
   const std::string bytes = read_file(path);
   LoadedScene loaded;
@@ -84,12 +115,24 @@ Document::Document(LoadedScene loaded, Path path)
       warning_(std::move(loaded.warning)) {}
 
 Document Document::open(const Path& path) {
-  if (is_scene_path(path)) return {load_scene(path), fs::absolute(path).lexically_normal()};
+  if (lower_case(path.extension().string()) == ".json")
+    return {load_scene(path), fs::absolute(path).lexically_normal()};
   return {scene_of_image(path), Path()};
+}
+
+Document Document::copy_of(const Path& scene) {
+  Document document(load_scene(scene), Path());
+  document.image_path_ = image_path_of(document.scene(), scene);
+  return document;
 }
 
 Document Document::recover(const Path& autosave) {
   Document document(load_scene(autosave), Path());
+  document.image_path_ = image_path_of(document.scene(), autosave);
+  document.path_ = origin_of(read_file(autosave));
+  Scene scene = document.scene();
+  scene.extra = without_origin(scene.extra);
+  document.history_ = History(scene, "Recovered");
   document.saved_ = Scene{};
   return document;
 }
@@ -126,7 +169,7 @@ bool Document::autosave(const Path& folder) {
   fs::create_directories(folder, ignored);
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
-    write_file(path, json_of(portable(Path())));
+    write_file(path, with_origin(json_of(portable(Path())), path_));
   } catch (const Error&) {
     return false;
   }
@@ -143,12 +186,19 @@ void Document::remove_autosave(const Path& folder) {
 
 namespace {
 
-/// "gecko, 5 minutes ago"; the picture's name is all that tells unsaved scenes apart.
+/// "hero.json, 30 cage points, 4 pins, 5 minutes ago".
 std::string label_of(const Path& autosave, fs::file_time_type time) {
   std::string name = "a scene";
   try {
-    const Scene scene = scene_from_json(read_file(autosave), autosave.string());
-    if (scene.image) name = Path(scene.image->file).stem().string();
+    const std::string text = read_file(autosave);
+    const Scene scene = scene_from_json(text, autosave.string());
+    const Path origin = origin_of(text);
+    if (!origin.empty())
+      name = origin.filename().string();
+    else if (scene.image)
+      name = Path(scene.image->file).stem().string() + " (never saved)";
+    name += ", " + std::to_string(scene.rest.size()) + " cage points, " +
+            std::to_string(scene.pins.size()) + " pins";
   } catch (const Error&) {
     name = "a damaged scene";
   }
@@ -166,10 +216,11 @@ std::string label_of(const Path& autosave, fs::file_time_type time) {
 std::vector<Recovery> recoverable(const Path& folder) {
   std::vector<std::pair<fs::file_time_type, Path>> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const Path& path = entry.path();
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const Path& path = entry->path();
     if (path.extension() != ".json" || path.filename().string().starts_with(".")) continue;
-    if (!FileLock::is_held(lock_path(path))) found.push_back({entry.last_write_time(error), path});
+    if (!FileLock::is_held(lock_path(path))) found.push_back({entry->last_write_time(error), path});
   }
   std::sort(found.rbegin(), found.rend());
   std::vector<Recovery> recoveries;

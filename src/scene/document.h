@@ -18,24 +18,29 @@ struct LoadedScene {
 /// Reads a scene file and the picture that it names, relative to the file's folder. Throws Error.
 LoadedScene load_scene(const Path& path);
 
+/// The absolute path of a scene's picture; empty without one.
+Path image_path_of(const Scene& scene, const Path& scene_path);
+
+/// Throws Error when writing to `out` would replace the scene's own file or its picture.
+void check_not_a_source(const Path& out, const Path& scene, const Path& image);
+
 /// The scene of a picture alone: no cage yet.
 LoadedScene scene_of_image(const Path& image);
-
-/// Whether a path is a scene by its name (.json); anything else is taken for a picture.
-bool is_scene_path(const Path& path);
 
 /// A scene being edited. Scenes read or recovered count as saved or not; commits make it modified.
 class Document {
  public:
   Document();  ///< empty, nothing to lose
-  /// Opens a scene or a picture. Throws Error and leaves nothing behind.
+  /// Opens a scene (by its name, .json) or a picture (anything else). Throws Error and leaves
+  /// nothing behind.
   static Document open(const Path& path);
+  /// A scene to start from: as if drawn just now, it counts as saved but has no file. Throws Error.
+  static Document copy_of(const Path& scene);
   /// What an interrupted session left in an autosave file. Throws Error.
   static Document recover(const Path& autosave);
 
   const Scene& scene() const { return history_.current(); }
   const Image* image() const { return image_.get(); }
-  std::shared_ptr<const Image> shared_image() const { return image_; }
   const History& history() const { return history_; }
   const Path& path() const { return path_; }              ///< empty for a scene never saved
   const Path& image_path() const { return image_path_; }  ///< absolute; empty without a picture

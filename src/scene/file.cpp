@@ -89,7 +89,11 @@ void write_file(const Path& wanted, const std::string& bytes) {
 FileLock::FileLock(const Path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
   if (descriptor_ < 0) fail(path, "cannot be created");
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  for (int attempt = 0; attempt < 50; ++attempt) {  // somebody may be looking
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (errno != EWOULDBLOCK && errno != EINTR) break;
+    ::usleep(1000);
+  }
   ::close(descriptor_);
   fail(path, "is in use");
 }
@@ -102,7 +106,7 @@ FileLock::~FileLock() {
 bool FileLock::is_held(const Path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // other probes are no owners
   ::close(descriptor);
   return held;
 }

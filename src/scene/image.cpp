@@ -33,10 +33,6 @@ Image decode_image(const std::string& bytes, const std::string& name) {
   return image;
 }
 
-Image load_image(const Path& path) {
-  return decode_image(read_file(path), path.string());
-}
-
 std::string encode_png(const Image& image) {
   std::string bytes;
   const auto append = [](void* out, void* data, int size) {

@@ -33,9 +33,6 @@ struct Image {
 /// Throws Error{bad_input} for what is no picture, or one of more than 16384 pixels a side.
 Image decode_image(const std::string& bytes, const std::string& name);
 
-/// The picture in a file; errors as read_file and decode_image.
-Image load_image(const Path& path);
-
 /// The bytes of a PNG file.
 std::string encode_png(const Image& image);
 

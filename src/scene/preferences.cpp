@@ -31,7 +31,8 @@ Preferences load_preferences() {
   try {
     const auto json = nlohmann::json::parse(read_file(preferences_path()));
     preferences.light_theme = json.value("light_theme", false);
-    preferences.ui_scale = std::clamp(json.value("ui_scale", 0.0), 0.0, 4.0);
+    const double scale = json.value("ui_scale", 0.0);
+    preferences.ui_scale = scale > 0 ? std::clamp(scale, 0.75, 4.0) : 0.0;
     for (const auto& path : json.value("recent", std::vector<std::string>{}))
       preferences.recent.push_back(path);
   } catch (const std::exception&) {

@@ -36,4 +36,9 @@ Scene at_rest(Scene scene) {
   return scene;
 }
 
+Scene with_cage(Scene scene, const Points& polygon) {
+  scene.rest = polygon_cage(polygon);
+  return at_rest(std::move(scene));
+}
+
 }  // namespace holomorph

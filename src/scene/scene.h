@@ -49,5 +49,7 @@ Rest rest_of(const Scene& scene, Precision precision);
 Pose pose_of(const Scene& scene);
 /// The scene with everything posed as it rests.
 Scene at_rest(Scene scene);
+/// The scene with this cage, everything at rest: pins keep their rest and return to it.
+Scene with_cage(Scene scene, const Points& polygon);
 
 }  // namespace holomorph

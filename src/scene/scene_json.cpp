@@ -142,7 +142,7 @@ Pin read_pin(const Reader& reader) {
   pin.rest = reader["rest"].point();
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
   if (reader.has("angle")) pin.angle = reader["angle"].number();
-  if (reader.has("scale")) pin.scale = reader["scale"].within(1e-3, 1e3);
+  if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
   pin.extra = reader.others({"rest", "pose", "angle", "scale"});
   return pin;
 }
@@ -253,7 +253,13 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   } catch (const Error& error) {
     throw Error(error.kind(), name + ": this is not a scene: " + error.what());
   } catch (const Json::exception& error) {
-    throw Error(ErrorKind::bad_input, name + ": this is not a scene: " + error.what());
+    const std::string what = error.what();  // "... at line 3, column 9: ..."
+    const size_t at = what.find("line "), end = what.find(':', at);
+    throw Error(ErrorKind::bad_input, name +
+                                          ": this is not a scene: it is damaged or ends too early" +
+                                          (at != std::string::npos && end != std::string::npos
+                                               ? ", at " + what.substr(at, end - at)
+                                               : ""));
   }
   const Reader reader(document, name, "");
   reader.object();

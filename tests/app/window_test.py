@@ -64,7 +64,7 @@ class WindowTest(unittest.TestCase):
             editor.key("n")
             editor.wait(lambda s: s["tool"] == "pin", "the pin tool")
             editor.drag((600, 410), (560, 450))
-            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "pins" and s["step"] == 4, "a dragged pin")
+            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "pins" and s["step"] == 3, "a dragged pin")
             editor.click(300, 300)
             editor.wait(lambda s: s["pins"] == 2, "another pin")
             editor.key("ctrl+z")
@@ -176,6 +176,7 @@ class WindowTest(unittest.TestCase):
             editor.key("Tab")
             editor.wait(lambda s: s["layer"] == "rest", "the rest")
             editor.drag((1100, 900), (-120, 300))
+            editor.wait(lambda s: s["selected"] == 1, "the grabbed corner")
             state = editor.wait(lambda s: not s["gesture"], "the end of the drag")
             self.assertEqual(state["step"], 0)
             self.assertFalse(state["error"])
@@ -202,7 +203,11 @@ class WindowTest(unittest.TestCase):
             editor.wait(lambda s: s["empty"], "the welcome page")
             time.sleep(0.5)
             self.screenshot(editor, "welcome-recovery")
-            editor.press(184, 245)  # Recover
+            picture = self.screenshot(editor, "welcome-recovery")
+            # The first of the two buttons in the line below the heading.
+            line = numpy.abs(picture[245, 45:700] - picture[245, 40]).max(axis=1)
+            wide = [x for x in range(45, 660) if (line[x - 45:x - 25] > 8).all() and (line[x - 45:x - 25] < 40).all()]
+            editor.press(wide[0] + 20, 245)  # Recover
             editor.wait(lambda s: s["cage_points"] == state["cage_points"] and s["modified"], "the recovered gecko")
             path = os.path.join(self.work, "recovered.json")
             self.save_as(editor, path)
@@ -210,11 +215,29 @@ class WindowTest(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [], "nothing is left to recover")
         shutil.rmtree(home)
 
-    def test_samples_recent_files_and_new(self):
+    def test_samples_are_copies(self):
+        giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
         with Editor(PROGRAM, []) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             time.sleep(0.5)
             editor.press(150, 350)  # the first tile
+            editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
+            editor.key("ctrl+a")
+            editor.key("Up")
+            editor.wait(lambda s: s["modified"], "an edit")
+            editor.key("ctrl+s")  # asks for a name
+            time.sleep(0.5)
+            path = os.path.join(self.work, "mine.json")
+            editor.key("ctrl+a")
+            editor.type(path)
+            editor.key("Return")
+            editor.wait(lambda s: not s["modified"], "saved")
+            self.assertEqual(load(os.path.join(SOURCE, "assets/giraffe.json")), giraffe)
+            self.assertTrue(os.path.samefile(os.path.join(self.work, load(path)["image"]["file"]),
+                                             os.path.join(SOURCE, "assets/giraffe.png")))
+
+    def test_recent_files_and_new(self):
+        with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
             giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
             editor.key("ctrl+n")

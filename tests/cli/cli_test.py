@@ -236,6 +236,31 @@ class CommandLine(unittest.TestCase):
         for command in ("map", "coordinates", "render", "info", "new", "export", "bench"):
             self.assertEqual(run(command, "--help").returncode, 0)
 
+    def test_sources_are_never_replaced(self):
+        for name in ("giraffe.png", "giraffe.json"):
+            shutil.copy(os.path.join(SOURCE, "assets", name), self.folder)
+        scene, picture = (os.path.join(self.folder, "giraffe" + end) for end in (".json", ".png"))
+        before = [open(path, "rb").read() for path in (scene, picture)]
+        for arguments in (["render", scene, "--out", picture], ["render", scene, "--out", scene],
+                          ["export", scene, "--format", "obj", "--out", picture]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("choose another name", result.stderr)
+        self.assertEqual(before, [open(path, "rb").read() for path in (scene, picture)])
+        result = run("info", picture)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("holomorph new", result.stderr)
+
+    def test_no_points_are_no_lines(self):
+        points = os.path.join(self.folder, "none.csv")
+        for text in ("", "x,y\n"):
+            with open(points, "w") as file:
+                file.write(text)
+            for name in ("giraffe", "gecko"):
+                result = run("map", os.path.join(SOURCE, "assets", name + ".json"), "--points", points)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(len(result.stdout.splitlines()), 1)
+
     def test_killing_the_program_while_it_writes_leaves_whole_files(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")
         out = self.path("x.obj")

@@ -65,6 +65,7 @@ TEST_CASE("Both orientations of a polygon give counter-clockwise triangles") {
 TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repeated vertices") {
   const MeshOptions options{1500};
   check_partition({{0, 0}, {1000, 0}, {1000, 0.5}, {0, 0.4}}, options);    // sliver
+  check_partition({{0, 0}, {1000, 1000}, {500, 500.001}}, options);        // along the diagonal
   check_partition({{0, 0}, {500, 1e-3}, {1000, 0}, {500, 300}}, options);  // almost collinear
   check_partition({{0, 0}, {250, 0}, {500, 0}, {750, 0}, {1000, 0}, {500, 300}}, options);
   check_partition({{0, 0}, {100, 0}, {100 + 1e-9, 1e-9}, {100, 100}, {0, 100}}, options);

@@ -270,6 +270,28 @@ TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins"
   CHECK((run(pins, rest, pose).f - expected).cwiseAbs().maxCoeff() <= 1e-7);
 }
 
+TEST_CASE("Derivatives of pins are finite and tame all over the mesh, boundary included") {
+  const Method& pins = method_named("pins");
+  for (const Shape shape : {Shape::straight, Shape::curved}) {
+    Setup s = setup(pins, Precision::single, shape);
+    s.pose = mapped(s.rest, 1, 0);
+    s.pose.pins[0].position += Complex(12, 5);
+    const SampledMap map = run(pins, s.rest, s.pose);
+    CHECK(map.fz.allFinite());
+    CHECK(map.fz.cwiseAbs().minCoeff() > 0.3);
+    CHECK(map.fz.cwiseAbs().maxCoeff() < 3);
+  }
+}
+
+TEST_CASE("No samples are no error") {
+  for (const Method& method : methods()) {
+    Setup s = setup(method, Precision::full);
+    s.rest.samples.clear();
+    s.rest.derivative_samples.clear();
+    CHECK(run(method, s.rest, s.pose).f.size() == 0);
+  }
+}
+
 TEST_CASE("A pin that turns also scales") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);

@@ -245,13 +245,13 @@ TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
   for (int i = 0; i < 5; ++i) {
     Input input = desk.at(on_ring(1.0));
     input.wheel = 2;
-    desk.tool().input(input, desk.workspace);
-    CHECK(desk.tool().takes_wheel());
+    CHECK(desk.tool().scroll(input, desk.workspace));
   }
-  CHECK(desk.scene().pins[0].scale == Approx(std::pow(1.02, 10)));
+  CHECK(desk.scene().pins[0].scale == Approx(std::pow(1.05, 10)));
   CHECK(desk.steps() == steps + 1);  // one step however often the wheel clicks
-  desk.hover({120, 50});
-  CHECK_FALSE(desk.tool().takes_wheel());
+  Input aside = desk.at({120, 50});
+  aside.wheel = 2;
+  CHECK_FALSE(desk.tool().scroll(aside, desk.workspace));
   run(action_named("edit.free_angle"), desk.workspace);
   CHECK_FALSE(desk.scene().pins[0].angle);
 }
@@ -267,6 +267,77 @@ TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents
   CHECK(refitted.pose.degree(1) == 3);
   CHECK(kept.pose.controls(1) == Points{{200, 0}, {230, 30}, {130, 130}, scene.pose.vertex(3)});
   CHECK(refitted.pose != kept.pose);
+}
+
+TEST_CASE("Resetting every handle of a curved pose gives the rest") {
+  Desk desk(shapes::l_shape());
+  Scene scene = desk.scene();
+  scene.rest.segments[2] = scene.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
+  scene.pose.segments[1] = {{210, 5}, {230, 30}, {230, 70}};
+  scene.pose.segments[2][1] += 9.0;
+  desk.workspace.commit("Curves", scene);
+  run(action_named("edit.select_all"), desk.workspace);
+  run(action_named("edit.reset"), desk.workspace);
+  const Scene& after = desk.scene();
+  CHECK(after.pose.segments[2] == after.rest.segments[2]);
+  for (Index e = 0; e < after.rest.size(); ++e) {
+    const Points rest = elevated(after.rest.controls(e), after.pose.degree(e)),
+                 pose = after.pose.controls(e);
+    for (size_t m = 0; m < rest.size(); ++m) CHECK(std::abs(rest[m] - pose[m]) < 1e-12);
+  }
+}
+
+TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
+  Desk desk(shapes::l_shape());
+  desk.workspace.tool = ToolId::pin;
+  desk.drag({50, 50}, {70, 60});
+  CHECK(desk.steps() == 3);  // setting a pin and dragging it on is one step
+  desk.settle();
+  desk.workspace.tool = ToolId::pen;
+  desk.click({400, 400});
+  CHECK(desk.workspace.layer == Layer::rest);
+}
+
+TEST_CASE("Nudges merge while they go on, and never into another's step") {
+  Desk desk(shapes::l_shape());
+  Workspace& w = desk.workspace;
+  desk.click({0, 0});
+  for (int i = 0; i < 3; ++i) run(action_named("edit.nudge_right"), w);
+  CHECK(desk.steps() == 3);
+  desk.click({200, 0});
+  run(action_named("edit.nudge_right"), w);
+  CHECK(desk.steps() == 4);
+  desk.click({3, 0});
+  w.go_to(2);
+  run(action_named("edit.nudge_up"), w);
+  CHECK(desk.steps() == 4);  // a step of its own, after the first nudges
+  CHECK(desk.scene().pose.vertex(0) == Complex(3, 1));
+  run(action_named("edit.undo"), w);
+  CHECK(desk.scene().pose.vertex(0) == Complex(3, 0));
+}
+
+TEST_CASE("A selection never means another point after undo, or a pin that the method hides") {
+  Desk desk(shapes::l_shape());
+  Workspace& w = desk.workspace;
+  w.tool = ToolId::pen;
+  desk.click({100, 0});
+  CHECK(w.selection.size() == 1);
+  run(action_named("edit.undo"), w);
+  CHECK(w.selection.empty());
+  w.tool = ToolId::pin;
+  desk.settle();
+  desk.click({50, 50});
+  CHECK(w.selection.size() == 1);
+  w.commit("Method", with_method(desk.scene(), "cage"));
+  CHECK(w.selection.empty());
+}
+
+TEST_CASE("Hidden handles cannot be grabbed") {
+  Desk desk(shapes::l_shape());
+  desk.workspace.show_cage = false;
+  CHECK_FALSE(handle_at(desk.workspace, desk.workspace.viewport.px_at_plane({0, 0})));
+  desk.workspace.show_cage = true;
+  CHECK(handle_at(desk.workspace, desk.workspace.viewport.px_at_plane({0, 0})));
 }
 
 TEST_CASE("Several handles move together around their middle") {

@@ -162,10 +162,15 @@ TEST_CASE("Nothing is cut off, unless asked") {
 TEST_CASE("Pictures that are too large, or of nothing, are refused") {
   const Image image = noise(10, 10, 6, true);
   PictureOptions options;
-  for (const double scale : {1e6, 0.0, -1.0, std::nan("")}) {
+  for (const double scale : {1e6, 1e9, 0.0, -1.0, std::nan("")}) {
     options.scale = scale;
     CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), &image, options),
                     Error);
+    CHECK_THROWS_AS(picture_of(Scene{}, &image, options), Error);
+    options.crop = true;
+    CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), &image, options),
+                    Error);
+    options.crop = false;
   }
   CHECK_THROWS_AS(picture_of(Scene{}, nullptr), Error);
   CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr), Error);

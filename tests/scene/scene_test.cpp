@@ -82,7 +82,7 @@ TEST_CASE("A scene survives writing and reading, unknown keys included") {
 
 TEST_CASE("What is wrong with a scene is said with the file, the pointer and the reason") {
   using Catch::Contains;
-  CHECK_THAT(complaint("{"), Contains("scene.json") && Contains("parse error"));
+  CHECK_THAT(complaint("{"), Contains("scene.json") && Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint("[]"), Contains("an object is wanted"));
   CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
   CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 2")),
@@ -91,7 +91,7 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,\"60\"]")),
              Contains("/pins/0/rest/1") && Contains("a string"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e999]")), Contains("scene.json"));
-  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,NaN]")), Contains("parse error"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,NaN]")), Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e9]")), Contains("larger than"));
   CHECK_THAT(complaint(replaced(kText, "[[180,200]]", "[]")), Contains("/cage/rest/2"));
   CHECK_THAT(complaint(replaced(kText, "[[180,200]], ", "")),
@@ -234,6 +234,17 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK(recovered.image() != nullptr);
   discard(orphan);
   CHECK(recoverable(place).empty());
+  // A scene that has a file goes back to it.
+  document.save(folder.path / "kept.json");
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(7, 5)));
+  document.autosave(place);
+  for (const auto& entry : fs::directory_iterator(place))
+    if (entry.path().extension() == ".json") fs::copy_file(entry.path(), orphan);
+  const Document again = Document::recover(orphan);
+  CHECK(again.path() == folder.path / "kept.json");
+  CHECK(again.modified());
+  CHECK(again.scene().extra.empty());
+  CHECK_THAT(recoverable(place)[0].label, Catch::StartsWith("kept.json, 4 cage points"));
   document.remove_autosave(place);
   write_file(folder.path / "file", "no folder");
   CHECK_FALSE(document.autosave(folder.path / "file"));

@@ -9,6 +9,7 @@ namespace {
 
 template <class T>
 VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& controls) {
+  if (matrix.rows() == 0) return {};
   PlanarMatrix<T> factors(controls.size(), 1), sum(matrix.rows(), 1);
   factors.re = controls.real().template cast<T>();
   factors.im = controls.imag().template cast<T>();
@@ -36,7 +37,7 @@ void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, bool derivativ
   out.iterations = 0;
   out.fz.resize(0);
   out.fzbar.resize(0);
-  if (!derivatives) return;
+  if (!derivatives || z.size() == 0) return;
   if (derivative_.rows() != z.size()) derivative_ = derivative_matrix();
   out.fz = product(derivative_, by).array() + Complex(1.0);
   out.fzbar = VectorXc::Zero(z.size());
@@ -61,8 +62,10 @@ void check_pose(const Rest& rest, const Pose& pose) {
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
   for (const PosePin& pin : pose.pins)
-    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !std::isfinite(pin.scale))
-      throw Error(ErrorKind::bad_input, "a posed pin is not finite");
+    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !(pin.scale >= kLeastPinScale) ||
+        !(pin.scale <= kMostPinScale))
+      throw Error(ErrorKind::bad_input,
+                  "a posed pin is not finite, or scales by less than 0.01 or more than 100");
 }
 
 VectorXc cage_displacement(const Rest& rest, const Pose& pose) {

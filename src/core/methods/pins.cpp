@@ -145,7 +145,7 @@ class PinsDeformer final : public LinearDeformer<T> {
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {
-    const Points& points = this->derivative_points();
+    const Points points = inset(this->derivative_points());
     PlanarMatrix<T> cage = planar_coordinates<T>(this->rest_.cage, points, 1);
     if (used_.empty()) return cage;
     PlanarMatrix<T> correction(static_cast<Index>(points.size()), coefficients_.re.cols());
@@ -155,6 +155,22 @@ class PinsDeformer final : public LinearDeformer<T> {
   }
 
  private:
+  /// The basis has corners all along the boundary, where its derivatives have logarithmic poles:
+  /// places on the boundary are moved inwards by a part of the nearest segment's length.
+  Points inset(Points points) const {
+    constexpr double kOn = 0.05, kBy = 0.2;
+    const Points outline = outline_of(basis_->basis, 4);
+    const double inward = signed_area(outline) > 0 ? 1 : -1;
+    for (Complex& z : points) {
+      const NearestPoint near = nearest_on_polygon(outline, z);
+      const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
+      if (near.distance > kOn * std::abs(side)) continue;
+      const Complex moved = z + inward * kBy * kI * side;
+      if (contains(basis_->basis, moved)) z = moved;
+    }
+    return points;
+  }
+
   Index functionals() const { return cage_at_pins_.rows(); }
 
   /// Pins outside the cage, or on the spot of an earlier one, are left out and named in the note.
@@ -277,12 +293,12 @@ Method pins_method() {
           {{"exact", "Exact",
             "The picture passes through every pin, whatever that takes; off: it yields a little "
             "where pins contradict each other",
-            ParameterSpec::Kind::toggle, 0, 0, 1, false},
+            ParameterSpec::Kind::toggle, 0, 0, 1, false, ""},
            {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
-            ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true},
+            ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true, "exact"},
            {"pin_weight", "Pin weight",
             "How much missing a pin costs when pins are soft (dimensionless)",
-            ParameterSpec::Kind::number, 10, 1e-3, 1e3, true}},
+            ParameterSpec::Kind::number, 10, 1e-3, 1e3, true, "exact"}},
           true,
           prepare};
 }
