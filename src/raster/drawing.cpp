@@ -51,6 +51,17 @@ int first_center(double x) {
   return static_cast<int>(std::ceil(x - 0.5));
 }
 
+/// The mean of a square wave of cells of 16 units, 1 in the first cell and -1 in the next, over
+/// `width` units around x: image.frag has the same.
+double wave(double x, double width) {
+  const auto folded = [](double cell) {
+    const double half = 0.5 * cell;
+    return std::abs(half - std::floor(half) - 0.5);
+  };
+  const double cell = std::clamp(x / 16, -1e6, 1e6), w = std::max(width / 16, 1e-6);
+  return 2 * (folded(cell - 0.5 * w) - folded(cell + 0.5 * w)) / w;
+}
+
 /// Sorted crossings of closed polygons with a row: inside is between the first and second, and so
 /// on.
 void row_crossings(const std::vector<std::array<double, 4>>& edges,
@@ -248,10 +259,11 @@ class Drawing {
     const double u = piece.u0 + piece.ux * x + piece.uy * y,
                  v = piece.v0 + piece.vx * x + piece.vy * y;
     if (job_.view == View::checker) {
-      const bool light = (static_cast<int>(std::floor(std::clamp(u / 16, -1e6, 1e6))) +
-                          static_cast<int>(std::floor(std::clamp(v / 16, -1e6, 1e6)))) &
-                         1;
-      return light ? Float4{235, 235, 235, 255} : Float4{70, 90, 120, 255};
+      const double up = (job_.source ? job_.source->height : 0) - v;  // as on the canvas
+      const double light = 0.5 - 0.5 * wave(u, std::abs(piece.ux) + std::abs(piece.uy)) *
+                                     wave(up, std::abs(piece.vx) + std::abs(piece.vy));
+      const Float4 dark{70, 90, 120, 255}, bright{235, 235, 235, 255};
+      return dark + static_cast<float>(light) * (bright - dark);
     }
     if (is_heat(job_.view)) {
       const Color color = heat_color(std::clamp(u, piece.low, piece.high), job_.scale.diverging);

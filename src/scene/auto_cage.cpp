@@ -21,33 +21,49 @@ struct Grid {
   T operator()(int c, int r) const { return cells[static_cast<size_t>(r) * width + c]; }
 };
 
-/// Keeps the largest 8-connected set of ones.
-void keep_largest_part(Grid<std::uint8_t>& mask) {
-  Grid<int> label(mask.width, mask.height, 0);
-  int best = 0, labels = 0;
-  size_t best_size = 0;
-  std::vector<std::pair<int, int>> stack;
+/// A stretch of ones in a row, and the run that stands for its part so far (union-find).
+struct Run {
+  int row, begin, end;
+  size_t parent;
+};
+
+std::vector<Run> runs_of(const Grid<std::uint8_t>& mask) {
+  std::vector<Run> runs;
   for (int r = 0; r < mask.height; ++r)
     for (int c = 0; c < mask.width; ++c) {
-      if (!mask(c, r) || label(c, r)) continue;
-      ++labels;
-      size_t size = 0;
-      label(c, r) = labels;
-      stack.assign(1, {c, r});
-      while (!stack.empty()) {
-        const auto [x, y] = stack.back();
-        stack.pop_back();
-        ++size;
-        for (int v = std::max(0, y - 1); v <= std::min(mask.height - 1, y + 1); ++v)
-          for (int u = std::max(0, x - 1); u <= std::min(mask.width - 1, x + 1); ++u)
-            if (mask(u, v) && !label(u, v)) {
-              label(u, v) = labels;
-              stack.push_back({u, v});
-            }
-      }
-      if (size > best_size) best_size = size, best = labels;
+      if (!mask(c, r)) continue;
+      const int begin = c;
+      while (c < mask.width && mask(c, r)) ++c;
+      runs.push_back({r, begin, c, runs.size()});
     }
-  for (size_t i = 0; i < mask.cells.size(); ++i) mask.cells[i] = best > 0 && label.cells[i] == best;
+  return runs;
+}
+
+size_t root_of(std::vector<Run>& runs, size_t run) {
+  while (runs[run].parent != run) run = runs[run].parent = runs[runs[run].parent].parent;
+  return run;
+}
+
+/// Keeps the largest 8-connected set of ones.
+void keep_largest_part(Grid<std::uint8_t>& mask) {
+  std::vector<Run> runs = runs_of(mask);
+  size_t above = 0;  // the first run of the row before that may touch this one
+  for (size_t i = 0; i < runs.size(); ++i) {
+    while (runs[above].row < runs[i].row - 1 ||
+           (runs[above].row == runs[i].row - 1 && runs[above].end < runs[i].begin))
+      ++above;
+    for (size_t j = above; j < i && runs[j].row == runs[i].row - 1 && runs[j].begin <= runs[i].end;
+         ++j)
+      runs[root_of(runs, i)].parent = root_of(runs, j);
+  }
+  std::vector<size_t> sizes(runs.size(), 0);
+  for (size_t i = 0; i < runs.size(); ++i)
+    sizes[root_of(runs, i)] += static_cast<size_t>(runs[i].end - runs[i].begin);
+  const size_t best =
+      static_cast<size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  for (size_t i = 0; i < runs.size(); ++i)
+    if (root_of(runs, i) != best)
+      for (int c = runs[i].begin; c < runs[i].end; ++c) mask(c, runs[i].row) = 0;
 }
 
 Grid<std::uint8_t> content_of(const Image& image) {

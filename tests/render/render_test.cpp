@@ -156,3 +156,54 @@ TEST_CASE("A mesh or an operator that is taken away is not drawn") {
   CHECK(shown.at(5, 5)[0] == 255);
   CHECK(shown.at(5, 5)[1] == 0);
 }
+
+TEST_CASE("A heat map on the canvas has the colours of the exported one") {
+  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  scene.pose.segments[2][0] += Complex(40, -25);
+  const auto prepared = prepared_map(scene, Precision::single, {3000});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, true);
+  for (const View view : {View::area, View::stretch, View::checker}) {
+    const Eigen::VectorXd values =
+        is_heat(view) ? heat_values(view, distortion_of(map)) : Eigen::VectorXd();
+    const HeatScale scale = heat_scale(view, values, false);
+    RasterJob job;
+    job.mesh = prepared->mesh.get();
+    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.view = view;
+    job.heat = values;
+    job.scale = scale;
+    const RasterResult exported = rasterized(job);
+    const int width = exported.image.width, height = exported.image.height;
+    const Context context(width, height);
+    Renderer renderer;
+    renderer.set_mesh(prepared->mesh.get());
+    renderer.set_positions(job.positions);
+    if (is_heat(view)) {
+      Eigen::VectorXf shades(values.size());
+      for (Index i = 0; i < values.size(); ++i)
+        shades[i] = static_cast<float>(heat_position(scale, values[i]));
+      renderer.set_heat(shades);
+    }
+    Frame frame;
+    frame.window_width = width, frame.window_height = height;
+    frame.canvas_width = width, frame.canvas_height = height;
+    frame.center = exported.corner + Complex(width, height) / 2.0;
+    frame.view = view;
+    frame.diverging = scale.diverging;
+    renderer.draw(frame);
+    Image shown(width, height);
+    read_framebuffer(width, height, shown.pixels.data());
+    int compared = 0, far = 0;
+    for (int r = 0; r < height; ++r)
+      for (int c = 0; c < width; ++c) {
+        const std::uint8_t* e = exported.image.at(c, r);
+        if (e[3] != 255) continue;  // the silhouette
+        ++compared;
+        for (int k = 0; k < 3; ++k) far += std::abs(e[k] - shown.at(c, r)[k]) > 6;
+      }
+    INFO("view " << static_cast<int>(view) << ", far " << far << " of " << compared);
+    CHECK(compared > 20000);
+    CHECK(far < compared / 50);  // edges of the checker, and nothing else
+  }
+}
