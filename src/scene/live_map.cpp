@@ -111,6 +111,26 @@ void LiveMap::take_result(const Scene& scene, bool derivatives) {
   pose(same_rest(*requested_, scene) ? scene : *requested_, derivatives);
 }
 
+namespace {
+
+/// The largest turned triangle, when they add up to more than 1e-4 of the picture: next to the corners
+/// of a basis on the boundary, where derivatives have poles, a few always turn.
+std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
+  constexpr double kVisible = 1e-4;
+  double turned = 0, total = 0, largest = 0;
+  Complex place;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const double twice = cross(f[j] - f[i], f[k] - f[i]);
+    total += std::abs(twice);
+    if (twice >= 0) continue;
+    turned -= twice;
+    if (-twice > largest) largest = -twice, place = (f[i] + f[j] + f[k]) / 3.0;
+  }
+  return turned > kVisible * total ? std::optional(place) : std::nullopt;
+}
+
+}  // namespace
+
 bool LiveMap::pose(const Scene& scene, bool derivatives) {
   if (!shown_ || (posed_ == scene && posed_derivatives_ == derivatives)) return false;
   const double start = now_ms();
@@ -124,13 +144,7 @@ bool LiveMap::pose(const Scene& scene, bool derivatives) {
     return false;
   }
   pose_milliseconds_ = now_ms() - start;
-  fold_.reset();
-  for (const auto& [i, j, k] : shown_->mesh->triangles) {
-    const VectorXc& f = map_.f;
-    if (cross(f[j] - f[i], f[k] - f[i]) > 0) continue;
-    fold_ = (f[i] + f[j] + f[k]) / 3.0;
-    break;
-  }
+  fold_ = visible_fold(*shown_->mesh, map_.f);
   posed_ = scene;
   posed_derivatives_ = derivatives;
   return true;

@@ -54,7 +54,8 @@ class LiveMap {
   bool has_map() const { return shown_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }
-  /// Where the shown map first turns a triangle over, in the posed picture; none when it does not.
+  /// Where the shown map turns the picture over most, in the posed picture; none when that is less
+  /// than 1e-4 of its area.
   std::optional<Complex> fold() const { return fold_; }
   /// The scene that map() shows; it may lag behind the one being edited.
   const std::optional<Scene>& posed() const { return posed_; }
