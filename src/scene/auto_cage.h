@@ -18,8 +18,8 @@ struct AutoCageOptions {
 /// (8-neighbours): it contains every pixel of that part, keeps about `margin` away and has about
 /// the wanted number of vertices (more where fewer would cut the content).
 /// A picture without transparency, or without content, gets a rectangle around it.
-/// Throws Error for options out of range. Cost: a few ns per pixel, then about 50 ms for the outline
-/// on a grid of at most 768 cells a side.
+/// Throws Error for options out of range. Cost: a few ns per pixel, then about 50 ms for the
+/// outline on a grid of at most 768 cells a side.
 Points auto_cage(const Image& image, const AutoCageOptions& options = {});
 
 /// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty

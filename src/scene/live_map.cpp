@@ -113,8 +113,8 @@ void LiveMap::take_result(const Scene& scene, bool derivatives) {
 
 namespace {
 
-/// The largest turned triangle, when they add up to more than 1e-4 of the picture: next to the corners
-/// of a basis on the boundary, where derivatives have poles, a few always turn.
+/// The largest turned triangle, when they add up to more than 1e-4 of the picture: next to the
+/// corners of a basis on the boundary, where derivatives have poles, a few always turn.
 std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
   constexpr double kVisible = 1e-4;
   double turned = 0, total = 0, largest = 0;

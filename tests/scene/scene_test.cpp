@@ -82,7 +82,8 @@ TEST_CASE("A scene survives writing and reading, unknown keys included") {
 
 TEST_CASE("What is wrong with a scene is said with the file, the pointer and the reason") {
   using Catch::Contains;
-  CHECK_THAT(complaint("{"), Contains("scene.json") && Contains("damaged or ends too early, at line"));
+  CHECK_THAT(complaint("{"),
+             Contains("scene.json") && Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint("[]"), Contains("an object is wanted"));
   CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
   CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 2")),
@@ -91,7 +92,8 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,\"60\"]")),
              Contains("/pins/0/rest/1") && Contains("a string"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e999]")), Contains("scene.json"));
-  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,NaN]")), Contains("damaged or ends too early, at line"));
+  CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,NaN]")),
+             Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,1e9]")), Contains("larger than"));
   CHECK_THAT(complaint(replaced(kText, "[[180,200]]", "[]")), Contains("/cage/rest/2"));
   CHECK_THAT(complaint(replaced(kText, "[[180,200]], ", "")),
