@@ -10,50 +10,18 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/quadrature.h"
 
 namespace holomorph {
 namespace {
 
 constexpr std::array<int, 12> kRuleSizes{4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
 
-/// Nodes on [0, 1] and weights of a Gauss-Legendre rule.
-struct GaussRule {
-  std::vector<double> nodes, weights;
-};
-
-/// Newton's method on the Legendre recurrence in extended precision.
-GaussRule gauss_rule(int size) {
-  GaussRule rule{std::vector<double>(size), std::vector<double>(size)};
-  for (int i = 0; i < size; ++i) {
-    long double x = std::cos(3.14159265358979323846264338L * (i + 0.75L) / (size + 0.5L));
-    long double slope = 0;
-    for (int step = 0; step < 100; ++step) {
-      long double p = 1, before = 0;
-      for (int k = 1; k <= size; ++k) {
-        const long double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-      }
-      slope = size * (x * p - before) / (x * x - 1);
-      const long double move = p / slope;
-      x -= move;
-      if (std::abs(move) < 1e-19L) break;
-    }
-    rule.nodes[i] = static_cast<double>(0.5L * (1 - x));
-    rule.weights[i] = static_cast<double>(1 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
+/// A rule with at least this many nodes, from a few sizes; 64 at most.
 const GaussRule& gauss_rule_of_at_least(int size) {
-  static const auto rules = [] {
-    std::array<GaussRule, kRuleSizes.size()> all;
-    for (size_t i = 0; i < all.size(); ++i) all[i] = gauss_rule(kRuleSizes[i]);
-    return all;
-  }();
-  for (size_t i = 0; i < rules.size(); ++i)
-    if (kRuleSizes[i] >= size) return rules[i];
-  return rules.back();
+  for (const int rule : kRuleSizes)
+    if (rule >= size) return gauss_rule(rule);
+  return gauss_rule(kRuleSizes.back());
 }
 
 /// One root of c(t) = z and the logarithm of q / -s, the integral of 1 / (t - s).

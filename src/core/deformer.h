@@ -72,6 +72,16 @@ struct SampledMap {
   int iterations = 0;
 };
 
+/// A pose's map at single points; just outside the cage the inner map goes on.
+class PointMap {
+ public:
+  struct Value {
+    Complex f, fz, fzbar;
+  };
+  virtual ~PointMap() = default;
+  virtual Value at(Complex z) const = 0;
+};
+
 /// What was precomputed from a Rest. Answers poses until the rest changes.
 class Deformer {
  public:
@@ -85,6 +95,10 @@ class Deformer {
   /// can apply the operator itself. Null when the method is not linear or works in full precision.
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
+
+  /// The pose's map at any point, to rounding when the rest is in full precision. Null when the
+  /// method knows its map at samples only.
+  virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 
 /// A row of the table of methods.

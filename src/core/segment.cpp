@@ -50,10 +50,14 @@ Value horner(const Points& powers, Complex z, Complex x) {
 
 }  // namespace
 
+Points powers_about_middle(std::span<const Complex> controls) {
+  return powers_of(split(controls, 0.5).after);
+}
+
 SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
   for (const Complex& z : controls) magnitude_ = std::max(magnitude_, std::abs(z));
   Points backwards(controls.rbegin(), controls.rend());
-  middle_ = powers_of(split(controls, 0.5).after);
+  middle_ = powers_about_middle(controls);
   start_ = powers_of(Points(controls.begin(), controls.end()));
   end_ = powers_of(std::move(backwards));
   // What is only rounding of the control points, as differences amplify it, is no power of the

@@ -10,6 +10,9 @@
 
 namespace holomorph {
 
+/// The curve in powers of 2 t - 1.
+Points powers_about_middle(std::span<const Complex> controls);
+
 /// A root t of c(t) = z as s = t and q = 1 - t, each to its own relative precision: near the
 /// segment's ends the small one of the two is what matters.
 struct Root {
@@ -25,6 +28,7 @@ class SegmentPolynomial {
   int degree() const { return static_cast<int>(middle_.size()) - 1; }
   /// A straight segment run through at constant speed.
   bool is_straight() const { return degree() == 1; }
+  Complex start() const { return start_[0]; }
   /// The largest modulus among the control points.
   double magnitude() const { return magnitude_; }
 

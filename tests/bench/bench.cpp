@@ -8,6 +8,7 @@
 #include "core/cauchy.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/inverse.h"
 #include "raster/raster.h"
 #include "scene/auto_cage.h"
 #include "scene/live_map.h"
@@ -133,6 +134,27 @@ double raised_coordinates_ns(int degree, int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
+/// 10000 preimages under 20 cubic segments, after the inverse is set up.
+double inverse_ms(int runs) {
+  Scene scene;
+  scene.rest = polygon_cage(wavy(20, {500, 500}, 350));
+  scene.pose = wavy_curves(3, 0.15);
+  const auto prepared = prepared_map(scene, Precision::full, {4000});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, false);
+  const auto points = prepared->deformer->point_map(pose_of(scene));
+  const std::span<const Complex> f(map.f.data(), static_cast<size_t>(map.f.size()));
+  const InverseMap inverse(scene.rest, *prepared->mesh, f, *points);
+  return median_ms(runs, [&] {
+    for (int i = 0; i < 10000; ++i) {
+      const Triangle& t =
+          prepared->mesh
+              ->triangles[static_cast<size_t>(i) * 7919 % prepared->mesh->triangles.size()];
+      inverse.at((f[t[0]] + f[t[1]] + f[t[2]]) / 3.0);
+    }
+  });
+}
+
 double prepare_ms(int runs) {
   const Scene scene = scene_with(wavy(100, {500, 500}, 350));
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
@@ -224,6 +246,7 @@ const Entry kEntries[] = {
      [](int runs) { return raised_coordinates_ns(3, runs); }},
     {"prepare: curved to curved, 20 cubic segments, 10k vertices, mesh and coordinates", "ms", 300,
      5, curved_prepare_ms},
+    {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
     {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},

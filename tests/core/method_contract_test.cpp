@@ -167,6 +167,34 @@ TEST_CASE("Contract: the operator for the shader is the map") {
   }
 }
 
+TEST_CASE("Contract: the map at single points is the map at samples, inside and on the boundary") {
+  for_every_method([](const Method& method, const Setup& s, double tolerance) {
+    for (const bool clockwise : {false, true}) {
+      Rest rest = s.rest;
+      Pose pose = s.pose;
+      if (clockwise) rest.cage = reversed(rest.cage), pose.cage = reversed(pose.cage);
+      const auto deformer = method.prepare(rest, nullptr);
+      const auto points = deformer->point_map(pose);
+      if (!points) return;
+      SampledMap map;
+      deformer->deform(pose, map, true);
+      for (size_t i = 0; i < rest.samples.size(); i += 7) {
+        const auto at = points->at(rest.samples[i]);
+        CHECK(std::abs(at.f - map.f[static_cast<Index>(i)]) <= tolerance);
+      }
+      // Derivatives by differences, well inside.
+      for (const Complex z : {Complex(50, 50), Complex(120, 40), Complex(60, 150)}) {
+        const double h = 1e-4;
+        const Complex fx = (points->at(z + h).f - points->at(z - h).f) / (2 * h),
+                      fy = (points->at(z + h * kI).f - points->at(z - h * kI).f) / (2 * h);
+        const auto at = points->at(z);
+        CHECK(std::abs((fx - kI * fy) / 2.0 - at.fz) <= 1e-7);
+        CHECK(std::abs((fx + kI * fy) / 2.0 - at.fzbar) <= 1e-7);
+      }
+    }
+  });
+}
+
 TEST_CASE("Contract: single precision is full precision, rounded") {
   for (const Method& method : methods()) {
     const Setup rough = setup(method, Precision::single), exact = setup(method, Precision::full);

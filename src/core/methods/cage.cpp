@@ -14,6 +14,12 @@ class CageDeformer final : public LinearDeformer<T> {
   VectorXc controls(const Pose& pose) const override {
     return cage_displacement(this->rest_, pose);
   }
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(this->rest_, pose);
+    auto map = std::make_unique<SumMap>();
+    map->terms.emplace_back(this->rest_.cage, controls(pose));
+    return map;
+  }
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {

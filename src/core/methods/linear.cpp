@@ -51,6 +51,16 @@ const PlanarMatrix<float>* LinearDeformer<T>::operator_matrix() const {
     return nullptr;
 }
 
+PointMap::Value SumMap::at(Complex z) const {
+  Value value{z + constant + slope * (z - center), 1.0 + slope, 0};
+  for (const CauchySum& term : terms) {
+    const CauchySum::Value part = term.at(z);
+    value.f += part.f;
+    value.fz += part.df;
+  }
+  return value;
+}
+
 void check_pose(const Rest& rest, const Pose& pose) {
   if (pose.cage.size() != rest.cage.size())
     throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.cage.size()) +

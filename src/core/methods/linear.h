@@ -4,6 +4,7 @@
 // scales with the deformation, not with the picture.
 #pragma once
 
+#include "core/cauchy_map.h"
 #include "core/deformer.h"
 
 namespace holomorph {
@@ -31,6 +32,15 @@ class LinearDeformer : public Deformer {
 
  private:
   PlanarMatrix<T> derivative_;
+};
+
+/// f(z) = z + constant + slope (z - center) + a sum of Cauchy integrals.
+class SumMap final : public PointMap {
+ public:
+  std::vector<CauchySum> terms;
+  Complex constant = 0, slope = 0, center = 0;
+
+  Value at(Complex z) const override;
 };
 
 /// Throws Error unless the pose's cage has the rest's structure and is finite.

@@ -142,6 +142,21 @@ class PinsDeformer final : public LinearDeformer<T> {
     all.tail(functionals()) -= base;
     return all;
   }
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(this->rest_, pose);
+    auto map = std::make_unique<SumMap>();
+    const VectorXc all = controls(pose);
+    map->terms.emplace_back(this->rest_.cage, all.head(all.size() - functionals()));
+    if (functionals() == 0) return map;
+    const VectorXc data = all.tail(functionals());
+    const MatrixXc coefficients =
+        coefficients_.re.template cast<double>() + kI * coefficients_.im.template cast<double>();
+    map->terms.emplace_back(basis_->basis, coefficients * data);
+    map->constant = (affine_.row(0) * data)(0);
+    if (affine_.rows() > 1) map->slope = (affine_.row(1) * data)(0) / basis_->length;
+    map->center = center_;
+    return map;
+  }
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {

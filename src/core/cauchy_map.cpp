@@ -1,0 +1,143 @@
+// Near a segment the logarithm, at middle distances and far away Gauss-Legendre quadrature: the
+// closed form cancels there like the distance to the power of the degree.
+#include "core/cauchy_map.h"
+
+#include "core/quadrature.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kNearNodes = 32, kFarNodes = 10;
+/// Moduli of W = q - s above which the two rules are exact to rounding.
+constexpr double kNear = 1.7, kFar = 8.0;
+
+Complex times(Complex x, Complex y) {
+  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
+}
+Complex inverse(Complex x) {
+  return std::conj(x) / std::norm(x);
+}
+
+Points at_nodes(std::span<const Complex> controls, int count) {
+  Points values;
+  for (const double t : gauss_rule(count).nodes) values.push_back(bezier_point(controls, t));
+  return values;
+}
+
+}  // namespace
+
+CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
+  Cage rest = given;
+  VectorXc displacement = displaced;
+  if (signed_area(outline_of(given)) < 0) {  // the formulas are those of a counter-clockwise cage
+    rest = reversed(given);
+    const std::vector<Index> column = reversed_columns(given);
+    for (Index c = 0; c < displaced.size(); ++c) displacement[column[c]] = displaced[c];
+  }
+  for (Index e = 0; e < rest.size(); ++e) {
+    Points d;
+    for (int m = 0; m <= rest.degree(e); ++m)
+      d.push_back(displacement[(rest.control_offset(e) + m) % displacement.size()]);
+    Segment segment{SegmentPolynomial(rest.controls(e)),
+                    powers_about_middle(d),
+                    at_nodes(d, kNearNodes),
+                    at_nodes(d, kFarNodes),
+                    0,
+                    false};
+    for (const Complex& by : d) segment.is_moved = segment.is_moved || by != Complex(0);
+    segments_.push_back(std::move(segment));
+  }
+  const double step = 1e-12 * box_of(outline_of(rest)).diagonal();
+  for (Index e = 0; e < rest.size(); ++e) {
+    const Segment& before = segments_[(e + rest.size() - 1) % rest.size()];
+    const Complex in = -before.curve.derivative({1, 0}),
+                  out = segments_[e].curve.derivative({0, 1});
+    double angle = std::atan2(cross(out, in), dot(out, in));
+    if (angle <= 0) angle += 2 * kPi;
+    segments_[e].inwards = step * std::polar(1.0, std::arg(out) + 0.5 * angle);
+  }
+}
+
+// With v_s = s - q = -W:  integral of d / (v - v_s) over [-1, 1] = d(v_s) L + R(v_s), where
+// R = sum d_k sum_{j even < k} 2 / (j + 1) v_s^{k-1-j}. Derivatives are in s: dv_s / ds = 2.
+CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, Complex log) {
+  const Complex v = root.s - root.q;
+  const double size = std::norm(v);
+  if (size > kNear * kNear) {
+    const bool far = size > kFar * kFar;
+    const GaussRule& rule = gauss_rule(far ? kFarNodes : kNearNodes);
+    const Points& d = far ? segment.far : segment.near;
+    Value sum{0, 0};
+    for (size_t g = 0; g < d.size(); ++g) {
+      const Complex kernel = inverse(rule.nodes[g] - root.s),
+                    part = times(rule.weights[g] * d[g], kernel);
+      sum.f += part;
+      sum.df += times(part, kernel);
+    }
+    return sum;
+  }
+  // Horner's scheme for d and R together: R_{k} = v R_{k+1} + (the even part of what follows).
+  Complex d = 0, slope = 0, rest = 0, rest_slope = 0;
+  for (size_t k = segment.powers.size(); k-- > 0;) {
+    slope = times(slope, v) + d;
+    d = times(d, v) + segment.powers[k];
+  }
+  // Quotients (d(v) - d(v_s)) / (v - v_s) = sum_j e_j v^j by synthetic division; even e_j
+  // integrate.
+  Complex e = 0, e_slope = 0;
+  for (size_t j = segment.powers.size() - 1; j-- > 0;) {
+    e_slope = times(e_slope, v) + e;
+    e = times(e, v) + segment.powers[j + 1];
+    if (j % 2 == 0) {
+      rest += 2.0 / static_cast<double>(j + 1) * e;
+      rest_slope += 2.0 / static_cast<double>(j + 1) * e_slope;
+    }
+  }
+  const Complex log_slope = -(inverse(root.q) + inverse(root.s));  // in s
+  return {times(d, log) + rest, 2.0 * (times(slope, log) + rest_slope) + times(d, log_slope)};
+}
+
+CauchySum::Value CauchySum::at(Complex z) const {
+  for (const Segment& segment : segments_)
+    if (segment.curve.start() == z) return at(z + segment.inwards);
+  Value sum{0, 0};
+  double turns = 0, nearest = 1e300;
+  const Segment* across = nullptr;
+  Root crossed;
+  std::array<Root, 32> roots;
+  for (const Segment& segment : segments_) {
+    const std::span<Root> found(roots.data(), static_cast<size_t>(segment.curve.degree()));
+    segment.curve.roots(z, found);
+    for (Root& root : found) {
+      const Complex slope = segment.curve.derivative(root);
+      const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)),
+                        std::atan2(cross(-root.s, root.q), dot(-root.s, root.q)));
+      turns += log.imag();
+      const double beside = std::abs(root.s.imag()) * std::abs(slope);
+      if (root.s.real() >= -0.1 && root.q.real() >= -0.1 && beside < nearest) {
+        nearest = beside;
+        across = &segment;
+        crossed = root;
+      }
+      if (!segment.is_moved) continue;
+      const Value part = integral(segment, root, log);
+      sum.f += part.f;
+      sum.df += times(part.df, inverse(slope));
+    }
+  }
+  const Complex factor = inverse(2 * kPi * kI);
+  sum = {times(factor, sum.f), times(factor, sum.df)};
+  if (turns > kPi || !across || !across->is_moved) return sum;
+  // Outside: the jump across the segment is d itself.
+  Complex d = 0, slope = 0;
+  const Complex v = crossed.s - crossed.q;
+  for (size_t k = across->powers.size(); k-- > 0;) {
+    slope = times(slope, v) + d;
+    d = times(d, v) + across->powers[k];
+  }
+  sum.f += d;
+  sum.df += times(2.0 * slope, inverse(across->curve.derivative(crossed)));
+  return sum;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,40 @@
+// A holomorphic map f(z) = z + sum C_m(z) d_m at single points, with its derivative.
+//
+// d are displacements of a cage's control points. Unlike the coordinates themselves this needs one
+// polynomial per segment: integral of d(t) / (t - s) dt = d(s) L + a polynomial, at each root s.
+#pragma once
+
+#include "core/cage.h"
+#include "core/segment.h"
+
+namespace holomorph {
+
+/// The sum over all segments and its derivative; 0 everywhere when nothing is displaced.
+class CauchySum {
+ public:
+  /// `displacement` has an entry for each control point of `rest`, in file order.
+  CauchySum(const Cage& rest, const VectorXc& displacement);
+
+  struct Value {
+    Complex f, df;
+  };
+  /// At a point inside the cage or near its boundary: outside, the inner branch is continued across
+  /// the nearest segment, so that Newton's method does not notice the boundary. At a vertex the
+  /// value is the limit, to 1e-12 of the cage's size, and the derivative is not meaningful.
+  /// Cost: 40 ns a straight segment, 0.3 us a curved one.
+  Value at(Complex z) const;
+
+ private:
+  struct Segment {
+    SegmentPolynomial curve;
+    Points powers;     ///< d in powers of v = 2 t - 1
+    Points near, far;  ///< d at the nodes of the two quadrature rules
+    Complex inwards;   ///< a tiny step from the start into the cage
+    bool is_moved = false;
+  };
+  static Value integral(const Segment& segment, const Root& root, Complex log);
+
+  std::vector<Segment> segments_;
+};
+
+}  // namespace holomorph

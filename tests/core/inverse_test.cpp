@@ -1,0 +1,131 @@
+// Preimages: round trips, boundaries, overlaps.
+#include "core/inverse.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/cauchy.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+using shapes::curved_star;
+
+namespace {
+
+/// A map from a rest to a pose, with what its inverse needs.
+struct Warp {
+  Cage rest, pose;
+  Mesh mesh;
+  std::unique_ptr<Deformer> deformer;
+  std::unique_ptr<PointMap> map;
+  SampledMap sampled;
+  std::unique_ptr<InverseMap> inverse;
+
+  Warp(Cage from, Cage to, int vertices = 1500) : rest(std::move(from)), pose(std::move(to)) {
+    mesh = domain_mesh(rest, {vertices});
+    Rest all;
+    all.cage = elevated_to(rest, pose);
+    all.samples = mesh.vertices;
+    all.precision = Precision::full;
+    deformer = method_named("cage").prepare(all, nullptr);
+    deformer->deform({pose, {}}, sampled, false);
+    map = deformer->point_map({pose, {}});
+    inverse = std::make_unique<InverseMap>(
+        rest, mesh, std::span<const Complex>(sampled.f.data(), mesh.vertices.size()), *map);
+  }
+};
+
+Points inner_points(const Cage& cage, int count, unsigned seed, double near_boundary) {
+  const Points outline = outline_of(cage, 64);
+  const Box box = box_of(outline);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(box.left, box.right), y(box.bottom, box.top), unit(0, 1);
+  Points points;
+  while (static_cast<int>(points.size()) < count) {
+    Complex z(x(random), y(random));
+    if (unit(random) < near_boundary) {
+      const NearestPoint near = nearest_on_polygon(outline, z);
+      z = near.point + std::pow(10.0, -1 - 5 * unit(random)) * (z - near.point);
+    }
+    if (contains(cage, z)) points.push_back(z);
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("Inverse: every point of a random map comes back, next to the boundary, too") {
+  int points = 0, failed = 0;
+  double worst = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const int degree = 1 + static_cast<int>(seed % 8), n = 5 + static_cast<int>(seed % 9);
+    const Cage rest = seed % 2 ? polygon_cage(shapes::star(n, 0.15, seed))
+                               : curved_star(n, 2 + static_cast<int>(seed % 3), 0.2, seed);
+    const Warp warp(rest, curved_star(n, degree, 0.2, seed));
+    for (const Complex z : inner_points(rest, 40, seed, 0.25)) {
+      const Complex w = warp.map->at(z).f;
+      const auto found = warp.inverse->at(w);
+      double best = 1e300;
+      for (const Preimage& p : found) best = std::min(best, std::abs(p.z - z));
+      ++points;
+      // Where the map is flat its inverse is steep.
+      const double steep = 1 / std::max(std::abs(warp.map->at(z).fz), 1e-3);
+      if (best > 1e-9 * steep)
+        ++failed;
+      else
+        worst = std::max(worst, best / steep);
+    }
+  }
+  INFO(failed << " of " << points << " failed, worst " << worst);
+  CHECK(failed == 0);
+  CHECK(worst <= 1e-10);
+}
+
+TEST_CASE("Inverse: curved to curved and back is the identity to 1e-9") {
+  const Warp warp(curved_star(8, 3, 0.25, 3), curved_star(8, 3, 0.25, 3));
+  Cage pose = warp.rest;
+  for (Points& segment : pose.segments)
+    for (Complex& z : segment) z = z + 14.0 * std::sin(z.imag() / 50) + kI * (z.real() * 0.1);
+  const Warp bent(warp.rest, pose);
+  for (const Complex z : inner_points(bent.rest, 400, 9, 0.2)) {
+    const auto found = bent.inverse->at(bent.map->at(z).f);
+    REQUIRE_FALSE(found.empty());
+    CHECK(std::abs(found[0].z - z) <= 1e-9);
+    CHECK(found[0].residual <= 1e-11);
+  }
+}
+
+TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
+  // A long bar bent by 400 degrees overlaps itself.
+  Points bar, bent;
+  for (int i = 0; i <= 40; ++i) bar.push_back({20.0 * i, 0});
+  for (int i = 40; i >= 0; --i) bar.push_back({20.0 * i, 40});
+  for (const Complex& z : bar)
+    bent.push_back(std::polar(150 + z.imag(), z.real() / 800 * 400 / 180 * kPi));
+  std::reverse(bent.begin(), bent.end());  // orientation: radius grows outwards
+  std::reverse(bar.begin(), bar.end());
+  for (Complex& z : bent) z = std::conj(z);
+  const Warp warp(polygon_cage(bar), polygon_cage(bent), 3000);
+  int once = 0, twice = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Complex w = std::conj(std::polar(168.0, i / 40.0 * 2 * kPi));
+    const auto found = warp.inverse->at(w);
+    CHECK(static_cast<int>(found.size()) == std::abs(warp.inverse->expected(w)));
+    once += found.size() == 1;
+    twice += found.size() == 2;
+    for (const Preimage& p : found) CHECK(std::abs(warp.map->at(p.z).f - w) <= 1e-10);
+  }
+  CHECK(once > 20);
+  CHECK(twice >= 2);
+  CHECK(warp.inverse->at({0, 0}).empty());
+  CHECK(warp.inverse->at({1e6, 0}).empty());
+  CHECK(warp.inverse->at({NAN, 0}).empty());
+}
+
+TEST_CASE("Inverse: the identity's is the identity") {
+  const Warp warp(curved_star(6, 3, 0.3, 5), curved_star(6, 3, 0.3, 5));
+  for (const Complex z : inner_points(warp.rest, 100, 1, 0.5)) {
+    const auto found = warp.inverse->at(z);
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].z - z) <= 1e-12);
+  }
+}
