@@ -5,11 +5,14 @@
 
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include "bench/bench.h"
 #include "core/cauchy.h"
 #include "core/error.h"
+#include "core/inverse.h"
 #include "raster/picture.h"
+#include "raster/unwarp.h"
 #include "scene/auto_cage.h"
 #include "scene/document.h"
 #include "scene/export.h"
@@ -56,6 +59,26 @@ SampledMap map_at(const Scene& scene, const Points& points) {
   return map;
 }
 
+/// printf of numbers, NaN without the sign that some have and no reader expects.
+template <class... Numbers>
+std::string csv_line(const char* format, Numbers... numbers) {
+  char line[200];
+  std::snprintf(line, sizeof line, format, numbers...);
+  std::string out;
+  for (std::string_view rest = line; !rest.empty(); rest.remove_prefix(1)) {
+    if (rest.starts_with("-nan")) rest.remove_prefix(1);
+    out += rest[0];
+  }
+  return out;
+}
+
+void write_or_print(const std::optional<Path>& out, const std::string& text) {
+  if (out)
+    write_file(*out, text);
+  else
+    std::cout << text;
+}
+
 }  // namespace
 
 void run(const MapCommand& command) {
@@ -65,21 +88,36 @@ void run(const MapCommand& command) {
   const SampledMap map = map_at(scene, points);
   std::string out = "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n";
   for (Index i = 0; i < map.f.size(); ++i) {
-    char line[200];
-    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(),
-                  map.f[i].imag(), map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(),
-                  map.fzbar[i].imag());
-    // printf writes some NaN with a sign, which no reader expects.
-    for (std::string_view rest = line; !rest.empty();) {
-      if (rest.starts_with("-nan")) rest.remove_prefix(1);
-      out += rest[0];
-      rest.remove_prefix(1);
+    out += csv_line("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(), map.f[i].imag(),
+                    map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(), map.fzbar[i].imag());
+  }
+  write_or_print(command.out, out);
+}
+
+void run(const InverseCommand& command) {
+  const Scene scene = load(command.scene).scene;
+  require_cage(scene, command.scene);
+  const Points points = points_of_csv(read_file(command.points), command.points.string());
+  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, false);
+  const auto at = prepared->deformer->point_map(pose_of(scene));
+  if (!at) throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse");
+  const InverseMap inverse(scene.rest, *prepared->mesh,
+                           {map.f.data(), static_cast<size_t>(map.f.size())}, *at);
+  std::string out = command.all ? "point,x,y,residual,count\n" : "x,y,residual,count\n";
+  for (size_t i = 0; i < points.size(); ++i) {
+    std::vector<Preimage> found = inverse.at(points[i]);
+    const size_t count = found.size();
+    if (found.empty()) found.push_back({Complex(NAN, NAN), NAN});
+    for (const Preimage& preimage : found) {
+      if (command.all) out += std::to_string(i) + ",";
+      out += csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
+                      preimage.residual, count);
+      if (!command.all) break;  // the one on top
     }
   }
-  if (command.out)
-    write_file(*command.out, out);
-  else
-    std::cout << out;
+  write_or_print(command.out, out);
 }
 
 void run(const CoordinatesCommand& command) {
@@ -134,11 +172,19 @@ namespace {
 
 std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   const std::string& format = command.format;
-  if (format != "svg" && format != "obj" && format != "npy")
-    throw Error(ErrorKind::bad_input,
-                "format '" + format +
-                    "' is not available in this version; choose one of: obj, svg, npy, png");
+  const std::set<std::string> known{"svg", "obj", "npy", "stmap", "unwarp"};
+  if (!known.contains(format))
+    throw Error(ErrorKind::bad_input, "format '" + format +
+                                          "' is not available in this version; choose one of: obj, "
+                                          "svg, npy, png, stmap, unwarp");
   require_cage(loaded.scene, command.scene);
+  if (format == "unwarp")
+    return encode_png(unwarped(loaded.scene, loaded.image.get(), command.scale));
+  if (format == "stmap") {
+    const Image none, &picture = loaded.image ? *loaded.image : none;
+    const StMap map = st_map_of(loaded.scene, picture.width, picture.height, command.scale);
+    return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
+  }
   if (format == "svg") return svg_of(loaded.scene);
   const auto prepared = prepared_map(loaded.scene, Precision::full, MeshOptions{});
   SampledMap map;
@@ -153,7 +199,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 
 void run(const ExportCommand& command) {
   if (command.format == "png")
-    return run(RenderCommand{command.scene, command.out, 1, "image", false});
+    return run(RenderCommand{command.scene, command.out, command.scale, "image", false});
   const LoadedScene loaded = load(command.scene);
   check_out(command.out, command.scene, loaded);
   const std::string bytes = exported(loaded, command);

@@ -15,6 +15,11 @@ struct CoordinatesCommand {
   Path scene, points, out;
   int order = 0;
 };
+struct InverseCommand {
+  Path scene, points;
+  std::optional<Path> out;  ///< standard output when missing
+  bool all = false;
+};
 struct RenderCommand {
   Path scene, out;
   double scale = 1;
@@ -33,6 +38,7 @@ struct NewCommand {
 struct ExportCommand {
   Path scene, out;
   std::string format;
+  double scale = 1;
 };
 struct BenchCommand {
   std::string filter;
@@ -41,6 +47,7 @@ struct BenchCommand {
 
 /// Each does its work and throws Error when it cannot.
 void run(const MapCommand& command);
+void run(const InverseCommand& command);
 void run(const CoordinatesCommand& command);
 void run(const RenderCommand& command);
 void run(const InfoCommand& command);

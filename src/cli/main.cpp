@@ -38,6 +38,16 @@ int run_program(int argc, char** argv) {
   sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
   on_run(sub, map, done);
 
+  InverseCommand inverse;
+  sub =
+      app.add_subcommand("inverse", "Where posed points come from: rows x,y to x,y,residual,count");
+  sub->add_option("SCENE", inverse.scene)->required();
+  sub->add_option("--points", inverse.points, "CSV file of points")->required();
+  sub->add_option("--out", inverse.out, "CSV file to write; standard output when missing");
+  sub->add_flag("--all", inverse.all,
+                "Every preimage where the picture lies over itself: rows point,x,y,residual,count");
+  on_run(sub, inverse, done);
+
   CoordinatesCommand coordinates;
   sub = app.add_subcommand("coordinates", "The basis matrix at points as a NumPy file");
   sub->add_option("SCENE", coordinates.scene)->required();
@@ -76,7 +86,9 @@ int run_program(int argc, char** argv) {
   ExportCommand out;
   sub = app.add_subcommand("export", "Write the posed scene in another format");
   sub->add_option("SCENE", out.scene)->required();
-  sub->add_option("--format", out.format, "obj, svg, npy or png")->required();
+  sub->add_option("--format", out.format, "obj, svg, npy, png, stmap or unwarp")->required();
+  sub->add_option("--scale", out.scale, "Output pixels per image pixel, for png, stmap and unwarp")
+      ->capture_default_str();
   sub->add_option("--out", out.out, "File to write")->required();
   on_run(sub, out, done);
 

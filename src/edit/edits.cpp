@@ -2,7 +2,6 @@
 #include "edit/edits.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "core/error.h"
 
@@ -89,7 +88,8 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
   if (scene.rest.size() - vertices < 3 && vertices > 0)
     throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
-  for (const Handle& handle : std::views::reverse(selection)) {
+  const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
+  for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::pin) {
       scene.pins.erase(scene.pins.begin() + handle.index);
     } else if (handle.control == 0) {

@@ -78,7 +78,7 @@ class Drawing {
  public:
   Drawing(const RasterJob& job, double left, double top, int width, int height)
       : job_(job), left_(left), top_(top), scale_(job.pixels_per_unit), output_(width, height) {
-    if (job.source && job.view == View::image) add_surroundings();
+    if (job.source && job.view == View::image && job.surroundings) add_surroundings();
     if (job.mesh) add_mesh();
     bin();
   }

@@ -19,6 +19,7 @@ struct RasterJob {
   Eigen::VectorXd heat;  ///< per mesh vertex, for heat views
   HeatScale scale;
   double pixels_per_unit = 1;  ///< output pixels per image pixel
+  bool surroundings = true;    ///< draw the source outside the rest cage, too
   bool crop = false;           ///< keep the source's rectangle; else nothing is cut off
   int threads = 0;             ///< 0: as many as the machine has cores
 };

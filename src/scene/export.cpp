@@ -15,9 +15,10 @@ std::string number(double x) {
   return text;
 }
 
-std::string npy_header(const char* type, size_t rows, size_t columns) {
-  std::string header = std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (" +
-                       std::to_string(rows) + ", " + std::to_string(columns) + "), }";
+std::string npy_header(const char* type, std::initializer_list<size_t> shape) {
+  std::string header = std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (";
+  for (const size_t size : shape) header += std::to_string(size) + ", ";
+  header += "), }";
   header.append(63 - (10 + header.size()) % 64, ' ');
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);
@@ -26,7 +27,8 @@ std::string npy_header(const char* type, size_t rows, size_t columns) {
   return bytes + header;
 }
 
-void append(std::string& bytes, double x) {
+template <class Number>
+void append(std::string& bytes, Number x) {
   char raw[sizeof x];
   std::memcpy(raw, &x, sizeof x);
   bytes.append(raw, sizeof x);
@@ -36,7 +38,7 @@ void append(std::string& bytes, double x) {
 
 std::string npy_of(const MatrixXc& matrix) {
   std::string bytes =
-      npy_header("<c16", static_cast<size_t>(matrix.rows()), static_cast<size_t>(matrix.cols()));
+      npy_header("<c16", {static_cast<size_t>(matrix.rows()), static_cast<size_t>(matrix.cols())});
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < matrix.cols(); ++j) {
       append(bytes, matrix(i, j).real());
@@ -46,11 +48,17 @@ std::string npy_of(const MatrixXc& matrix) {
 }
 
 std::string npy_of(std::span<const Complex> positions) {
-  std::string bytes = npy_header("<f8", positions.size(), 2);
+  std::string bytes = npy_header("<f8", {positions.size(), 2});
   for (const Complex& z : positions) {
     append(bytes, z.real());
     append(bytes, z.imag());
   }
+  return bytes;
+}
+
+std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t columns, size_t depth) {
+  std::string bytes = npy_header("<f4", {rows, columns, depth});
+  for (const float x : numbers) append(bytes, x);
   return bytes;
 }
 

@@ -12,6 +12,9 @@ std::string npy_of(const MatrixXc& matrix);
 /// A NumPy file of the positions as a float64 matrix, n x 2.
 std::string npy_of(std::span<const Complex> positions);
 
+/// A NumPy file of numbers in single precision, rows x columns x depth, depth running fastest.
+std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t columns, size_t depth);
+
 /// The warped mesh as Wavefront OBJ: positions in image pixels, texture coordinates of the picture.
 std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
                    int image_height);

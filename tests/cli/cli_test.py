@@ -221,7 +221,7 @@ class CommandLine(unittest.TestCase):
         self.bad("render", scene, "--out", self.path("x.png"), "--view", "xray", says="angle")
         for scale in ("0", "-1", "1e9", "nan"):
             self.bad("render", scene, "--out", self.path("x.png"), "--scale", scale, says="scale")
-        self.bad("export", scene, "--format", "doc", "--out", self.path("x"), says="obj, svg, npy, png")
+        self.bad("export", scene, "--format", "doc", "--out", self.path("x"), says="obj, svg, npy, png, stmap, unwarp")
         picture = os.path.join(SOURCE, "assets/giraffe.png")
         self.bad("new", picture, "--out", self.path("n.json"), "--vertices", 2, says="3 to 500")
         self.bad("new", scene, "--out", self.path("n.json"), says="no picture")
@@ -233,7 +233,7 @@ class CommandLine(unittest.TestCase):
         self.assertFalse(os.path.exists(self.path("n.json")))
         self.bad("frobnicate", "x", says="")
         self.assertEqual(run("--help").returncode, 0)
-        for command in ("map", "coordinates", "render", "info", "new", "export", "bench"):
+        for command in ("map", "inverse", "coordinates", "render", "info", "new", "export", "bench"):
             self.assertEqual(run(command, "--help").returncode, 0)
 
     def test_sources_are_never_replaced(self):
@@ -250,6 +250,57 @@ class CommandLine(unittest.TestCase):
         result = run("info", picture)
         self.assertEqual(result.returncode, 2)
         self.assertIn("holomorph new", result.stderr)
+
+    def test_inverse_undoes_map(self):
+        scene = os.path.join(SOURCE, "assets/gecko.json")
+        loop = numpy.array([segment[0] for segment in json.load(open(scene))["cage"]["rest"]])
+        inner = [loop.mean(axis=0) + 0.2 * (p - loop.mean(axis=0)) for p in loop[::5]] + [[338, 654], [840, 184]]
+        points = self.write("in.csv", "".join("%r,%r\n" % (float(x), float(y)) for x, y in inner))
+        there = self.path("there.csv")
+        self.good("map", scene, "--points", points, "--out", there)
+        rows = list(csv.DictReader(open(there)))
+        posed = self.write("posed.csv", "".join(row["u"] + "," + row["v"] + "\n" for row in rows) + "1e5,1e5\n")
+        back = list(csv.DictReader(io.StringIO(self.good("inverse", scene, "--points", posed, "--all").stdout)))
+        for i, (x, y) in enumerate(inner):
+            mine = [row for row in back if row["point"] == str(i)]
+            self.assertEqual(len(mine), int(mine[0]["count"]))
+            self.assertLess(min(abs(complex(float(r["x"]) - x, float(r["y"]) - y)) for r in mine), 1e-8)
+            self.assertTrue(all(float(r["residual"]) < 1e-9 for r in mine))
+        self.assertEqual(back[-1]["x"], "nan")
+        self.assertEqual(back[-1]["count"], "0")
+        short = list(csv.DictReader(io.StringIO(self.good("inverse", scene, "--points", posed).stdout)))
+        self.assertEqual(len(short), len(inner) + 1)
+
+    def test_stmap_and_unwarp(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        self.good("export", scene, "--format", "stmap", "--scale", 0.25, "--out", self.path("st.npy"))
+        st = numpy.load(self.path("st.npy"))
+        self.assertEqual(st.shape, (275, 225, 2))
+        self.assertEqual(st.dtype, numpy.float32)
+        # Where the scene moves nothing the map is the identity.
+        self.assertTrue(numpy.allclose(st[0, 0], [0.5 / 225, 1 - 0.5 / 275]))
+        # Applying it to the source gives the rendered picture.
+        self.good("render", scene, "--crop", "--out", self.path("bent.png"))
+        source = numpy.asarray(Image.open(os.path.join(SOURCE, "assets/giraffe.png"))).astype(float)
+        bent = numpy.asarray(Image.open(self.path("bent.png"))).astype(float)
+        shown = numpy.isfinite(st[..., 0])
+        rows, columns = numpy.nonzero(shown)
+        x = numpy.clip((st[rows, columns, 0] * 900).astype(int), 0, 899)
+        y = numpy.clip(((1 - st[rows, columns, 1]) * 1100).astype(int), 0, 1099)
+        expected = source[y, x, 3]
+        found = bent[rows * 4 + 2, columns * 4 + 2, 3]
+        self.assertLess((numpy.abs(expected - found) > 100).mean(), 0.02)
+        # A bent picture, unwarped by the scene that bent it, is the source again.
+        shutil.copy(self.path("bent.png"), self.path("giraffe.png"))
+        with open(scene) as file:
+            text = json.load(file)
+        text["image"] = {"file": "giraffe.png"}
+        self.good("export", self.write("bent.json", text), "--format", "unwarp", "--out", self.path("back.png"))
+        back = numpy.asarray(Image.open(self.path("back.png"))).astype(float)
+        self.assertEqual(back.shape, source.shape)
+        solid = (source[..., 3] == 255) & (back[..., 3] == 255)
+        self.assertGreater(solid.mean(), 0.1)
+        self.assertLess(numpy.abs(back - source)[solid].mean(), 4)
 
     def test_no_points_are_no_lines(self):
         points = os.path.join(self.folder, "none.csv")

@@ -1,0 +1,84 @@
+// Unwarping is drawing with the two sides of the mesh exchanged.
+#include "raster/unwarp.h"
+
+#include <atomic>
+#include <limits>
+#include <thread>
+
+#include "core/cauchy.h"
+#include "core/error.h"
+#include "core/inverse.h"
+#include "scene/live_map.h"
+
+namespace holomorph {
+namespace {
+
+/// The places of one row of pixels.
+void fill_row(const Scene& scene, const InverseMap& inverse, double scale, int row, double height,
+              double width, StMap& map) {
+  for (int c = 0; c < map.width; ++c) {
+    const Complex w((c + 0.5) / scale, height - (row + 0.5) / scale);
+    const auto found = inverse.at(w);
+    Complex z(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
+    if (!found.empty())
+      z = found[0].z;
+    else if (!contains(scene.rest, w))
+      z = w;  // what lies outside the cage stays
+    float* out = &map.st[2 * (static_cast<size_t>(row) * map.width + c)];
+    out[0] = static_cast<float>(z.real() / width);
+    out[1] = static_cast<float>(z.imag() / height);
+  }
+}
+
+}  // namespace
+
+StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale) {
+  const double width = picture_width, height = picture_height;
+  if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
+    throw Error(ErrorKind::bad_input,
+                "the scale must be positive and give at most 16384 pixels a side");
+  if (picture_width <= 0 || picture_height <= 0)
+    throw Error(ErrorKind::bad_input, "an ST-map needs the scene's picture, and it has none");
+  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
+  SampledMap sampled;
+  prepared->deformer->deform(pose_of(scene), sampled, false);
+  const auto points = prepared->deformer->point_map(pose_of(scene));
+  if (!points)
+    throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse to export");
+  const InverseMap inverse(scene.rest, *prepared->mesh,
+                           {sampled.f.data(), static_cast<size_t>(sampled.f.size())}, *points);
+  StMap map{std::max(1, static_cast<int>(std::lround(width * scale))),
+            std::max(1, static_cast<int>(std::lround(height * scale))),
+            {}};
+  map.st.resize(2 * static_cast<size_t>(map.width) * map.height);
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int row = next++; row < map.height; row = next++)
+      fill_row(scene, inverse, scale, row, height, width, map);
+  };
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
+  work();
+  for (std::thread& thread : others) thread.join();
+  return map;
+}
+
+Image unwarped(const Scene& scene, const Image* picture, double scale) {
+  if (!picture)
+    throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
+  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, false);
+  Mesh posed = *prepared->mesh;
+  posed.vertices.assign(map.f.begin(), map.f.end());
+  RasterJob job;
+  job.mesh = &posed;
+  job.positions = prepared->mesh->vertices;
+  job.source = picture;
+  job.pixels_per_unit = scale;
+  job.crop = true;
+  job.surroundings = false;
+  return rasterized(job).image;
+}
+
+}  // namespace holomorph
