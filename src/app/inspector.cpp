@@ -86,7 +86,16 @@ void one_handle(Workspace& workspace, Handle handle) {
   edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
     return placed(s, handle, {position_of(s, handle, layer).real(), y}, layer);
   });
-  if (!pin || layer == Layer::rest) return;
+  if (!pin) {
+    ImGui::Text("Segment of degree %d", cage_of(scene, layer).degree(handle.index));
+    for (const char* id : {"cage.raise", "cage.lower"}) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
+        run(action_named(id), workspace);
+    }
+    return;
+  }
+  if (layer == Layer::rest) return;
   bool turns = scene.pins[handle.index].angle.has_value();
   if (ImGui::Checkbox("Turns the picture", &turns)) {
     Scene after = scene;

@@ -25,6 +25,21 @@ void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, I
   if (line.size() > 1) stroke(list, line, true, color, style);
 }
 
+/// From each vertex to its tangents; all of the control polygon for higher degrees.
+void draw_tangents(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
+                   const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  for (Index e = 0; e < cage.size(); ++e) {
+    const Points controls = cage.controls(e);
+    for (size_t m = 0; controls.size() > 2 && m + 1 < controls.size(); ++m) {
+      if (controls.size() == 4 && m == 1) continue;
+      const ImVec2 a = px(workspace, controls[m]), b = px(workspace, controls[m + 1]);
+      list.AddLine(a, b, style.colors.outline, 2.4f * s);
+      list.AddLine(a, b, color, 1.1f * s);
+    }
+  }
+}
+
 void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered,
                       ImU32 color, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = (hovered ? 6.5f : 5.0f) * s;
@@ -69,9 +84,9 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     if (gesture.line_end)
       line.push_back(gesture.closes ? line[0] : px(workspace, *gesture.line_end));
     stroke(list, line, false, style.colors.rest, style);
-    for (size_t i = 0; i < gesture.line.size(); ++i)
-      draw_cage_handle(list, line[i], true, false, i == 0 && gesture.closes, style.colors.rest,
-                       style);
+    for (size_t i = 0; i < gesture.line_points.size(); ++i)
+      draw_cage_handle(list, px(workspace, gesture.line_points[i]), true, false,
+                       i == 0 && gesture.closes, style.colors.rest, style);
   }
   if (gesture.insertion) {
     const ImVec2 at = px(workspace, *gesture.insertion);
@@ -120,6 +135,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                        (color & 0x00ffffff) | 0xb0000000, ImDrawFlags_Closed, 1.3f * width);
     } else if (scene.has_cage())
       draw_cage(list, workspace, cage_of(scene, layer), color, style);
+    if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
     for (const Handle& handle : handles_of(scene, layer)) {
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;

@@ -195,8 +195,9 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
 
 void draw_context_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("context")) return;
-  for (const char* id : {"edit.delete", "edit.reset", "edit.free_angle", "edit.select_all",
-                         "view.frame", "view.fit", "cage.rest"})
+  for (const char* id :
+       {"edit.delete", "edit.reset", "edit.free_angle", "cage.corner", "cage.raise", "cage.lower",
+        "edit.select_all", "view.frame", "view.fit", "cage.rest"})
     action_item(action_named(id), workspace);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
@@ -320,6 +321,7 @@ bool draw_help(double scale) {
       {"Drag on empty canvas", "select with a box; Shift adds"},
       {"Double-click an edge", "insert a cage point"},
       {"Alt-click a point or pin", "delete it"},
+      {"Ctrl-click a cage point", "smooth or corner; drag its tangents, Alt breaks them"},
       {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
       {"Wheel on the ring", "scale the picture around the pin"},
       {"Middle drag, Space-drag", "pan"},

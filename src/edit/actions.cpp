@@ -2,6 +2,7 @@
 #include "edit/actions.h"
 
 #include "core/error.h"
+#include "edit/curve_edits.h"
 #include "scene/auto_cage.h"
 
 namespace holomorph {
@@ -21,6 +22,11 @@ bool has_content(const Workspace& w) {
 }
 bool has_image(const Workspace& w) {
   return w.document.image() != nullptr;
+}
+bool has_cage_selection(const Workspace& w) {
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::cage && handle.control == 0) return true;
+  return false;
 }
 bool has_selection(const Workspace& w) {
   return !w.selection.empty();
@@ -276,6 +282,30 @@ std::vector<Action> table() {
        has_cage,
        switch_layer,
        [](const Workspace& w) { return w.layer == Layer::rest; }},
+
+      {"cage.corner",
+       "Smooth point or corner",
+       "",
+       "Cage",
+       {'C'},
+       has_cage_selection,
+       [](Workspace& w) {
+         w.commit("Smooth or corner", toggled_corners(w.scene(), w.selection, w.layer));
+       }},
+      {"cage.raise",
+       "Raise the curves' degree",
+       "",
+       "Cage",
+       {},
+       has_cage,
+       [](Workspace& w) { w.commit("Raise degree", raised(w.scene(), w.selection, w.layer)); }},
+      {"cage.lower",
+       "Lower the curves' degree",
+       "",
+       "Cage",
+       {},
+       has_cage,
+       [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.layer)); }},
 
       {"view.image", "Picture", "", "View", {'1'}, always, look<View::image>, looks<View::image>},
       {"view.angle",

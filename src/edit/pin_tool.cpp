@@ -17,11 +17,7 @@ class PinTool final : public Tool {
     hover_ = handle_at(workspace, input.px);
     if (!input.pressed) return;
     if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
-    if (hover_ && input.mods.alt) {
-      workspace.erase({*hover_});
-      hover_.reset();
-      return;
-    }
+    if (hover_ && edits_point(input, *hover_, workspace)) return hover_.reset();
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
       workspace.selection.insert(*hover_);

@@ -17,8 +17,7 @@ class SelectTool final : public Tool {
     if (!input.inside || !input.pressed) return;
     if (ring_.hovered() && !hover_) {
       ring_.start(input, workspace);
-    } else if (hover_ && input.mods.alt) {
-      workspace.erase({*hover_});
+    } else if (hover_ && edits_point(input, *hover_, workspace)) {
       hover_.reset();
     } else if (hover_) {
       pick(input, workspace);
@@ -71,7 +70,9 @@ class SelectTool final : public Tool {
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
-    if (hover_) return "Drag to move; Shift-click adds to the selection; Alt-click deletes";
+    if (hover_ && hover_->control > 0) return "Drag to bend; Alt breaks a smooth point's tangents";
+    if (hover_)
+      return "Drag to move; Shift-click adds; Alt-click deletes; Ctrl-click: smooth or corner";
     return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
                                             "edge inserts; Tab returns to the pose"
                                           : "Drag points or pins; drag a box to select; "

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "edit/curve_edits.h"
+
 namespace holomorph {
 
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
@@ -12,7 +14,12 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
     if (input.mods.shift)
       by =
           std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
-    workspace.preview = moved(scene_, what_, by, workspace.layer);
+    const Handle& first = *what_.begin();
+    const bool tangent = what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0;
+    workspace.preview =
+        tangent ? tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
+                                workspace.layer, input.mods.alt)
+                : moved(scene_, what_, by, workspace.layer);
   }
   if (!input.released && input.down) return false;
   active_ = false;
@@ -27,6 +34,20 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
                                                     : "Move",
                      *workspace.preview);
   return true;
+}
+
+bool edits_point(const Input& input, Handle handle, Workspace& workspace) {
+  const bool vertex = handle.kind == Handle::Kind::cage && handle.control == 0;
+  if (input.mods.alt && (vertex || handle.kind == Handle::Kind::pin)) {
+    workspace.erase({handle});
+    return true;
+  }
+  if (input.mods.ctrl && vertex) {
+    workspace.commit("Smooth or corner",
+                     toggled_corners(workspace.scene(), {handle}, workspace.layer));
+    return true;
+  }
+  return false;
 }
 
 namespace {

@@ -10,7 +10,8 @@ namespace holomorph {
 
 /// What a tool wants drawn besides the scene.
 struct ToolOverlay {
-  Points line;                      ///< an unfinished cage, in the plane
+  Points line;                      ///< an unfinished cage as a polyline, in the plane
+  Points line_points;               ///< the points that were set
   std::optional<Complex> line_end;  ///< where its next point would be
   bool closes = false;              ///< the next click closes it
   std::optional<Box> marquee;       ///< in window px
@@ -78,6 +79,10 @@ class HandleDrag {
   Scene scene_;
   bool active_ = false, moving_ = false, amends_ = false;
 };
+
+/// Presses that edit a point instead of picking it: Alt deletes a vertex or pin, Ctrl makes a
+/// vertex smooth or a corner. Returns whether it was one.
+bool edits_point(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around the one selected pin: dragging it turns the picture around the pin, the wheel
 /// scales it there.

@@ -36,9 +36,13 @@ Scene at_rest(Scene scene) {
   return scene;
 }
 
-Scene with_cage(Scene scene, const Points& polygon) {
-  scene.rest = polygon_cage(polygon);
+Scene with_cage(Scene scene, Cage cage) {
+  scene.rest = std::move(cage);
   return at_rest(std::move(scene));
+}
+
+Scene with_cage(Scene scene, const Points& polygon) {
+  return with_cage(std::move(scene), polygon_cage(polygon));
 }
 
 }  // namespace holomorph

@@ -50,6 +50,7 @@ Pose pose_of(const Scene& scene);
 /// The scene with everything posed as it rests.
 Scene at_rest(Scene scene);
 /// The scene with this cage, everything at rest: pins keep their rest and return to it.
+Scene with_cage(Scene scene, Cage cage);
 Scene with_cage(Scene scene, const Points& polygon);
 
 }  // namespace holomorph

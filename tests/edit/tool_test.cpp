@@ -4,72 +4,13 @@
 
 #include "core/error.h"
 #include "edit/actions.h"
+#include "edit/desk.h"
 #include "edit/tool.h"
 #include "scene/auto_cage.h"
-#include "support/shapes.h"
 
 using namespace holomorph;
 
 namespace {
-
-/// A workspace whose viewport shows one plane unit as one pixel, with tools to drive.
-struct Desk {
-  Workspace workspace{MeshOptions{500}};
-  std::vector<std::unique_ptr<Tool>> tools;
-
-  explicit Desk(const Points& polygon = {}) {
-    tools.push_back(select_tool());
-    tools.push_back(pen_tool());
-    tools.push_back(pin_tool());
-    workspace.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
-    if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
-    settle();
-  }
-  void settle() { workspace.map.finish(workspace.scene(), false); }
-  Tool& tool() {
-    for (const auto& tool : tools)
-      if (tool->id() == workspace.tool) return *tool;
-    return *tools[0];
-  }
-  Input at(Complex z, Modifiers mods = {}) const {
-    Input input;
-    input.position = z;
-    input.px = workspace.viewport.px_at_plane(z);
-    input.inside = true;
-    input.mods = mods;
-    return input;
-  }
-  void hover(Complex z) { tool().input(at(z), workspace); }
-  void press(Complex z, Modifiers mods = {}, bool twice = false) {
-    hover(z);
-    Input input = at(z, mods);
-    input.pressed = input.down = true;
-    input.double_clicked = twice;
-    tool().input(input, workspace);
-  }
-  void move(Complex z, Modifiers mods = {}) {
-    Input input = at(z, mods);
-    input.down = true;
-    tool().input(input, workspace);
-  }
-  void release(Complex z, Modifiers mods = {}) {
-    Input input = at(z, mods);
-    input.released = true;
-    tool().input(input, workspace);
-  }
-  void click(Complex z, Modifiers mods = {}) {
-    press(z, mods);
-    release(z, mods);
-  }
-  void drag(Complex from, Complex to, Modifiers mods = {}) {
-    press(from);
-    move(0.5 * (from + to), mods);
-    move(to, mods);
-    release(to, mods);
-  }
-  const Scene& scene() const { return workspace.scene(); }
-  size_t steps() const { return workspace.document.history().entries().size(); }
-};
 
 constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 
