@@ -213,7 +213,7 @@ class Editor {
         draw_legend(workspace_, canvas_.heat_scale(), canvas_.heat_values(), style);
       draw_toolbar(workspace_, scale);
       draw_inspector(workspace_, canvas_.heat_scale(), scale);
-      draw_cage_offer(workspace_, scale);
+      if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       draw_context_menu(workspace_);
       status.hint = current_tool().hint(workspace_);
       if (input.inside) status.cursor = input.position;

@@ -7,6 +7,8 @@
 
 #include "core/error.h"
 #include "raster/picture.h"
+#include "scene/export.h"
+#include "scene/svg_path.h"
 
 namespace holomorph {
 
@@ -137,6 +139,56 @@ void Files::ask_export() {
               [this](const Path& path, double scale) { return export_to(path, scale); });
 }
 
+void Files::ask_svg(bool pose) {
+  dialog_.ask({FileQuestion::Mode::open,
+               pose ? "Posed cage from an SVG path" : "Cage from an SVG path",
+               "Open",
+               {".svg"},
+               {},
+               false},
+              [this, pose](const Path& path, double) { return import_svg(path, pose); });
+}
+
+std::string Files::import_svg(const Path& path, bool pose) {
+  try {
+    const Image* image = workspace_.document.image();
+    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0);
+    Scene scene = workspace_.document.scene();
+    if (pose && cage.size() != scene.rest.size())
+      return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
+             std::to_string(scene.rest.size()) + "; they must agree.";
+    if (pose)
+      scene.pose = std::move(cage);
+    else
+      scene = with_cage(std::move(scene), std::move(cage));
+    workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene));
+    workspace_.layer = Layer::pose;
+    workspace_.tool = ToolId::select;
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void Files::ask_export_svg() {
+  Path start = workspace_.document.path().empty() ? workspace_.document.image_path()
+                                                  : workspace_.document.path();
+  if (start.empty()) start = "cage";
+  start.replace_extension(".svg");
+  dialog_.ask({FileQuestion::Mode::save, "Export the posed cage", "Export", {".svg"}, start, false},
+              [this](const Path& path, double) -> std::string {
+                try {
+                  check_not_a_source(path, workspace_.document.path(),
+                                     workspace_.document.image_path());
+                  write_file(path, svg_of(workspace_.document.scene()));
+                  workspace_.say("Exported " + path.filename().string() + ".");
+                } catch (const Error& error) {
+                  return error.what();
+                }
+                return "";
+              });
+}
+
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
@@ -186,6 +238,15 @@ void Files::answer(Request request) {
         ask_export();
       else
         complain(export_to(export_path_, export_scale_));
+      break;
+    case Request::import_cage:
+      ask_svg(false);
+      break;
+    case Request::import_pose:
+      ask_svg(true);
+      break;
+    case Request::export_svg:
+      ask_export_svg();
       break;
     case Request::quit:
       ask_then([this] {

@@ -47,6 +47,9 @@ class Files {
   /// Shows a problem that no dialog is there to show.
   void complain(const std::string& problem);
   void ask_export();
+  void ask_svg(bool pose);
+  std::string import_svg(const Path& path, bool pose);
+  void ask_export_svg();
   void draw_question(double scale);
 
   Workspace& workspace_;

@@ -18,6 +18,7 @@
 #include "scene/export.h"
 #include "scene/report.h"
 #include "scene/scene_json.h"
+#include "scene/svg_path.h"
 
 namespace holomorph {
 namespace {
@@ -158,14 +159,28 @@ void run(const InfoCommand& command) {
 
 void run(const NewCommand& command) {
   LoadedScene loaded = scene_of_image(command.image);
-  const Points cage = auto_cage(*loaded.image, {command.vertices, command.margin});
-  Scene scene = with_cage(std::move(loaded.scene), cage);
+  const double height = loaded.image->height;
+  const auto from_svg = [&](const Path& path) {
+    return cage_of_svg(read_file(path), path.string(), height);
+  };
+  Scene scene = command.cage
+                    ? with_cage(std::move(loaded.scene), from_svg(*command.cage))
+                    : with_cage(std::move(loaded.scene),
+                                auto_cage(*loaded.image, {command.vertices, command.margin}));
+  check_rest_cage(scene.rest);
+  if (command.pose) scene.pose = from_svg(*command.pose);
+  if (scene.pose.size() != scene.rest.size())
+    throw Error(ErrorKind::bad_input, command.pose->string() + ": the posed cage has " +
+                                          std::to_string(scene.pose.size()) +
+                                          " segments and the cage " +
+                                          std::to_string(scene.rest.size()) + "; they must agree");
   const Path folder = std::filesystem::absolute(command.out).lexically_normal().parent_path();
   const Path relative =
       std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);
   if (!relative.empty()) scene.image->file = relative.generic_string();
   write_file(command.out, json_of(scene));
-  std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(), cage.size());
+  std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(),
+               static_cast<size_t>(scene.rest.size()));
 }
 
 namespace {

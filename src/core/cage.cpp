@@ -226,7 +226,7 @@ void check_speed(const Cage& cage, Index segment) {
   const SegmentPolynomial speed(slopes);
   std::vector<Root> stops(std::max(speed.degree(), 0));
   if (speed.degree() > 0) speed.roots(0, stops);
-  constexpr double kNear = 1e-3;
+  constexpr double kNear = 1e-5;
   for (const Root& stop : stops) {
     const double t = stop.s.real();
     if (std::abs(stop.s.imag()) > kNear || t < -kNear || t > 1 + kNear) continue;

@@ -20,6 +20,9 @@ enum class Request {
   save_as,
   export_picture,
   export_again,
+  import_cage,
+  import_pose,
+  export_svg,
   quit,
   help,
   palette

@@ -302,6 +302,23 @@ class CommandLine(unittest.TestCase):
         self.assertGreater(solid.mean(), 0.1)
         self.assertLess(numpy.abs(back - source)[solid].mean(), 4)
 
+    def test_cages_from_svg(self):
+        picture = os.path.join(SOURCE, "assets/gecko.png")
+        scene, again = self.path("gecko.json"), self.path("again.json")
+        self.good("new", picture, "--out", scene)
+        self.good("export", scene, "--format", "svg", "--out", self.path("cage.svg"))
+        self.good("new", picture, "--cage", self.path("cage.svg"), "--pose", self.path("cage.svg"), "--out", again)
+        a, b = json.load(open(scene))["cage"], json.load(open(again))["cage"]
+        for name in ("rest", "pose"):
+            self.assertLess(numpy.abs(numpy.array(a["rest"]) - numpy.array(b.get(name, b["rest"]))).max(), 1e-9)
+        curved = self.write("curved.svg", '<svg><path d="M100 100 C300 0 700 0 1000 100 L1000 800 Q500 900 100 800 Z"/></svg>')
+        self.good("new", picture, "--cage", curved, "--out", again)
+        self.good("render", again, "--out", self.path("same.png"))
+        same, source = (numpy.asarray(Image.open(path)) for path in (self.path("same.png"), picture))
+        self.assertTrue((same == source).all(), "a curved cage at rest changes nothing")
+        self.bad("new", picture, "--cage", curved, "--pose", self.path("cage.svg"), "--out", again, says="must agree")
+        self.bad("new", picture, "--cage", picture, "--out", again, says="no SVG")
+
     def test_no_points_are_no_lines(self):
         points = os.path.join(self.folder, "none.csv")
         for text in ("", "x,y\n"):

@@ -13,6 +13,7 @@
 #include "scene/export.h"
 #include "scene/live_map.h"
 #include "scene/scene_json.h"
+#include "scene/svg_path.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -430,4 +431,74 @@ TEST_CASE("Pictures that are none are refused") {
   const std::string png = encode_png(Image(20, 20));
   CHECK_THROWS_AS(decode_image(png.substr(0, png.size() / 2), "x"), Error);
   CHECK(decode_image(png, "x") == Image(20, 20));
+}
+
+TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") {
+  const auto loop = [](const std::string& d) {
+    return cage_of_svg("<svg height='100'><g><path d='" + d + "'/></g></svg>", "p.svg", 0);
+  };
+  const Cage expected = [] {
+    Cage cage;
+    cage.segments = {{{10, 90}},
+                     {{50, 90}, {60, 80}, {60, 60}},
+                     {{50, 50}, {40, 40}, {30, 30}},
+                     {{20, 50}, {15, 60}}};
+    return cage;
+  }();
+  for (const char* d : {"M10 10 L50 10 C60 20 60 40 50 50 C40 60 30 70 20 50 Q15 40 10 10 Z",
+                        "M10,10H50C60,20,60,40,50,50S30,70,20,50Q15,40,10,10",
+                        "m10 10h40c10 10 10 30 0 40s-20 20-30 0q-5-10-10-40z",
+                        "M 10 10 50 10 C 60 20 60 40 50 50 40 60 30 70 20 50 Q 15 40 10 10 z"}) {
+    const Cage cage = loop(d);
+    REQUIRE(cage.size() == expected.size());
+    for (Index e = 0; e < cage.size(); ++e) {
+      REQUIRE(cage.degree(e) == expected.degree(e));
+      for (int m = 0; m < cage.degree(e); ++m)
+        CHECK(std::abs(cage.segments[e][m] - expected.segments[e][m]) < 1e-12);
+    }
+  }
+  CHECK(loop("M0 0 Q10 0 10 10 T20 20 V0 z").segments[1][1] == Complex(10, 80));
+  CHECK(loop("M0 0V10H10v-10z").size() == 4);
+  // Handles on their points are pulled out.
+  const Cage freed = loop("M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z");
+  CHECK(freed.segments[0][1] != freed.segments[0][0]);
+  check_rest_cage(freed);
+}
+
+TEST_CASE("SVG files that hold no cage are refused with the reason") {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      cage_of_svg(text, "p.svg", 0);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using Catch::Contains;
+  CHECK_THAT(complaint("hello"), Contains("p.svg"));
+  CHECK_THAT(complaint("<svg><rect/></svg>"), Contains("no path"));
+  const auto path = [](const std::string& d) { return "<svg><path d='" + d + "'/></svg>"; };
+  CHECK_THAT(complaint(path("")), Contains("empty"));
+  CHECK_THAT(complaint(path("M0 0 L1 x")), Contains("character 9") && Contains("number"));
+  CHECK_THAT(complaint(path("M0 0 A1 1 0 0 0 2 2")), Contains("arcs"));
+  CHECK_THAT(complaint(path("M0 0 L1 0 L1 1 z M5 5 L6 6 L7 5 z")), Contains("several subpaths"));
+  CHECK_THAT(complaint(path("L0 0 L1 1")), Contains("begins with M"));
+  CHECK_THAT(complaint(path("M0 0 L1 0")), Contains("at least three"));
+  CHECK_THAT(complaint("<svg><g transform='scale(2)'><path d='M0 0 L1 0 L1 1'/></g></svg>"),
+             Contains("transform"));
+  CHECK_THAT(complaint(path("M0 0 L1e999 0 L1 1")), Contains("no number"));
+}
+
+TEST_CASE("A cage goes through SVG and back to 1e-9") {
+  Scene scene = with_cage(Scene{}, shapes::curved_star(9, 3, 0.3, 4));
+  scene.pose = shapes::curved_star(9, 2, 0.2, 7);
+  scene.pose.segments[3].resize(1);
+  scene.image = ImageReference{"x.png", 400, 400, "", ""};
+  const Cage back = cage_of_svg(svg_of(scene), "p.svg", 400);
+  REQUIRE(back.size() == scene.pose.size());
+  for (Index e = 0; e < back.size(); ++e) {
+    REQUIRE(back.degree(e) == scene.pose.degree(e));
+    for (int m = 0; m < back.degree(e); ++m)
+      CHECK(std::abs(back.segments[e][m] - scene.pose.segments[e][m]) < 1e-9);
+  }
 }
