@@ -167,6 +167,7 @@ void cage_section(Workspace& workspace) {
   if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
                          ImGuiSliderFlags_AlwaysClamp))
     workspace.auto_cage_margin = margin < 0 ? -1 : margin;
+  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
   const Action& action = action_named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);

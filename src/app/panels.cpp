@@ -60,6 +60,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
       points_slider(workspace, 160);
+      ImGui::Checkbox("curved", &workspace.auto_cage_curved);
     }
     if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {
@@ -219,6 +220,8 @@ void draw_cage_offer(Workspace& workspace, double scale) {
   ImGui::SameLine();
   if (ImGui::Button("\uf040  Draw it (P)", {150 * s, 0})) workspace.tool = ToolId::pen;
   points_slider(workspace, 190 * s);
+  ImGui::SameLine();
+  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }

@@ -163,10 +163,11 @@ void run(const NewCommand& command) {
   const auto from_svg = [&](const Path& path) {
     return cage_of_svg(read_file(path), path.string(), height);
   };
-  Scene scene = command.cage
-                    ? with_cage(std::move(loaded.scene), from_svg(*command.cage))
-                    : with_cage(std::move(loaded.scene),
-                                auto_cage(*loaded.image, {command.vertices, command.margin}));
+  Scene scene =
+      command.cage
+          ? with_cage(std::move(loaded.scene), from_svg(*command.cage))
+          : with_cage(std::move(loaded.scene),
+                      auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
   check_rest_cage(scene.rest);
   if (command.pose) scene.pose = from_svg(*command.pose);
   if (scene.pose.size() != scene.rest.size())

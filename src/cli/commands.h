@@ -34,6 +34,7 @@ struct NewCommand {
   Path image, out;
   int vertices = 30;
   double margin = -1;
+  bool curved = false;
   std::optional<Path> cage, pose;  ///< SVG files
 };
 struct ExportCommand {

@@ -81,6 +81,7 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   sub->add_option("--margin", fresh.margin,
                   "Distance from the content in pixels; default 2 % of the longer side");
+  sub->add_flag("--curved", fresh.curved, "Cubic segments instead of straight edges");
   sub->add_option("--cage", fresh.cage,
                   "An SVG file whose first path is the cage, in place of alpha");
   sub->add_option("--pose", fresh.pose, "An SVG file whose first path is the posed cage");

@@ -90,8 +90,9 @@ void erase_selection(Workspace& w) {
 }
 
 void make_cage(Workspace& w) {
-  const Points polygon = auto_cage(*w.document.image(), {w.auto_cage_vertices, w.auto_cage_margin});
-  if (w.commit("Cage from picture", with_cage(w.document.scene(), polygon))) {
+  Cage cage = auto_cage(*w.document.image(),
+                        {w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved});
+  if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)))) {
     w.layer = Layer::pose;
     w.tool = ToolId::select;
     w.selection.clear();

@@ -54,6 +54,7 @@ struct Workspace {
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
+  bool auto_cage_curved = false;
   Selection carried_on;  ///< whose step commit_or_amend may carry further; empty: nobody's
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window

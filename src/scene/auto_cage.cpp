@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/curve_around.h"
 #include "core/error.h"
 #include "core/simplify.h"
 
@@ -185,20 +186,21 @@ std::vector<std::uint8_t> largest_part(const Image& image) {
   return any ? std::move(mask.cells) : std::vector<std::uint8_t>{};
 }
 
-Points auto_cage(const Image& image, const AutoCageOptions& options) {
-  if (options.vertices < 3 || options.vertices > 500)
-    throw Error(ErrorKind::bad_input,
-                "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
-  const int longest = std::max(image.width, image.height);
-  if (!std::isfinite(options.margin) || options.margin > 4.0 * longest)
-    throw Error(ErrorKind::bad_input, "the margin is larger than four times the picture");
-  const double margin = options.margin < 0 ? std::max(3.0, 0.02 * longest) : options.margin;
-  if (!has_transparency(image)) return rectangle(image, margin);
-  const std::vector<std::uint8_t> part = largest_part(image);
-  if (part.empty()) return rectangle(image, margin);
+namespace {
 
+/// Level curves of the distance to the content: the cage follows the outer one and keeps the inner
+/// one. Both are empty when there is no content to follow.
+struct Levels {
+  Points outline, kept;
+};
+
+Levels levels_of(const Image& image, double margin) {
+  if (!has_transparency(image)) return {};
+  const std::vector<std::uint8_t> part = largest_part(image);
+  if (part.empty()) return {};
   // Cells of `scale` pixels: a cell with any pixel of the part counts whole.
   constexpr int kMostCells = 768;
+  const int longest = std::max(image.width, image.height);
   const int scale = (longest + kMostCells - 1) / kMostCells;
   // Distances are roots of whole numbers; a level between them never passes through a cell's
   // centre, where a level curve could touch itself.
@@ -213,18 +215,38 @@ Points auto_cage(const Image& image, const AutoCageOptions& options) {
       if (part[static_cast<size_t>(r) * image.width + c])
         cells(border + c / scale, border + r / scale) = 1;
   const Grid<double> field = distance_field(cells);
-  Points outline = level_curve(field, level), kept = level_curve(field, kept_level);
-  const auto in_plane = [&](Complex z) {  // cell centres to image pixels, y up
-    return Complex((z.real() - border + 0.5) * scale,
-                   image.height + (z.imag() + border - 0.5) * scale);
-  };
-  std::transform(outline.begin(), outline.end(), outline.begin(), in_plane);
-  std::transform(kept.begin(), kept.end(), kept.begin(), in_plane);
-  Points cage = simplified_around(outline, kept, options.vertices);
-  // Rounding to 1/16 px reads well in files and cannot reach the content, 0.7 cells away.
-  Points rounded = cage;
-  for (Complex& z : rounded) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};
-  return self_crossing(rounded) ? cage : rounded;
+  Levels levels{level_curve(field, level), level_curve(field, kept_level)};
+  for (Points* curve : {&levels.outline, &levels.kept})
+    for (Complex& z : *curve)  // cell centres to image pixels, y up
+      z = {(z.real() - border + 0.5) * scale, image.height + (z.imag() + border - 0.5) * scale};
+  return levels;
+}
+
+/// Rounding to 1/16 px reads well in files and cannot reach the content, 0.7 cells away.
+Cage rounded(Cage cage) {
+  for (Points& segment : cage.segments)
+    for (Complex& z : segment) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};
+  return cage;
+}
+
+}  // namespace
+
+Cage auto_cage(const Image& image, const AutoCageOptions& options) {
+  if (options.vertices < 3 || options.vertices > 500)
+    throw Error(ErrorKind::bad_input,
+                "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
+  const int longest = std::max(image.width, image.height);
+  if (!std::isfinite(options.margin) || options.margin > 4.0 * longest)
+    throw Error(ErrorKind::bad_input, "the margin is larger than four times the picture");
+  const double margin = options.margin < 0 ? std::max(3.0, 0.02 * longest) : options.margin;
+  const Levels levels = levels_of(image, margin);
+  if (levels.outline.empty()) return polygon_cage(rectangle(image, margin));
+  const Cage cage =
+      options.curved
+          ? curves_around(levels.outline, levels.kept, options.vertices)
+          : polygon_cage(simplified_around(levels.outline, levels.kept, options.vertices));
+  Cage round = rounded(cage);
+  return self_crossing(outline_of(round)) ? cage : round;
 }
 
 }  // namespace holomorph

@@ -10,17 +10,18 @@ namespace holomorph {
 inline constexpr int kOpaqueAlpha = 8;
 
 struct AutoCageOptions {
-  int vertices = 30;   ///< wanted number of cage vertices, 3 to 500
-  double margin = -1;  ///< distance from the content in pixels; negative: 2 % of the longer side
+  int vertices = 30;    ///< wanted number of cage vertices, 3 to 500
+  double margin = -1;   ///< distance from the content in pixels; negative: 2 % of the longer side
+  bool curved = false;  ///< cubic segments instead of edges
 };
 
-/// A simple counter-clockwise polygon around the largest connected part of a picture's content
+/// A simple counter-clockwise cage around the largest connected part of a picture's content
 /// (8-neighbours): it contains every pixel of that part, keeps about `margin` away and has about
 /// the wanted number of vertices (more where fewer would cut the content).
 /// A picture without transparency, or without content, gets a rectangle around it.
 /// Throws Error for options out of range. Cost: a few ns per pixel, then about 50 ms for the
 /// outline on a grid of at most 768 cells a side.
-Points auto_cage(const Image& image, const AutoCageOptions& options = {});
+Cage auto_cage(const Image& image, const AutoCageOptions& options = {});
 
 /// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty
 /// when there is no content.
