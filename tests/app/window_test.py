@@ -281,6 +281,61 @@ class WindowTest(unittest.TestCase):
                 time.sleep(0.05)
             self.assertTrue(os.path.exists(target))
 
+    def test_curves_are_bent_broken_and_cut(self):
+        with Editor(PROGRAM, [self.picture]) as editor:
+            editor.wait(lambda s: not s["empty"], "the picture")
+            for a, b in [((1060, 300), (1060, 450)), ((800, 800), (650, 830)), ((200, 780), (80, 700)),
+                         ((60, 60), (120, 20)), ((560, 70), (800, 30))]:
+                editor.drag(a, b)
+            editor.key("Return")
+            editor.wait(lambda s: s["cage_points"] == 5, "a curved cage")
+            path = os.path.join(self.work, "curves.json")
+            self.save_as(editor, path)
+            first = load(path)["cage"]
+            self.assertEqual([len(segment) for segment in first["rest"]], [3] * 5)
+
+            def tangents(cage, vertex):  # before and after
+                pose = cage["pose"] if "pose" in cage else cage["rest"]
+                return complex(*pose[vertex - 1][-1]), complex(*pose[vertex][1]), complex(*pose[vertex][0])
+
+            def bent(cage, vertex):  # how far the two are from one line
+                before, after, at = tangents(cage, vertex)
+                u, v = before - at, after - at
+                return abs((u.conjugate() * v).imag) / (abs(u) * abs(v))
+
+            after = tangents(first, 2)[1]
+            editor.drag((after.real, after.imag), (after.real - 40, after.imag + 60))
+            editor.wait(lambda s: s["step"] == 2, "a dragged tangent")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "saved")
+            second = load(path)["cage"]
+            self.assertLess(bent(second, 2), 1e-3, "the opposite tangent turns along")
+            self.assertGreater(abs(tangents(second, 2)[0] - tangents(first, 2)[0]), 5)
+            self.assertEqual(second["rest"], first["rest"])
+
+            after = tangents(second, 2)[1]
+            editor.xdotool("keydown", "alt")
+            editor.drag((after.real, after.imag), (after.real + 30, after.imag - 90))
+            editor.xdotool("keyup", "alt")
+            editor.wait(lambda s: s["step"] == 3, "a broken tangent")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "saved")
+            third = load(path)["cage"]
+            self.assertGreater(bent(third, 2), 0.05)
+            self.assertEqual(tangents(third, 2)[0], tangents(second, 2)[0])
+            self.screenshot(editor, "curves")
+
+            start, a, b, end = (complex(*p) for p in third["pose"][0] + [third["pose"][1][0]])
+            middle = (start + 3 * a + 3 * b + end) / 8
+            editor.move(middle.real, middle.imag)
+            editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
+            editor.wait(lambda s: s["cage_points"] == 6, "an inserted point")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "saved")
+            fourth = load(path)["cage"]
+            self.assertEqual(fourth["pose"][2:], third["pose"][1:])
+            self.assertEqual([len(s) for s in fourth["rest"][:2]], [3, 3])
+
     def test_a_number_in_the_inspector_moves_what_is_selected(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")
         with Editor(PROGRAM, [scene]) as editor:

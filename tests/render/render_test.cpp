@@ -69,7 +69,7 @@ TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 
 }
 
 TEST_CASE("The canvas at 100 % shows the exported pixels") {
-  for (const char* name : {"giraffe", "gecko", "sunflower"}) {
+  for (const char* name : {"giraffe", "gecko", "sunflower", "fish"}) {
     const LoadedScene loaded =
         load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/" + name + ".json");
     PictureOptions options;
