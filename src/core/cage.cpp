@@ -186,27 +186,39 @@ std::string point_text(Complex z) {
 
 namespace {
 
-/// Vertices must keep a distance from the edges beside which they lie that survives rounding;
-/// otherwise which side they are on is nobody's to say.
+/// Vertices must keep a distance from the edges beside which they lie that survives rounding, also
+/// of what a mesher inserts between them: a needle's angle is at least kNeedle. Otherwise which
+/// side they are on is nobody's to say.
 void check_gaps(const FlatCage& flat) {
+  constexpr double kNeedle = 1e-9;
   const Points& polygon = flat.points;
   const Index n = static_cast<Index>(polygon.size());
+  std::vector<double> along(polygon.size() + 1, 0);  // arc length up to each vertex
+  for (Index e = 0; e < n; ++e)
+    along[e + 1] = along[e] + std::abs(polygon[(e + 1) % n] - polygon[e]);
+  // The shorter way along the boundary between a vertex and an edge.
+  const auto way = [&](Index vertex, Index edge) {
+    const double forward = along[vertex] - along[edge + 1], back = along[edge] - along[vertex];
+    return forward >= 0 ? std::min(forward, along[n] - along[vertex] + along[edge])
+                        : std::min(back, along[n] - along[edge + 1] + along[vertex]);
+  };
   double largest = 0;
   for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
   const double gap =
       64 * std::numeric_limits<double>::epsilon() * (largest + box_of(polygon).diagonal());
   for (Index e = 0; e < n; ++e) {
     const Complex a = polygon[e], b = polygon[(e + 1) % n];
-    const double left = std::min(a.real(), b.real()) - gap,
-                 right = std::max(a.real(), b.real()) + gap;
-    const double low = std::min(a.imag(), b.imag()) - gap,
-                 high = std::max(a.imag(), b.imag()) + gap;
+    const double most = std::max(gap, kNeedle * along[n]);
+    const double left = std::min(a.real(), b.real()) - most,
+                 right = std::max(a.real(), b.real()) + most;
+    const double low = std::min(a.imag(), b.imag()) - most,
+                 high = std::max(a.imag(), b.imag()) + most;
     for (Index v = 0; v < n; ++v) {
       const Complex z = polygon[v];
       if (v == e || v == (e + 1) % n || z.real() < left || z.real() > right || z.imag() < low ||
           z.imag() > high)
         continue;
-      if (nearest_on_segment(a, b, z).distance <= gap)
+      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(v, e)))
         throw Error(ErrorKind::bad_input,
                     "the rest cage touches itself: point " +
                         std::to_string(flat.places[v].segment) + " at " + point_text(z) +

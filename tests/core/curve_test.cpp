@@ -118,6 +118,13 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK_THAT(message(polygon_cage(Points{
                  {0, 0}, {50, 10}, {100, 0}, {100, 90}, {60, 90}, {25, 5 * (1 + 4e-16)}, {0, 90}})),
              Catch::Contains("touches itself"));
+  // Needles: an angle of 2e-12 radians is none that a mesh could hold, nearly repeated points are.
+  CHECK_THAT(message(polygon_cage(Points{{0, 0}, {1000, 1000}, {500, 500 + 1e-9}})),
+             Catch::Contains("touches itself"));
+  CHECK_THAT(message(polygon_cage(Points{{3.46, 1.79}, {7.25, 1.8e-12}, {0, 0}, {0.25, 9e-13}})),
+             Catch::Contains("touches itself"));
+  CHECK(message(polygon_cage(Points{{0, 0}, {100, 0}, {100 + 1e-9, 1e-9}, {100, 100}, {0, 100}}))
+            .empty());
   Cage curved = polygon_cage(shapes::rectangle(5, 5));
   curved.segments[0] = {{0, 0}, {2, -1}, {3, 1}};
   CHECK(message(curved).empty());
