@@ -135,6 +135,14 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                        (color & 0x00ffffff) | 0xb0000000, ImDrawFlags_Closed, 1.3f * width);
     } else if (scene.has_cage())
       draw_cage(list, workspace, cage_of(scene, layer), color, style);
+    if (const auto solved = faint ? workspace.solved_cage() : std::nullopt) {
+      std::vector<ImVec2> line;
+      for (const Complex& z : outline_of(*solved, 24)) line.push_back(px(workspace, z));
+      stroke(list, line, true, style.colors.pin, style);
+      for (const Complex& z : controls_of(*solved))
+        list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale),
+                             style.colors.pin);
+    }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
     for (const Handle& handle : handles_of(scene, layer)) {
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/cauchy_array.h"
@@ -95,6 +96,10 @@ class Deformer {
   /// can apply the operator itself. Null when the method is not linear or works in full precision.
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
+
+  /// The posed cage that alone, by method `cage`, gives this pose's map. None where there is no such
+  /// cage.
+  virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
   /// The pose's map at any point, to rounding when the rest is in full precision. Null when the
   /// method knows its map at samples only.

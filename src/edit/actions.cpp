@@ -308,6 +308,16 @@ std::vector<Action> table() {
        [](Workspace& w) {
          w.commit("Smooth or corner", toggled_corners(w.scene(), w.selection, w.layer));
        }},
+      {"cage.bake",
+       "Pose the cage as the pins do",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) {
+         return w.scene().has_cage() && method_named(w.scene().method).uses_pins &&
+                !w.scene().pins.empty();
+       },
+       [](Workspace& w) { w.commit("Pose by pins", baked(w.scene())); }},
       {"cage.raise",
        "Raise the curves' degree",
        "",

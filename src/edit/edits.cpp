@@ -151,6 +151,18 @@ Scene reset(Scene scene, const Selection& selection) {
   return scene;
 }
 
+Scene baked(Scene scene) {
+  const auto deformer =
+      method_named(scene.method).prepare(rest_of(scene, Precision::full), nullptr);
+  const std::optional<Cage> solved = deformer->solved_cage(pose_of(scene));
+  if (!solved)
+    throw Error(
+        ErrorKind::bad_input,
+        "the pins move a finer boundary than the cage's points; switch \"Cage's own points\" on");
+  scene.pose = *solved;
+  return with_method(std::move(scene), "cage");
+}
+
 Scene with_method(Scene scene, const std::string& id) {
   const Method& method = method_named(id);
   std::erase_if(scene.parameters, [&](const auto& entry) {

@@ -59,6 +59,11 @@ Scene scaled(Scene scene, Index pin, double factor);
 /// The selected handles (all when none is) posed as they rest.
 Scene reset(Scene scene, const Selection& selection);
 
+/// The cage posed as the scene's pins would have its control points, in method `cage`; the pins
+/// stay for later. Throws Error when they do not move the cage's own points (parameter
+/// own_controls).
+Scene baked(Scene scene);
+
 /// With another method; parameters that it does not know are dropped.
 Scene with_method(Scene scene, const std::string& id);
 

@@ -94,6 +94,11 @@ std::optional<Complex> Workspace::rest_at(Complex z) const {
   return found->in(mesh, mesh.vertices);
 }
 
+std::optional<Cage> Workspace::solved_cage() const {
+  if (!map.has_map() || !map.posed()) return {};
+  return map.prepared()->deformer->solved_cage(pose_of(*map.posed()));
+}
+
 Box Workspace::content_box() const {
   Box box;
   if (const Image* image = document.image()) {

@@ -82,6 +82,8 @@ struct Workspace {
 
   /// The rest place under a place of the shown picture; none outside it or before there is a map.
   std::optional<Complex> rest_at(Complex z) const;
+  /// The cage that alone gives the shown map, where the method knows one.
+  std::optional<Cage> solved_cage() const;
   /// The box of picture and cage as shown.
   Box content_box() const;
   /// Replaces the document; selection, preview, layer and view start afresh.

@@ -320,6 +320,33 @@ TEST_CASE("No samples are no error") {
   }
 }
 
+TEST_CASE("Pins of the cage's own control points: the solved cage alone gives the same map") {
+  const Method &pins = method_named("pins"), &cage = method_named("cage");
+  for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved})
+    for (const double exact : {0.0, 1.0}) {
+      Setup s = setup(pins, Precision::full, shape);
+      s.rest.parameters = {{"own_controls", 1}, {"exact", exact}};
+      const auto deformer = pins.prepare(s.rest, nullptr);
+      SampledMap map, alone;
+      deformer->deform(s.pose, map, false);
+      const auto solved = deformer->solved_cage(s.pose);
+      REQUIRE(solved);
+      Rest rest = s.rest;
+      rest.pins.clear();
+      rest.parameters.clear();
+      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, false);
+      CHECK((map.f - alone.f).cwiseAbs().maxCoeff() <= 1e-9);
+      if (exact == 0) continue;
+      rest.samples = {s.rest.pins[0].position, s.rest.pins[2].position};
+      rest.derivative_samples.clear();
+      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, false);
+      CHECK(std::abs(alone.f[0] - s.pose.pins[0].position) <= 1e-8);
+      CHECK(std::abs(alone.f[1] - s.pose.pins[2].position) <= 1e-8);
+    }
+  CHECK_FALSE(pins.prepare(setup(pins, Precision::full).rest, nullptr)
+                  ->solved_cage(setup(pins, Precision::full).pose));
+}
+
 TEST_CASE("A pin that turns also scales") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);

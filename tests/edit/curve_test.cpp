@@ -121,6 +121,29 @@ TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curv
     CHECK(f[static_cast<Index>(i)] == mesh.vertices[i]);  // the identity at rest
 }
 
+TEST_CASE("Pins become a posed cage that shows the same picture and can be edited on") {
+  Desk desk(shapes::rectangle(200, 200));
+  run(action_named("cage.raise"), desk.workspace);
+  run(action_named("cage.raise"), desk.workspace);
+  desk.workspace.tool = ToolId::pin;
+  for (const Complex z : {Complex(40, 40), Complex(160, 50), Complex(100, 160)}) {
+    desk.settle();
+    desk.drag(z, z + Complex(9, -6) * (z.real() / 100));
+  }
+  run(action_named("cage.bake"), desk.workspace);
+  CHECK(desk.scene().method == "pins");  // refused, with the reason
+  REQUIRE_FALSE(desk.workspace.toasts.empty());
+  Scene scene = desk.scene();
+  scene.parameters["own_controls"] = 1;
+  desk.workspace.commit("Own points", scene);
+  desk.settle();
+  const VectorXc before = desk.workspace.map.map().f;
+  run(action_named("cage.bake"), desk.workspace);
+  CHECK(desk.scene().method == "cage");
+  desk.settle();
+  CHECK((desk.workspace.map.map().f - before).cwiseAbs().maxCoeff() < 1e-2);  // single precision
+}
+
 TEST_CASE("Rest curves are edited like posed ones, and the pose stays") {
   Desk desk(shapes::rectangle(200, 200));
   run(action_named("cage.rest"), desk.workspace);

@@ -14,6 +14,9 @@ class CageDeformer final : public LinearDeformer<T> {
   VectorXc controls(const Pose& pose) const override {
     return cage_displacement(this->rest_, pose);
   }
+  std::optional<Cage> solved_cage(const Pose& pose) const override {
+    return elevated_to(pose.cage, this->rest_.cage);
+  }
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(this->rest_, pose);
     auto map = std::make_unique<SumMap>();

@@ -63,12 +63,16 @@ struct PinBasis {
   Cage cage;
   Points samples;
   Cage basis;
+  bool own;           ///< the basis is the cage itself
   double length = 1;  ///< L = perimeter / 2 pi, the unit of all energies
   PlanarMatrix<T> cage_value, value;
   MatrixXc factor;  ///< upper triangular R
 
-  explicit PinBasis(const Rest& rest)
-      : cage(rest.cage), samples(rest.samples), basis(basis_cage(rest.cage)) {
+  PinBasis(const Rest& rest, bool own_controls)
+      : cage(rest.cage),
+        samples(rest.samples),
+        basis(own_controls ? rest.cage : basis_cage(rest.cage)),
+        own(own_controls) {
     length = perimeter(outline_of(basis)) / (2 * kPi);
     cage_value = planar_coordinates<T>(cage, samples, 0);
     value = planar_coordinates<T>(basis, samples, 0);
@@ -108,11 +112,12 @@ class PinsDeformer final : public LinearDeformer<T> {
  public:
   PinsDeformer(const Rest& rest, const PinsDeformer* previous, const Method& method)
       : LinearDeformer<T>(rest) {
-    if (previous && previous->basis_->cage == rest.cage &&
+    const bool own = parameter(method, rest.parameters, "own_controls") != 0;
+    if (previous && previous->basis_->own == own && previous->basis_->cage == rest.cage &&
         previous->basis_->samples == rest.samples)
       basis_ = previous->basis_;
     else
-      basis_ = std::make_shared<const PinBasis<T>>(rest);
+      basis_ = std::make_shared<const PinBasis<T>>(rest, own);
     choose_pins();
     cage_at_pins_.resize(0, rest.cage.control_count());
     if (used_.empty()) {
@@ -142,6 +147,24 @@ class PinsDeformer final : public LinearDeformer<T> {
     all.tail(functionals()) -= base;
     return all;
   }
+  std::optional<Cage> solved_cage(const Pose& pose) const override {
+    if (!basis_->own) return {};
+    const VectorXc all = controls(pose), rest = controls_of(this->rest_.cage);
+    VectorXc places = rest + all.head(rest.size());
+    if (functionals() > 0) {
+      const VectorXc data = all.tail(functionals());
+      places += coefficients() * data;
+      places.array() += (affine_.row(0) * data)(0);
+      if (affine_.rows() > 1)
+        places.array() += (affine_.row(1) * data)(0) / basis_->length * (rest.array() - center_);
+    }
+    Cage cage = this->rest_.cage;
+    Index i = 0;
+    for (Points& segment : cage.segments)
+      for (Complex& z : segment) z = places[i++];
+    return cage;
+  }
+
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(this->rest_, pose);
     auto map = std::make_unique<SumMap>();
@@ -149,9 +172,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     map->terms.emplace_back(this->rest_.cage, all.head(all.size() - functionals()));
     if (functionals() == 0) return map;
     const VectorXc data = all.tail(functionals());
-    const MatrixXc coefficients =
-        coefficients_.re.template cast<double>() + kI * coefficients_.im.template cast<double>();
-    map->terms.emplace_back(basis_->basis, coefficients * data);
+    map->terms.emplace_back(basis_->basis, coefficients() * data);
     map->constant = (affine_.row(0) * data)(0);
     if (affine_.rows() > 1) map->slope = (affine_.row(1) * data)(0) / basis_->length;
     map->center = center_;
@@ -184,6 +205,10 @@ class PinsDeformer final : public LinearDeformer<T> {
       if (contains(basis_->basis, moved)) z = moved;
     }
     return points;
+  }
+
+  MatrixXc coefficients() const {
+    return coefficients_.re.template cast<double>() + kI * coefficients_.im.template cast<double>();
   }
 
   Index functionals() const { return cage_at_pins_.rows(); }
@@ -302,20 +327,25 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
 }  // namespace
 
 Method pins_method() {
-  return {"pins",
-          "Cage and pins",
-          "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
-          {{"exact", "Exact",
-            "The picture passes through every pin, whatever that takes; off: it yields a little "
-            "where pins contradict each other",
-            ParameterSpec::Kind::toggle, 0, 0, 1, false, ""},
-           {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
-            ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true, "exact"},
-           {"pin_weight", "Pin weight",
-            "How much missing a pin costs when pins are soft (dimensionless)",
-            ParameterSpec::Kind::number, 10, 1e-3, 1e3, true, "exact"}},
-          true,
-          prepare};
+  return {
+      "pins",
+      "Cage and pins",
+      "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
+      {{"exact", "Exact",
+        "The picture passes through every pin, whatever that takes; off: it yields a little "
+        "where pins contradict each other",
+        ParameterSpec::Kind::toggle, 0, 0, 1, false, ""},
+       {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
+        ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true, "exact"},
+       {"pin_weight", "Pin weight",
+        "How much missing a pin costs when pins are soft (dimensionless)",
+        ParameterSpec::Kind::number, 10, 1e-3, 1e3, true, "exact"},
+       {"own_controls", "Cage's own points",
+        "Pins move the cage's own control points, which show where they go; off: a finer boundary "
+        "of a hundred points follows",
+        ParameterSpec::Kind::toggle, 0, 0, 1, false, ""}},
+      true,
+      prepare};
 }
 
 }  // namespace holomorph
