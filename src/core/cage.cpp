@@ -190,7 +190,7 @@ namespace {
 /// of what a mesher inserts between them: a needle's angle is at least kNeedle. Otherwise which
 /// side they are on is nobody's to say.
 void check_gaps(const FlatCage& flat) {
-  constexpr double kNeedle = 1e-9;
+  constexpr double kNeedle = 1e-7;
   const Points& polygon = flat.points;
   const Index n = static_cast<Index>(polygon.size());
   std::vector<double> along(polygon.size() + 1, 0);  // arc length up to each vertex

@@ -86,8 +86,9 @@ bool is_straight(const Cage& cage);
 bool is_straight(const Cage& cage, Index segment);
 
 /// Throws Error unless the cage can be a rest cage: at least three segments, finite, no segment of
-/// zero length, no cusp, an area, no needle below 1e-9 radians, and no crossing with itself. The message names the segments and
-/// the error's `where` is the place. Curves are judged by a polygon within 1e-4 of the cage's size.
+/// zero length, no cusp, an area, no needle below 1e-7 radians, and no crossing with itself. The
+/// message names the segments and the error's `where` is the place. Curves are judged by a polygon
+/// within 1e-4 of the cage's size.
 void check_rest_cage(const Cage& cage);
 
 /// "(12, 30.5)": how messages write a point.
