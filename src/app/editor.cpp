@@ -217,6 +217,8 @@ class Editor {
       draw_context_menu(workspace_);
       status.hint = current_tool().hint(workspace_);
       if (input.inside) status.cursor = input.position;
+      if (input.inside && !workspace_.at_rest())
+        status.cursor_at_rest = workspace_.rest_at(input.position);
       status.draft = workspace_.preview.has_value() || workspace_.map.busy() ||
                      workspace_.map.error().has_value();
       status.by_operator = canvas_.by_operator();

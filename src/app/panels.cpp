@@ -171,6 +171,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     used = std::min(used, static_cast<int>(sizeof right) - 1);
   };
   if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
+  if (status.cursor_at_rest)
+    add("from %.1f, %.1f   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
   if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.viewport.zoom);
   if (map.has_map()) {
     add("%s: ", method_named(workspace.scene().method).label.c_str());

@@ -33,7 +33,8 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale);
 /// What the status bar says besides the workspace.
 struct StatusLine {
   std::string hint;
-  std::optional<Complex> cursor;
+  std::optional<Complex> cursor,
+      cursor_at_rest;  ///< the pointer's place, and where that comes from
   bool draft = false;  ///< a drag is going on or the map is being prepared
   bool by_operator = false;
 };

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/inverse.h"
+#include "core/methods/linear.h"
 #include "raster/raster.h"
 #include "scene/auto_cage.h"
 #include "scene/live_map.h"
@@ -117,6 +118,29 @@ double curved_prepare_ms(int runs) {
   scene.rest = wavy_curves(3, 0.2);
   scene.pose = wavy_curves(3, 0.1);
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {8700}); });
+}
+
+/// The way over an intermediate polygon (Lin, Chen 2024): u2 after the inverse of u1, with u1
+/// taking the polygon of the segments' ends to the curved rest. How many of the domain's samples
+/// have no preimage under u1, in percent; and how long finding the others takes.
+struct PolygonRoute {
+  double missing_percent = 0, milliseconds = 0;
+};
+
+PolygonRoute polygon_route() {
+  const Cage rest = wavy_curves(3, 0.2);
+  const Mesh domain = domain_mesh(rest, {8700});
+  const double start = now_ms();
+  const Cage polygon = elevated_to(polygon_cage(vertices_of(rest)), rest);
+  const Mesh mesh = domain_mesh(vertices_of(rest), {4000});
+  SumMap u1;
+  u1.terms.emplace_back(polygon, controls_of(rest) - controls_of(polygon));
+  Points image;
+  for (const Complex& z : mesh.vertices) image.push_back(u1.at(z).f);
+  const InverseMap inverse(polygon, mesh, image, u1);
+  int missing = 0;
+  for (const Complex& z : domain.vertices) missing += inverse.at(z).empty();
+  return {100.0 * missing / static_cast<double>(domain.vertices.size()), now_ms() - start};
 }
 
 /// Per point and edge of a straight cage whose pose has this degree.
@@ -246,6 +270,10 @@ const Entry kEntries[] = {
      [](int runs) { return raised_coordinates_ns(3, runs); }},
     {"prepare: curved to curved, 20 cubic segments, 10k vertices, mesh and coordinates", "ms", 300,
      5, curved_prepare_ms},
+    {"curved rest over a polygon, as Lin and Chen: 10k vertices, inverse alone (for comparison)",
+     "ms", 0, 1, [](int) { return polygon_route().milliseconds; }},
+    {"curved rest over a polygon: samples of the domain that it does not reach (for comparison)",
+     "%", 0, 1, [](int) { return polygon_route().missing_percent; }},
     {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
