@@ -10,6 +10,12 @@
 
 namespace holomorph {
 
+/// A window that is part of the frame: it has no title and stays where it is put.
+inline constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                           ImGuiWindowFlags_NoSavedSettings |
+                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 /// What a panel can ask of the editor beyond actions.
 struct PanelAnswer {
   std::optional<Path> open;     ///< a recent file

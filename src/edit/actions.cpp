@@ -141,6 +141,23 @@ constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kE
                      *kPen = "\uf040", *kPin = "\uf08d", *kMagic = "\uf0d0", *kFit = "\uf065",
                      *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
 
+/// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
+template <int dx, int dy>
+void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
+  const auto add = [&](const char* id, const char* by, Modifiers mods, void (*run)(Workspace&)) {
+    all.push_back({"edit.nudge_" + where + id,
+                   "Nudge " + where + by,
+                   "",
+                   "",
+                   {{key, mods}},
+                   has_selection,
+                   run});
+  };
+  add("", "", {}, nudge<dx, dy, 10>);
+  add("_10", " by 10", kShift, nudge<dx, dy, 100>);
+  add("_fine", " by 0.1", kCtrl, nudge<dx, dy, 1>);
+}
+
 std::vector<Action> table() {
   return {
       {"file.new", "New", kNew, "File", {{'N', kCtrl}}, always, ask<Request::new_scene>},
@@ -210,66 +227,6 @@ std::vector<Action> table() {
        erase_selection<Refit::tangents>},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
-      {"edit.nudge_left", "Nudge left", "", "", {Key::left}, has_selection, nudge<-1, 0, 10>},
-      {"edit.nudge_right", "Nudge right", "", "", {Key::right}, has_selection, nudge<1, 0, 10>},
-      {"edit.nudge_up", "Nudge up", "", "", {Key::up}, has_selection, nudge<0, 1, 10>},
-      {"edit.nudge_down", "Nudge down", "", "", {Key::down}, has_selection, nudge<0, -1, 10>},
-      {"edit.nudge_left_10",
-       "Nudge left by 10",
-       "",
-       "",
-       {{Key::left, kShift}},
-       has_selection,
-       nudge<-1, 0, 100>},
-      {"edit.nudge_right_10",
-       "Nudge right by 10",
-       "",
-       "",
-       {{Key::right, kShift}},
-       has_selection,
-       nudge<1, 0, 100>},
-      {"edit.nudge_up_10",
-       "Nudge up by 10",
-       "",
-       "",
-       {{Key::up, kShift}},
-       has_selection,
-       nudge<0, 1, 100>},
-      {"edit.nudge_down_10",
-       "Nudge down by 10",
-       "",
-       "",
-       {{Key::down, kShift}},
-       has_selection,
-       nudge<0, -1, 100>},
-      {"edit.nudge_left_fine",
-       "Nudge left by 0.1",
-       "",
-       "",
-       {{Key::left, kCtrl}},
-       has_selection,
-       nudge<-1, 0, 1>},
-      {"edit.nudge_right_fine",
-       "Nudge right by 0.1",
-       "",
-       "",
-       {{Key::right, kCtrl}},
-       has_selection,
-       nudge<1, 0, 1>},
-      {"edit.nudge_up_fine",
-       "Nudge up by 0.1",
-       "",
-       "",
-       {{Key::up, kCtrl}},
-       has_selection,
-       nudge<0, 1, 1>},
-      {"edit.nudge_down_fine",
-       "Nudge down by 0.1",
-       "",
-       "",
-       {{Key::down, kCtrl}},
-       has_selection,
-       nudge<0, -1, 1>},
 
       {"tool.select",
        "Select and move",
@@ -457,7 +414,14 @@ std::string text_of(const Shortcut& shortcut) {
 }
 
 const std::vector<Action>& actions() {
-  static const std::vector<Action> all = table();
+  static const std::vector<Action> all = [] {
+    std::vector<Action> rows = table();
+    add_nudges<-1, 0>(rows, "left", Key::left);
+    add_nudges<1, 0>(rows, "right", Key::right);
+    add_nudges<0, 1>(rows, "up", Key::up);
+    add_nudges<0, -1>(rows, "down", Key::down);
+    return rows;
+  }();
   return all;
 }
 
