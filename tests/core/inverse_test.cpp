@@ -20,7 +20,7 @@ struct Warp {
   SampledMap sampled;
   std::unique_ptr<InverseMap> inverse;
 
-  Warp(Cage from, Cage to, int vertices = 1500) : rest(std::move(from)), pose(std::move(to)) {
+  Warp(Cage from, Cage to, int vertices = 500) : rest(std::move(from)), pose(std::move(to)) {
     mesh = domain_mesh(rest, {vertices});
     Rest all;
     all.cage = elevated_to(rest, pose);

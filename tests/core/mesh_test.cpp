@@ -81,11 +81,11 @@ TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repea
 }
 
 TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles") {
-  for (unsigned seed = 1; seed <= 12; ++seed)
+  for (unsigned seed = 1; seed <= 5; ++seed)
     for (const int degree : {2, 3, 6}) {
-      Cage cage = shapes::curved_star(4 + static_cast<int>(seed), degree, 0.3, seed);
+      Cage cage = shapes::curved_star(3 + 2 * static_cast<int>(seed), degree, 0.3, seed);
       if (seed % 2) cage = reversed(cage);
-      const Mesh mesh = domain_mesh(cage, {600});
+      const Mesh mesh = domain_mesh(cage, {400});
       double area = 0;
       for (const Triangle& t : mesh.triangles) {
         CHECK(triangle_area(mesh, t) > 0);
