@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/error.h"
+
 namespace holomorph {
 namespace {
 
@@ -55,6 +57,7 @@ Points powers_about_middle(std::span<const Complex> controls) {
 }
 
 SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
+  check(!controls.empty() && controls.size() <= kMostDegree + 1, "a segment of degree 0 to 32");
   for (const Complex& z : controls) magnitude_ = std::max(magnitude_, std::abs(z));
   Points backwards(controls.rbegin(), controls.rend());
   middle_ = powers_about_middle(controls);
@@ -99,8 +102,7 @@ void SegmentPolynomial::roots(Complex z, std::span<Root> out, std::span<const Ro
     out[0] = {times(z - start_[0], unit), times(end_[0] - z, unit)};
     return;
   }
-  constexpr int kMost = 32;
-  std::array<Complex, kMost> v;
+  std::array<Complex, kMostDegree> v;
   const bool warm = static_cast<int>(near.size()) == n;
   const Complex center = -quotient(middle_[n - 1], static_cast<double>(n) * middle_[n]);
   const double radius =

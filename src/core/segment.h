@@ -21,7 +21,9 @@ struct Root {
 
 class SegmentPolynomial {
  public:
-  /// From the control points. A curve whose degree was raised is known for what it was.
+  /// From the control points, kMostDegree + 1 at most (a check). A curve whose degree was raised is
+  /// known for what it was.
+  static constexpr int kMostDegree = 32;
   explicit SegmentPolynomial(std::span<const Complex> controls);
 
   /// The number of roots: the true degree, 0 for a single point.
