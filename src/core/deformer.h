@@ -97,8 +97,8 @@ class Deformer {
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
 
-  /// The posed cage that alone, by method `cage`, gives this pose's map. None where there is no such
-  /// cage.
+  /// The posed cage that alone, by method `cage`, gives this pose's map. None where there is no
+  /// such cage.
   virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
   /// The pose's map at any point, to rounding when the rest is in full precision. Null when the
