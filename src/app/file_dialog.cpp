@@ -123,7 +123,11 @@ void FileDialog::draw(double scale) {
   ImGui::TextUnformatted(folder_.c_str());
 
   const float below = ImGui::GetFrameHeightWithSpacing() * (question_.asks_scale ? 3.0f : 2.0f) +
-                      ImGui::GetTextLineHeightWithSpacing();
+                      std::max(ImGui::GetTextLineHeightWithSpacing(),
+                               ImGui::CalcTextSize(message_.c_str(), nullptr, false,
+                                                   ImGui::GetContentRegionAvail().x)
+                                       .y +
+                                   ImGui::GetStyle().ItemSpacing.y);
   std::optional<Path> chosen;
   ImGui::BeginChild("files", {0, -below}, true);
   for (const Item& item : items_) {

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "app/panels.h"
+#include "edit/curve_edits.h"
 #include "scene/auto_cage.h"
 
 namespace holomorph {
@@ -73,9 +74,10 @@ void one_handle(Workspace& workspace, Handle handle) {
   const Complex z = position_of(scene, handle, layer);
   const bool pin = handle.kind == Handle::Kind::pin;
   ImGui::Text("%s %d, %s",
-              pin                   ? "Pin"
-              : handle.control == 0 ? "Cage point"
-                                    : "Curve point of segment",
+              pin                                     ? "Pin"
+              : handle.control > 0                    ? "Curve point of segment"
+              : is_smooth(scene, handle.index, layer) ? "Smooth cage point"
+                                                      : "Cage point",
               static_cast<int>(handle.index) + 1, layer == Layer::rest ? "at rest" : "posed");
   const float speed = static_cast<float>(1 / workspace.viewport.zoom);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);

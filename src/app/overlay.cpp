@@ -1,6 +1,8 @@
 // Every stroke has a dark edge under it, so that it shows on any picture.
 #include "app/overlay.h"
 
+#include "edit/curve_edits.h"
+
 namespace holomorph {
 namespace {
 
@@ -55,6 +57,13 @@ void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, b
     list.AddCircleFilled(at, 0.9f * r, style.colors.outline);
     list.AddCircleFilled(at, 0.9f * r - 1.3f * s, fill);
   }
+}
+
+/// A ring around a smooth vertex: corners have none.
+void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  list.AddCircle(at, 8.5f * s, style.colors.outline, 0, 2.6f * s);
+  list.AddCircle(at, 8.5f * s, style.colors.selected, 0, 1.2f * s);
 }
 
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
@@ -151,6 +160,9 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         draw_pin(list, at, scene.pins[handle.index], selected, hovered, style);
       else
         draw_cage_handle(list, at, handle.control == 0, selected, hovered, color, style);
+      if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
+          is_smooth(scene, handle.index, layer))
+        draw_smooth_mark(list, at, style);
     }
   }
   draw_gesture(list, workspace, gesture, style);

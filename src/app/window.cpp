@@ -188,6 +188,9 @@ void Window::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   pump_events();
+  // Tab goes from one number field to the next while one is being typed into; else it is an
+  // action's.
+  ImGui::GetIO().KeyMap[ImGuiKey_Tab] = ImGui::GetIO().WantTextInput ? GLFW_KEY_TAB : -1;
   ImGui::NewFrame();
 }
 

@@ -84,7 +84,9 @@ int run_program(int argc, char** argv) {
   sub->add_flag("--curved", fresh.curved, "Cubic segments instead of straight edges");
   sub->add_option("--cage", fresh.cage,
                   "An SVG file whose first path is the cage, in place of alpha");
-  sub->add_option("--pose", fresh.pose, "An SVG file whose first path is the posed cage");
+  sub->add_option("--pose", fresh.pose,
+                  "An SVG file whose first path is the posed cage; needs --cage")
+      ->needs("--cage");
   on_run(sub, fresh, done);
 
   ExportCommand out;

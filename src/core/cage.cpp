@@ -221,8 +221,8 @@ void check_gaps(const FlatCage& flat) {
       if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(v, e)))
         throw Error(ErrorKind::bad_input,
                     "the rest cage touches itself: point " +
-                        std::to_string(flat.places[v].segment) + " at " + point_text(z) +
-                        " lies on segment " + std::to_string(flat.places[e].segment) +
+                        std::to_string(flat.places[v].segment + 1) + " at " + point_text(z) +
+                        " lies on segment " + std::to_string(flat.places[e].segment + 1) +
                         "; move one of them away",
                     z);
     }
@@ -245,7 +245,7 @@ void check_speed(const Cage& cage, Index segment) {
     const Complex z = bezier_point(controls, std::clamp(t, 0.0, 1.0));
     const bool at_end = t < kNear || t > 1 - kNear;
     throw Error(ErrorKind::bad_input,
-                "rest cage segment " + std::to_string(segment) +
+                "rest cage segment " + std::to_string(segment + 1) +
                     (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
                     point_text(z) + "; pull its handles apart",
                 z);
@@ -259,8 +259,8 @@ void check_lengths(const Cage& cage) {
         std::any_of(controls.begin(), controls.end(), [&](Complex z) { return z != controls[0]; });
     if (!moves || (cage.vertex(i) == cage.vertex(i + 1) && is_straight(cage, i)))
       throw Error(ErrorKind::bad_input,
-                  "rest cage segment " + std::to_string(i) + " at " + point_text(cage.vertex(i)) +
-                      " has no length; delete one of its two points",
+                  "rest cage segment " + std::to_string(i + 1) + " at " +
+                      point_text(cage.vertex(i)) + " has no length; delete one of its two points",
                   cage.vertex(i));
   }
 }
@@ -274,7 +274,7 @@ void check_rest_cage(const Cage& cage) {
   for (Index i = 0; i < cage.size(); ++i)
     for (const Complex& z : cage.segments[i])
       if (!is_finite(z))
-        throw Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i) +
+        throw Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) +
                                               " has a coordinate that is no number");
   check_lengths(cage);
   for (Index i = 0; i < cage.size(); ++i) check_speed(cage, i);
@@ -283,8 +283,8 @@ void check_rest_cage(const Cage& cage) {
   if (const auto crossing = self_crossing(flat.points))
     throw Error(ErrorKind::bad_input,
                 "the rest cage crosses itself: segments " +
-                    std::to_string(flat.places[crossing->first].segment) + " and " +
-                    std::to_string(flat.places[crossing->second].segment) + " meet near " +
+                    std::to_string(flat.places[crossing->first].segment + 1) + " and " +
+                    std::to_string(flat.places[crossing->second].segment + 1) + " meet near " +
                     point_text(crossing->point) + "; move one of their points",
                 crossing->point);
   check_gaps(flat);

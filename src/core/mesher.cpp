@@ -277,6 +277,7 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
 }  // namespace
 
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
+  check_rest_cage(cage);  // in terms of its own segments
   constexpr double kFlat = 5e-5;
   const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
   Mesh mesh = domain_mesh(flat.points, options);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "edit/curve_edits.h"
+#include "edit/tool.h"
 #include "scene/auto_cage.h"
 
 namespace holomorph {
@@ -262,9 +263,7 @@ std::vector<Action> table() {
        "Cage",
        {'C'},
        has_cage_selection,
-       [](Workspace& w) {
-         w.commit("Smooth or corner", toggled_corners(w.scene(), w.selection, w.layer));
-       }},
+       toggle_corners},
       {"cage.bake",
        "Pose the cage as the pins do",
        "",

@@ -6,7 +6,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kInLine = 1e-3;  ///< sine of the angle between opposite tangents
+constexpr double kInLine = 0.02;  ///< sine of the angle between opposite tangents
 
 Cage& cage_of(Scene& scene, Layer layer) {
   return layer == Layer::rest ? scene.rest : scene.pose;

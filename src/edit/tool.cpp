@@ -36,6 +36,15 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   return true;
 }
 
+void toggle_corners(Workspace& workspace) {
+  const Scene after = toggled_corners(workspace.scene(), workspace.selection, workspace.layer);
+  bool smooth = false;
+  for (const Handle& handle : workspace.selection)
+    smooth = smooth || (handle.kind == Handle::Kind::cage && handle.control == 0 &&
+                        is_smooth(after, handle.index, workspace.layer));
+  workspace.commit(smooth ? "Smooth point" : "Corner", after);
+}
+
 bool edits_point(const Input& input, Handle handle, Workspace& workspace) {
   const bool vertex = handle.kind == Handle::Kind::cage && handle.control == 0;
   if (input.mods.alt && (vertex || handle.kind == Handle::Kind::pin)) {
@@ -43,8 +52,8 @@ bool edits_point(const Input& input, Handle handle, Workspace& workspace) {
     return true;
   }
   if (input.mods.ctrl && vertex) {
-    workspace.commit("Smooth or corner",
-                     toggled_corners(workspace.scene(), {handle}, workspace.layer));
+    workspace.selection = {handle};
+    toggle_corners(workspace);
     return true;
   }
   return false;

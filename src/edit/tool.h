@@ -80,6 +80,9 @@ class HandleDrag {
   bool active_ = false, moving_ = false, amends_ = false;
 };
 
+/// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
+void toggle_corners(Workspace& workspace);
+
 /// Presses that edit a point instead of picking it: Alt deletes a vertex or pin, Ctrl makes a
 /// vertex smooth or a corner. Returns whether it was one.
 bool edits_point(const Input& input, Handle handle, Workspace& workspace);

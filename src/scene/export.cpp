@@ -101,7 +101,7 @@ std::string svg_of(const Scene& scene) {
                     number(box.height()) + "\">\n";
   if (!path.empty())
     svg += "  <path d=\"" + path + " Z\" fill=\"none\" stroke=\"#1a7f37\" stroke-width=\"2\"/>\n";
-  for (const Pin& pin : scene.pins)
+  for (const Pin& pin : method_named(scene.method).uses_pins ? scene.pins : std::vector<Pin>{})
     svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
            number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
   return svg + "</svg>\n";

@@ -130,9 +130,9 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK(message(curved).empty());
   CHECK(message(shapes::curved_star(12, 4, 0.3, 5)).empty());
   curved.segments[0] = {{0, 0}, {2, 14}};
-  CHECK_THAT(message(curved), Catch::Contains("segments 0 and 2 meet near ("));
+  CHECK_THAT(message(curved), Catch::Contains("segments 1 and 3 meet near ("));
   curved.segments[0] = {{0, 0}, {12, 4}, {-7, 4}};  // a loop
-  CHECK_THAT(message(curved), Catch::Contains("segments 0 and 0 meet"));
+  CHECK_THAT(message(curved), Catch::Contains("segments 1 and 1 meet"));
   curved.segments[0] = {{0, 0}, {0, 0}, {3, 1}};
   CHECK_THAT(message(curved), Catch::Contains("tangent handle on its point at (0, 0)"));
   curved.segments[0] = {{0, 0}, {5, 4}, {0, 4}};  // c'(1/2) = 0
