@@ -161,7 +161,7 @@ std::string Files::import_svg(const Path& path, bool pose) {
       scene.pose = std::move(cage);
     else
       scene = with_cage(std::move(scene), std::move(cage));
-    workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene));
+    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene))) return "";
     workspace_.layer = Layer::pose;
     workspace_.tool = ToolId::select;
   } catch (const Error& error) {

@@ -47,7 +47,9 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
     for (const Complex& by : d) segment.is_moved = segment.is_moved || by != Complex(0);
     segments_.push_back(std::move(segment));
   }
-  const double step = 1e-12 * box_of(outline_of(rest)).diagonal();
+  double step = 1e-12 * box_of(outline_of(rest)).diagonal();
+  for (const Segment& segment : segments_)  // a step that rounding does not swallow
+    step = std::max(step, 1e-14 * segment.curve.magnitude());
   for (Index e = 0; e < rest.size(); ++e) {
     const Segment& before = segments_[(e + rest.size() - 1) % rest.size()];
     const Complex in = -before.curve.derivative({1, 0}),
@@ -99,7 +101,10 @@ CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, C
 
 CauchySum::Value CauchySum::at(Complex z) const {
   for (const Segment& segment : segments_)
-    if (segment.curve.start() == z) return at(z + segment.inwards);
+    if (segment.curve.start() == z) {
+      z += segment.inwards;
+      break;
+    }
   Value sum{0, 0};
   double turns = 0, nearest = 1e300;
   const Segment* across = nullptr;

@@ -20,8 +20,8 @@ class CauchySum {
   };
   /// At a point inside the cage or near its boundary: outside, the inner branch is continued across
   /// the nearest segment, so that Newton's method does not notice the boundary. At a vertex the
-  /// value is the limit, to 1e-12 of the cage's size, and the derivative is not meaningful.
-  /// Cost: 40 ns a straight segment, 0.3 us a curved one.
+  /// value is near the limit, to about 1e-10 of the cage's size, and the derivative is not
+  /// meaningful. Cost: 40 ns a straight segment, 0.3 us a curved one.
   Value at(Complex z) const;
 
  private:

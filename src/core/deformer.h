@@ -47,7 +47,7 @@ struct PosePin {
 
 /// Everything that forces precomputation. Value type.
 struct Rest {
-  Cage cage;  ///< straight, each segment of its posed counterpart's degree
+  Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
   Points samples;  ///< where the map is wanted, inside or on the cage
   Points

@@ -97,6 +97,7 @@ void SegmentPolynomial::refine(Complex z, Root& root) const {
 
 void SegmentPolynomial::roots(Complex z, std::span<Root> out, std::span<const Root> near) const {
   const int n = degree();
+  if (n == 0) return;
   if (n == 1) {
     const Complex unit = quotient(1.0, start_[1]);
     out[0] = {times(z - start_[0], unit), times(end_[0] - z, unit)};

@@ -44,6 +44,7 @@ class PenTool final : public Tool {
         workspace.say("A cage needs at least three points.");
     } else if (key == Key::backspace || key == Key::del) {
       nodes_.pop_back();
+      placing_ = false;
     } else if (key == Key::escape) {
       nodes_.clear();
     } else {

@@ -14,7 +14,7 @@ struct StMap {
 };
 
 /// The ST-map of a posed scene of a picture of this size, `scale` pixels per picture pixel. Each
-/// place is exact to 1e-9 px, whatever the resolution. Throws Error without a cage. Cost: about 10
+/// place is the map's own, rounded to single precision. Throws Error without a cage. Cost: about 10
 /// us a pixel and core.
 StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale = 1);
 

@@ -121,6 +121,18 @@ TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
   CHECK(warp.inverse->at({NAN, 0}).empty());
 }
 
+TEST_CASE("Inverse: far from the origin rounding swallows nothing") {
+  Cage rest = polygon_cage(shapes::l_shape()), pose = rest;
+  for (Cage* cage : {&rest, &pose})
+    for (Points& segment : cage->segments)
+      for (Complex& z : segment) z += Complex(3e7, -2e7);
+  pose.segments[2][0] += Complex(20, 10);
+  const Warp warp(rest, pose, 300);
+  for (const Complex& z : vertices_of(rest)) CHECK(is_finite(warp.map->at(z).f));
+  CHECK(warp.inverse->at(Complex(3e7, -2e7) + Complex(50, 50)).size() == 1);
+  CHECK(warp.inverse->at({0, 0}).empty());
+}
+
 TEST_CASE("Inverse: the identity's is the identity") {
   const Warp warp(curved_star(6, 3, 0.3, 5), curved_star(6, 3, 0.3, 5));
   for (const Complex z : inner_points(warp.rest, 100, 1, 0.5)) {

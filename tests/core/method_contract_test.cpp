@@ -215,6 +215,9 @@ TEST_CASE("Contract: bad input throws and the deformer still answers") {
     bad.cage.segments[0][0] = {NAN, 0};
     CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
     bad = s.pose;
+    bad.cage.segments[0].resize(s.rest.cage.degree(0) + 1, bad.cage.segments[0][0]);
+    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
+    bad = s.pose;
     bad.cage.segments.pop_back();
     CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
     deformer->deform(s.pose, map, false);

@@ -66,6 +66,10 @@ void check_pose(const Rest& rest, const Pose& pose) {
     throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.cage.size()) +
                                           " segments and the rest cage " +
                                           std::to_string(rest.cage.size()) + "; they must agree");
+  for (Index i = 0; i < pose.cage.size(); ++i)
+    if (pose.cage.degree(i) > rest.cage.degree(i))
+      throw Error(ErrorKind::bad_input, "posed segment " + std::to_string(i + 1) +
+                                            " has a higher degree than the rest was prepared for");
   if (pose.pins.size() != rest.pins.size())
     throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
   for (const Points& segment : pose.cage.segments)
