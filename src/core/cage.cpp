@@ -252,6 +252,21 @@ void check_speed(const Cage& cage, Index segment) {
   }
 }
 
+/// Two segments must not leave their common vertex in the same direction: such a tip has no inside.
+void check_tips(const Cage& cage) {
+  constexpr double kTip = 1e-7;  // radians
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points before = cage.controls((i + cage.size() - 1) % cage.size()),
+                 own = cage.controls(i);
+    const Complex z = own[0], in = before[before.size() - 2] - z, out = own[1] - z;
+    if (dot(in, out) > 0 && std::abs(cross(in, out)) <= kTip * std::abs(in) * std::abs(out))
+      throw Error(ErrorKind::bad_input,
+                  "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
+                      point_text(z) + ": its two segments run in the same direction; open them",
+                  z);
+  }
+}
+
 void check_lengths(const Cage& cage) {
   for (Index i = 0; i < cage.size(); ++i) {
     const Points controls = cage.controls(i);
@@ -278,6 +293,7 @@ void check_rest_cage(const Cage& cage) {
                                               " has a coordinate that is no number");
   check_lengths(cage);
   for (Index i = 0; i < cage.size(); ++i) check_speed(cage, i);
+  check_tips(cage);
   constexpr double kFlat = 1e-4;
   const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
   if (const auto crossing = self_crossing(flat.points))

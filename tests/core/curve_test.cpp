@@ -120,9 +120,9 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
              Catch::Contains("touches itself"));
   // Needles: an angle of 2e-12 radians is none that a mesh could hold, nearly repeated points are.
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {1000, 1000}, {500, 500 + 1e-9}})),
-             Catch::Contains("touches itself"));
+             Catch::Contains("cusp at point 1"));
   CHECK_THAT(message(polygon_cage(Points{{3.46, 1.79}, {7.25, 1.8e-12}, {0, 0}, {0.25, 9e-13}})),
-             Catch::Contains("touches itself"));
+             Catch::Contains("cusp at point 3"));
   CHECK(message(polygon_cage(Points{{0, 0}, {100, 0}, {100 + 1e-9, 1e-9}, {100, 100}, {0, 100}}))
             .empty());
   Cage curved = polygon_cage(shapes::rectangle(5, 5));
@@ -137,6 +137,10 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK_THAT(message(curved), Catch::Contains("tangent handle on its point at (0, 0)"));
   curved.segments[0] = {{0, 0}, {5, 4}, {0, 4}};  // c'(1/2) = 0
   CHECK_THAT(message(curved), Catch::Contains("cusp at (2.5, 3)"));
+  // A leaf's tip: both curves leave along the same tangent.
+  Cage leaf;
+  leaf.segments = {{{0, 0}, {10, 0}, {20, 10}}, {{30, 30}}, {{0, 40}, {-10, 20}, {20, 0}}};
+  CHECK_THAT(message(leaf), Catch::Contains("cusp at point 1, (0, 0)"));
   curved.segments[0] = {{0, 0}, {0, 0}};
   curved.segments[1][0] = {0, 0};
   CHECK_THAT(message(curved), Catch::Contains("no length"));
