@@ -95,10 +95,14 @@ void InverseMap::add(Complex w, Complex start, std::vector<Preimage>& found) con
 }
 
 bool InverseMap::is_inside(Complex z) const {
-  if (nearest_on_polygon(flat_.points, z).distance > kFlat * size_)
-    return winding_number(flat_.points, z) != 0;
+  const Points& outline = flat_.points;
+  const NearestPoint near = nearest_on_polygon(outline, z);
+  if (near.distance > kFlat * size_) return winding_number(outline, z) != 0;
   // On the boundary rounding decides: a little inwards counts.
-  return contains(rest_, z) || contains(rest_, z + 1e-10 * (box_of(flat_.points).center() - z));
+  const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
+  const double left = signed_area(outline) > 0 ? 1 : -1;
+  return contains(rest_, z) ||
+         contains(rest_, z + left * 1e-10 * size_ * kI * side / std::abs(side));
 }
 
 std::vector<Preimage> InverseMap::at(Complex w) const {

@@ -121,6 +121,23 @@ TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
   CHECK(warp.inverse->at({NAN, 0}).empty());
 }
 
+TEST_CASE("Inverse: points of the boundary come back, on concave outlines, too") {
+  for (const bool clockwise : {false, true}) {
+    Cage rest = polygon_cage(shapes::l_shape()), pose = rest;
+    pose.segments[2][0] += Complex(20, 10);
+    pose.segments[5][0] += Complex(-8, 12);
+    if (clockwise) rest = reversed(rest), pose = reversed(pose);
+    const Warp warp(rest, pose);
+    for (Index e = 0; e < rest.size(); ++e)
+      for (const double t : {0.1, 0.37, 0.5, 0.81}) {
+        const Complex z = position_of(rest, {e, t});
+        const auto found = warp.inverse->at(warp.map->at(z).f);
+        REQUIRE_FALSE(found.empty());
+        CHECK(std::abs(found[0].z - z) <= 1e-9);
+      }
+  }
+}
+
 TEST_CASE("Inverse: far from the origin rounding swallows nothing") {
   Cage rest = polygon_cage(shapes::l_shape()), pose = rest;
   for (Cage* cage : {&rest, &pose})
