@@ -136,15 +136,7 @@ void erase_vertex(Cage& cage, Index vertex, Refit refit) {
 }
 
 bool is_straight(const Cage& cage, Index segment) {
-  const Points controls = cage.controls(segment);
-  const int degree = cage.degree(segment);
-  const double tolerance = 1e-12 * (std::abs(controls.front()) + std::abs(controls.back()));
-  for (int m = 1; m < degree; ++m) {
-    const double t = static_cast<double>(m) / degree;
-    const Complex even = (1 - t) * controls.front() + t * controls.back();
-    if (!(std::abs(controls[m] - even) <= tolerance)) return false;
-  }
-  return true;
+  return cage.degree(segment) == 1 || SegmentPolynomial(cage.controls(segment)).degree() <= 1;
 }
 
 bool is_straight(const Cage& cage) {
