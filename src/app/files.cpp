@@ -152,7 +152,7 @@ void Files::ask_svg(bool pose) {
 std::string Files::import_svg(const Path& path, bool pose) {
   try {
     const Image* image = workspace_.document.image();
-    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0);
+    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0, !pose);
     Scene scene = workspace_.document.scene();
     if (pose && cage.size() != scene.rest.size())
       return "The path has " + std::to_string(cage.size()) + " segments and the cage " +

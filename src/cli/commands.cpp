@@ -160,16 +160,16 @@ void run(const InfoCommand& command) {
 void run(const NewCommand& command) {
   LoadedScene loaded = scene_of_image(command.image);
   const double height = loaded.image->height;
-  const auto from_svg = [&](const Path& path) {
-    return cage_of_svg(read_file(path), path.string(), height);
+  const auto from_svg = [&](const Path& path, bool for_rest) {
+    return cage_of_svg(read_file(path), path.string(), height, for_rest);
   };
   Scene scene =
       command.cage
-          ? with_cage(std::move(loaded.scene), from_svg(*command.cage))
+          ? with_cage(std::move(loaded.scene), from_svg(*command.cage, true))
           : with_cage(std::move(loaded.scene),
                       auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
   check_rest_cage(scene.rest);
-  if (command.pose) scene.pose = from_svg(*command.pose);
+  if (command.pose) scene.pose = from_svg(*command.pose, false);
   if (scene.pose.size() != scene.rest.size())
     throw Error(ErrorKind::bad_input, command.pose->string() + ": the posed cage has " +
                                           std::to_string(scene.pose.size()) +

@@ -170,7 +170,7 @@ void free_handles(Cage& cage) {
 
 }  // namespace
 
-Cage cage_of_svg(const std::string& text, const std::string& name, double height) {
+Cage cage_of_svg(const std::string& text, const std::string& name, double height, bool for_rest) {
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
@@ -193,7 +193,7 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   if (cage.size() < 3)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; a cage needs at least three");
-  free_handles(cage);
+  if (for_rest) free_handles(cage);
   return cage;
 }
 

@@ -486,6 +486,9 @@ TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") 
   const Cage freed = loop("M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z");
   CHECK(freed.segments[0][1] != freed.segments[0][0]);
   check_rest_cage(freed);
+  const Cage posed = cage_of_svg(
+      "<svg height='100'><path d='M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z'/></svg>", "p.svg", 0, false);
+  CHECK(posed.segments[0][1] == posed.segments[0][0]);  // a pose may do anything
 }
 
 TEST_CASE("SVG files that hold no cage are refused with the reason") {
