@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/quadrature.h"
 
@@ -28,14 +29,6 @@ const GaussRule& gauss_rule_of_at_least(int size) {
 struct View {
   Complex s, q, log;
 };
-
-/// Products written out: std::complex's operators guard against infinities and lose speed for it.
-Complex times(Complex x, Complex y) {
-  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
-}
-Complex inverse(Complex x) {
-  return std::conj(x) / std::norm(x);
-}
 
 View view_of(const Root& root, bool on_edge) {
   const Complex s = on_edge ? root.s.real() : root.s, q = on_edge ? root.q.real() : root.q;

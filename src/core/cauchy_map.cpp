@@ -2,6 +2,7 @@
 // closed form cancels there like the distance to the power of the degree.
 #include "core/cauchy_map.h"
 
+#include "core/arithmetic.h"
 #include "core/quadrature.h"
 
 namespace holomorph {
@@ -10,13 +11,6 @@ namespace {
 constexpr int kNearNodes = 32, kFarNodes = 10;
 /// Moduli of W = q - s above which the two rules are exact to rounding.
 constexpr double kNear = 1.7, kFar = 8.0;
-
-Complex times(Complex x, Complex y) {
-  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
-}
-Complex inverse(Complex x) {
-  return std::conj(x) / std::norm(x);
-}
 
 Points at_nodes(std::span<const Complex> controls, int count) {
   Points values;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/arithmetic.h"
 #include "core/error.h"
 
 namespace holomorph {
@@ -30,15 +31,6 @@ Points powers_of(Points differences) {
 struct Value {
   Complex value, slope;
 };
-
-/// Written out: std::complex's product guards against infinities and is slower for it.
-inline Complex times(Complex x, Complex y) {
-  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
-}
-inline Complex quotient(Complex x, Complex y) {
-  const double over = 1 / std::norm(y);
-  return {over * dot(y, x), over * cross(y, x)};
-}
 
 /// The polynomial less z, and its derivative, by Horner's scheme.
 Value horner(const Points& powers, Complex z, Complex x) {
