@@ -103,7 +103,7 @@ CauchySum::Value CauchySum::at(Complex z) const {
   double turns = 0, nearest = 1e300;
   const Segment* across = nullptr;
   Root crossed;
-  std::array<Root, SegmentPolynomial::kMostDegree> roots;
+  std::array<Root, kHighestDegree> roots;
   for (const Segment& segment : segments_) {
     const std::span<Root> found(roots.data(), static_cast<size_t>(segment.curve.degree()));
     segment.curve.roots(z, found);

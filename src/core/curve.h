@@ -8,6 +8,9 @@
 
 namespace holomorph {
 
+/// The highest degree of a segment: above it powers amplify rounding, and nobody draws.
+inline constexpr int kHighestDegree = 8;
+
 /// Point at parameter t of the Bezier curve with control points `controls` (degree + 1 of them),
 /// by de Casteljau's algorithm. Cost O(degree^2).
 Complex bezier_point(std::span<const Complex> controls, double t);

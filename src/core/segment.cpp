@@ -49,7 +49,7 @@ Points powers_about_middle(std::span<const Complex> controls) {
 }
 
 SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
-  check(!controls.empty() && controls.size() <= kMostDegree + 1, "a segment of degree 0 to 32");
+  check(!controls.empty() && controls.size() <= kHighestDegree + 1, "a segment of degree 0 to 8");
   for (const Complex& z : controls) magnitude_ = std::max(magnitude_, std::abs(z));
   Points backwards(controls.rbegin(), controls.rend());
   middle_ = powers_about_middle(controls);
@@ -95,7 +95,7 @@ void SegmentPolynomial::roots(Complex z, std::span<Root> out, std::span<const Ro
     out[0] = {times(z - start_[0], unit), times(end_[0] - z, unit)};
     return;
   }
-  std::array<Complex, kMostDegree> v;
+  std::array<Complex, kHighestDegree> v;
   const bool warm = static_cast<int>(near.size()) == n;
   const Complex center = -quotient(middle_[n - 1], static_cast<double>(n) * middle_[n]);
   const double radius =

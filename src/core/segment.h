@@ -21,9 +21,8 @@ struct Root {
 
 class SegmentPolynomial {
  public:
-  /// From the control points, kMostDegree + 1 at most (a check). A curve whose degree was raised is
-  /// known for what it was.
-  static constexpr int kMostDegree = 32;
+  /// From the control points, kHighestDegree + 1 at most (a check). A curve whose degree was raised
+  /// is known for what it was.
   explicit SegmentPolynomial(std::span<const Complex> controls);
 
   /// The number of roots: the true degree, 0 for a single point.

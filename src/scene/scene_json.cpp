@@ -16,7 +16,6 @@ constexpr int kVersion = 1;
 constexpr double kLargest = 1e8;  ///< coordinates beyond this are no picture's
 constexpr int kDeepest = 200;     ///< nesting, unknown keys included
 constexpr size_t kMostSegments = 5000;
-constexpr size_t kHighestDegree = SegmentPolynomial::kMostDegree;
 
 /// A JSON value, where it stands, and how to complain about it.
 class Reader {

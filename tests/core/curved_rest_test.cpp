@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/cauchy.h"
+#include "core/cauchy_map.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -206,5 +207,31 @@ TEST_CASE("Roots of a segment: as many as its degree, each on the curve's contin
         CHECK(std::abs(curve[1] - segment.derivative(root)) <= 1e-10 * (1 + std::abs(curve[1])));
       }
     }
+  }
+}
+
+TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees to 8") {
+  for (int degree = 1; degree <= kHighestDegree; ++degree) {
+    const Cage rest = curved_star(6, degree, 0.2, 40 + degree),
+               pose = curved_star(6, degree, 0.2, 60 + degree);
+    const CauchySum sum(rest, controls_of(pose) - controls_of(rest));
+    Points points = inner_points(rest, 60, 2);
+    const Complex center(200, 200);
+    for (Index e = 0; e < rest.size(); ++e)  // and next to the boundary
+      for (const double off : {1e-2, 1e-5, 1e-9}) {
+        const Complex z = position_of(rest, {e, 0.4});
+        points.push_back(z + off * (center - z));
+      }
+    const VectorXc f = cauchy_coordinates(rest, points) * controls_of(pose),
+                   df = cauchy_coordinates(rest, points, 1) * controls_of(pose);
+    double worst = 0, worst_slope = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const CauchySum::Value at = sum.at(points[i]);
+      worst = std::max(worst, std::abs(points[i] + at.f - f[i]) / 300);
+      worst_slope = std::max(worst_slope, std::abs(1.0 + at.df - df[i]) / (1 + std::abs(df[i])));
+    }
+    INFO("degree " << degree << ": " << worst << ", slopes " << worst_slope);
+    CHECK(worst <= (degree < 8 ? 1e-13 : 5e-13));
+    CHECK(worst_slope <= 1e-11);
   }
 }
