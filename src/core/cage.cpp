@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/segment.h"
@@ -105,7 +106,15 @@ void insert_vertex(Cage& cage, Index segment, double t) {
   cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
 }
 
-void erase_vertex(Cage& cage, Index vertex, Refit refit) {
+double joint_parameter(const Cage& cage, Index vertex) {
+  const Index before = (vertex + cage.size() - 1) % cage.size();
+  const Points left = cage.controls(before), right = cage.controls(vertex);
+  const double in = cage.degree(before) * std::abs(left.back() - left[left.size() - 2]),
+               out = cage.degree(vertex) * std::abs(right[1] - right[0]);
+  return in + out > 0 ? std::clamp(in / (in + out), 0.05, 0.95) : 0.5;
+}
+
+void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit) {
   check(cage.size() > 3 && vertex >= 0 && vertex < cage.size(), "erase_vertex: more than three");
   const Index before = (vertex + cage.size() - 1) % cage.size();
   const int degree = std::max(cage.degree(before), cage.degree(vertex));
@@ -114,11 +123,7 @@ void erase_vertex(Cage& cage, Index vertex, Refit refit) {
                  right = elevated(cage.controls(vertex), std::max(3, cage.degree(vertex)));
     cage.segments[before] = {left[0], left[1], right[right.size() - 2]};
   } else if (degree > 1) {
-    // Parameters in proportion to the two chords, so that a cut made by insert_vertex heals.
     const Points left = cage.controls(before), right = cage.controls(vertex);
-    const double a = std::abs(left.back() - left.front()),
-                 b = std::abs(right.back() - right.front());
-    const double share = a + b > 0 ? std::clamp(a / (a + b), 0.05, 0.95) : 0.5;
     constexpr int kSamples = 24;
     Points samples;
     std::vector<double> parameters;
@@ -126,7 +131,7 @@ void erase_vertex(Cage& cage, Index vertex, Refit refit) {
       const bool first = k < kSamples;
       const double t = static_cast<double>(first ? k : k - kSamples) / kSamples;
       samples.push_back(bezier_point(first ? left : right, t));
-      parameters.push_back(first ? share * t : share + (1 - share) * t);
+      parameters.push_back(first ? joint * t : joint + (1 - joint) * t);
     }
     Points curve = fitted(samples, parameters, degree);
     curve.pop_back();
@@ -149,7 +154,9 @@ Complex position_of(const Cage& cage, BoundaryPoint point) {
   return bezier_point(cage.controls(point.segment), point.t);
 }
 
-FlatCage flattened(const Cage& cage, double tolerance) {
+FlatCage flattened(const Cage& cage) {
+  constexpr double kFlat = 5e-5;
+  const double tolerance = kFlat * box_of(controls_of(cage)).diagonal();
   FlatCage flat;
   for (Index i = 0; i < cage.size(); ++i) {
     const Points controls = cage.controls(i);
@@ -198,22 +205,23 @@ void check_gaps(const FlatCage& flat) {
   for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
   const double gap =
       64 * std::numeric_limits<double>::epsilon() * (largest + box_of(polygon).diagonal());
+  std::vector<Index> by_x(polygon.size());
+  std::iota(by_x.begin(), by_x.end(), Index{0});
+  std::ranges::sort(by_x, {}, [&](Index v) { return polygon[v].real(); });
+  const double most = std::max(gap, kNeedle * along[n]);
   for (Index e = 0; e < n; ++e) {
     const Complex a = polygon[e], b = polygon[(e + 1) % n];
-    const double most = std::max(gap, kNeedle * along[n]);
-    const double left = std::min(a.real(), b.real()) - most,
-                 right = std::max(a.real(), b.real()) + most;
-    const double low = std::min(a.imag(), b.imag()) - most,
-                 high = std::max(a.imag(), b.imag()) + most;
-    for (Index v = 0; v < n; ++v) {
-      const Complex z = polygon[v];
-      if (v == e || v == (e + 1) % n || z.real() < left || z.real() > right || z.imag() < low ||
-          z.imag() > high)
-        continue;
-      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(v, e)))
+    const auto [left, right] = std::minmax({a.real(), b.real()});
+    const auto [low, high] = std::minmax({a.imag(), b.imag()});
+    auto v =
+        std::ranges::lower_bound(by_x, left - most, {}, [&](Index i) { return polygon[i].real(); });
+    for (; v != by_x.end() && polygon[*v].real() <= right + most; ++v) {
+      const Complex z = polygon[*v];
+      if (*v == e || *v == (e + 1) % n || z.imag() < low - most || z.imag() > high + most) continue;
+      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(*v, e)))
         throw Error(ErrorKind::bad_input,
                     "the rest cage touches itself: point " +
-                        std::to_string(flat.places[v].segment + 1) + " at " + point_text(z) +
+                        std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
                         " lies on segment " + std::to_string(flat.places[e].segment + 1) +
                         "; move one of them away",
                     z);
@@ -286,8 +294,7 @@ void check_rest_cage(const Cage& cage) {
   check_lengths(cage);
   for (Index i = 0; i < cage.size(); ++i) check_speed(cage, i);
   check_tips(cage);
-  constexpr double kFlat = 1e-4;
-  const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
+  const FlatCage flat = flattened(cage);
   if (const auto crossing = self_crossing(flat.points))
     throw Error(ErrorKind::bad_input,
                 "the rest cage crosses itself: segments " +
@@ -299,6 +306,15 @@ void check_rest_cage(const Cage& cage) {
   const Box box = box_of(flat.points);
   if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
     throw Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+}
+
+bool can_rest(const Cage& cage) {
+  try {
+    check_rest_cage(cage);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace holomorph

@@ -54,13 +54,13 @@ Cage elevated_to(const Cage& cage, const Cage& other);
 /// alone when straight.
 Points outline_of(const Cage& cage, int per_curve = 16);
 
-/// The loop as a polygon within `tolerance` of it: its vertices and where on the cage they are.
+/// The loop as a polygon within 5e-5 of its size: its vertices and where on the cage they are.
 /// Straight segments stay whole; curved ones are cut evenly in the parameter, into at most 256.
 struct FlatCage {
   Points points;
   std::vector<BoundaryPoint> places;
 };
-FlatCage flattened(const Cage& cage, double tolerance);
+FlatCage flattened(const Cage& cage);
 
 /// The same loop run through backwards, from the same first vertex.
 Cage reversed(const Cage& cage);
@@ -75,9 +75,14 @@ void insert_vertex(Cage& cage, Index segment, double t);
 /// least squares with the larger degree, or become one cubic with the outer tangents.
 enum class Refit { curve, tangents };
 
-/// Removes vertex `vertex`. Two straight segments become one; `refit` says what curved ones do. The
-/// cage must have more than three segments.
-void erase_vertex(Cage& cage, Index vertex, Refit refit = Refit::curve);
+/// The parameter that a vertex has on the one segment which its two become: the speeds there agree,
+/// so that a cut made by insert_vertex heals. Clamped to [0.05, 0.95].
+double joint_parameter(const Cage& cage, Index vertex);
+
+/// Removes vertex `vertex`. Two straight segments become one; `refit` says what curved ones do,
+/// with `joint` the vertex's parameter on the new curve: rest and pose must use the same one, or
+/// the picture slides along them. The cage must have more than three segments.
+void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
 
 /// Whether every segment runs along its chord at constant speed (degree-raised edges do).
 bool is_straight(const Cage& cage);
@@ -87,9 +92,12 @@ bool is_straight(const Cage& cage, Index segment);
 
 /// Throws Error unless the cage can be a rest cage: at least three segments, finite, no segment of
 /// zero length, no cusp, an area, no needle below 1e-7 radians, and no crossing with itself. The
-/// message names the segments and the error's `where` is the place. Curves are judged by a polygon
-/// within 1e-4 of the cage's size.
+/// message names the segments and the error's `where` is the place. Curves are judged as
+/// `flattened`. Cost: O(n log n) in its points for ordinary loops.
 void check_rest_cage(const Cage& cage);
+
+/// Whether check_rest_cage accepts the cage.
+bool can_rest(const Cage& cage);
 
 /// "(12, 30.5)": how messages write a point.
 std::string point_text(Complex z);

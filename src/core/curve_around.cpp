@@ -95,12 +95,10 @@ Cage curves_around(const Points& outline, const Points& kept, int wanted) {
   for (int round = 0; round < kRounds; ++round) {
     Cage cage = loop_over(outline, breaks);
     const std::set<Index> bad = bad_segments(cage, kept);
-    if (bad.empty()) try {
-        check_rest_cage(cage);
-        return cage;
-      } catch (const Error&) {
-        break;
-      }
+    if (bad.empty()) {
+      if (can_rest(cage)) return cage;
+      break;
+    }
     const std::vector<size_t> list(breaks.begin(), breaks.end());
     for (const Index e : bad) {
       const size_t from = list[e], to = list[(e + 1) % list.size()];

@@ -18,13 +18,15 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
                        const PointMap& map)
     : rest_(rest), mesh_(mesh), positions_(positions.begin(), positions.end()), map_(map) {
   size_ = box_of(mesh.vertices).diagonal();
-  flat_ = flattened(rest, kFlat * size_);
+  flat_ = flattened(rest);
   for (const int v : mesh.boundary) boundary_.push_back(positions_[v]);
+  for (size_t i = 0; i < boundary_.size(); ++i)
+    reach_ = std::max(reach_, std::abs(boundary_[(i + 1) % boundary_.size()] - boundary_[i]));
   box_ = box_of(positions_);
   const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
                                 static_cast<double>(mesh.triangles.size() + 1));
-  columns_ = std::clamp(static_cast<int>(box_.width() / cell), 1, 4096);
-  rows_ = std::clamp(static_cast<int>(box_.height() / cell), 1, 4096);
+  columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
+  rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
   cells_.resize(static_cast<size_t>(columns_) * rows_);
   // Twice over the triangles: how many a cell has, then which.
   const auto for_each_cell = [&](int t, auto visit) {
@@ -49,7 +51,7 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
 size_t InverseMap::cell_of(Complex w) const {
   const auto index = [](double x, double low, double width, int cells) {
     return static_cast<size_t>(
-        std::clamp(static_cast<int>((x - low) / std::max(width, 1e-300) * cells), 0, cells - 1));
+        std::clamp((x - low) / std::max(width, 1e-300) * cells, 0.0, cells - 1.0));
   };
   return index(w.imag(), box_.bottom, box_.height(), rows_) * columns_ +
          index(w.real(), box_.left, box_.width(), columns_);
@@ -123,6 +125,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   try_cell(cell, 1e-9);
   const size_t wanted = static_cast<size_t>(std::abs(expected(w)));
   if (!found.empty() && found.size() >= wanted) return found;
+  if (wanted == 0 && nearest_on_polygon(boundary_, w).distance > reach_) return found;
   // Between the mesh's edge and the map's, or where triangles are too coarse: look around.
   const int column = static_cast<int>(cell % columns_), row = static_cast<int>(cell / columns_);
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)

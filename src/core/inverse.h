@@ -26,7 +26,7 @@ class InverseMap {
 
   /// All preimages of w inside the cage, the one drawn on top first; empty when there is none.
   /// Residuals are mostly a few rounding errors, at most 1e-11 of the cage's size and of |w|. Cost:
-  /// about ten evaluations of the map, many more where there is no preimage.
+  /// about ten evaluations of the map, many more just outside its boundary.
   std::vector<Preimage> at(Complex w) const;
 
   /// How many preimages the winding number of the boundary's image promises for a conformal map.
@@ -45,7 +45,8 @@ class InverseMap {
   const Mesh& mesh_;
   Points positions_;
   const PointMap& map_;
-  Points boundary_;
+  Points boundary_;   ///< the mesh's, posed
+  double reach_ = 0;  ///< its longest edge: the map's boundary is not farther from it
   FlatCage flat_;
   double size_ = 1;
   Box box_;

@@ -274,24 +274,7 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   }
 }
 
-}  // namespace
-
-Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
-  check_rest_cage(cage);  // in terms of its own segments
-  constexpr double kFlat = 5e-5;
-  const FlatCage flat = flattened(cage, kFlat * box_of(controls_of(cage)).diagonal());
-  Mesh mesh = domain_mesh(flat.points, options);
-  if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
-  settle_on(cage, flat, mesh);
-  std::vector<int> vertices;
-  for (size_t i = 0; i < flat.points.size(); ++i)
-    if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
-  mesh.cage_vertices = std::move(vertices);
-  return mesh;
-}
-
-Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
-  check_rest_cage(polygon_cage(polygon));
+Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
   double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
@@ -321,6 +304,26 @@ Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
     mesher.step_by_step_refine_mesh();
   return extract(cdt, corners);
+}
+
+}  // namespace
+
+Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
+  check_rest_cage(cage);  // in terms of its own segments
+  const FlatCage flat = flattened(cage);
+  Mesh mesh = polygon_mesh(flat.points, options);
+  if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
+  settle_on(cage, flat, mesh);
+  std::vector<int> vertices;
+  for (size_t i = 0; i < flat.points.size(); ++i)
+    if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
+  mesh.cage_vertices = std::move(vertices);
+  return mesh;
+}
+
+Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  check_rest_cage(polygon_cage(polygon));
+  return polygon_mesh(polygon, options);
 }
 
 }  // namespace holomorph

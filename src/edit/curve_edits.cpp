@@ -84,6 +84,8 @@ Scene cornered(Scene scene, Index vertex, Layer layer) {
   Cage& cage = cage_of(scene, layer);
   const Index before = wrapped(cage, vertex - 1);
   const Complex z = cage.vertex(vertex);
+  for (const Index e : {before, vertex})  // a quadratic's one tangent belongs to the other end, too
+    if (cage.degree(e) == 2) raise_to(cage, e, 3);
   if (cage.degree(before) > 2)
     cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;
   if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.vertex(vertex + 1) - z) / 3.0;
@@ -115,7 +117,7 @@ std::set<Index> segments_of(const Scene& scene, const Selection& selection, Laye
 Scene raised(Scene scene, const Selection& selection, Layer layer) {
   const std::set<Index> segments = segments_of(scene, selection, layer);
   Cage& cage = cage_of(scene, layer);
-  for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kMostEditedDegree));
+  for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
   return scene;
 }
 

@@ -31,8 +31,8 @@ Scene toggled_corners(Scene scene, const Selection& selection, Layer layer);
 /// there are none.
 std::set<Index> segments_of(const Scene& scene, const Selection& selection, Layer layer);
 
-inline constexpr int kMostEditedDegree = 8;
-/// Degrees up by one (the curves stay, exactly) or down (least squares), within 1 to 8.
+/// Degrees up by one (the curves stay, exactly) or down (least squares), within 1 to
+/// kHighestDegree.
 Scene raised(Scene scene, const Selection& selection, Layer layer);
 Scene lowered(Scene scene, const Selection& selection, Layer layer);
 

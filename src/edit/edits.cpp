@@ -93,8 +93,9 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
     if (handle.kind == Handle::Kind::pin) {
       scene.pins.erase(scene.pins.begin() + handle.index);
     } else if (handle.control == 0) {
-      erase_vertex(scene.rest, handle.index, refit);
-      erase_vertex(scene.pose, handle.index, refit);
+      const double joint = joint_parameter(scene.rest, handle.index);
+      erase_vertex(scene.rest, handle.index, joint, refit);
+      erase_vertex(scene.pose, handle.index, joint, refit);
     }
   }
   return scene;

@@ -62,7 +62,7 @@ TEST_CASE("Raising a degree keeps the curve, lowering it again gives it back") {
   const Scene scene = smooth_square();
   Scene high = scene;
   for (int i = 0; i < 9; ++i) high = raised(std::move(high), {}, Layer::pose);
-  CHECK(high.pose.degree(0) == kMostEditedDegree);
+  CHECK(high.pose.degree(0) == kHighestDegree);
   CHECK(apart(high.pose, scene.pose) < 1e-10);
   for (int i = 0; i < 5; ++i) high = lowered(std::move(high), {}, Layer::pose);
   CHECK(high.pose.degree(0) == 3);

@@ -8,12 +8,10 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "scene/auto_cage.h"
 #include "scene/document.h"
 #include "scene/export.h"
 #include "scene/live_map.h"
 #include "scene/scene_json.h"
-#include "scene/svg_path.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -54,16 +52,6 @@ std::string complaint(const std::string& text) {
     return error.what();
   }
   return "";
-}
-
-Image blob(int width, int height, double (*radius)(double)) {
-  Image image(width, height);
-  for (int r = 0; r < height; ++r)
-    for (int c = 0; c < width; ++c) {
-      const Complex z(c - width / 2.0, height / 2.0 - r);
-      image.at(c, r)[3] = std::abs(z) < radius(std::arg(z)) * std::min(width, height) ? 255 : 0;
-    }
-  return image;
 }
 
 }  // namespace
@@ -297,69 +285,6 @@ TEST_CASE("History: undo and redo walk the line, a commit forgets what was undon
   CHECK_FALSE(history.undo());
 }
 
-TEST_CASE("The automatic cage contains the largest part, is simple and has about the wanted size") {
-  double (*const radii[])(double) = {
-      [](double) { return 0.3; }, [](double a) { return 0.3 + 0.12 * std::sin(7 * a); },
-      [](double a) { return 0.25 + 0.2 * std::cos(3 * a); },
-      [](double a) { return 0.05 + 0.4 * std::pow(std::cos(2 * a), 8); }};
-  for (const auto radius : radii)
-    for (const auto& [width, height] :
-         {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)})
-      for (const int vertices : {12, 30, 80}) {
-        Image image = blob(width, height, radius);
-        image.at(1, 1)[3] = 255;  // a speck that is not of the largest part
-        const Points cage = vertices_of(auto_cage(image, {vertices, -1}));
-        CHECK(static_cast<int>(cage.size()) <= std::max(vertices, 45));
-        CHECK_FALSE(self_crossing(cage));
-        CHECK(signed_area(cage) > 0);
-        const auto part = largest_part(image);
-        int outside = 0;
-        for (int r = 0; r < height; ++r)
-          for (int c = 0; c < width; ++c)
-            if (part[static_cast<size_t>(r) * width + c])
-              for (const Complex corner :
-                   {Complex(0, 0), Complex(1, 0), Complex(1, 1), Complex(0, 1)})
-                outside += winding_number(cage, Complex(c, height - r - 1) + corner) != 1;
-        CHECK(outside == 0);
-        CHECK(domain_mesh(cage, {300}).triangles.size() > 100);
-      }
-}
-
-TEST_CASE("A curved automatic cage contains the largest part, with fewer control points") {
-  double (*const radii[])(double) = {
-      [](double) { return 0.3; }, [](double a) { return 0.3 + 0.12 * std::sin(7 * a); },
-      [](double a) { return 0.05 + 0.4 * std::pow(std::cos(2 * a), 8); }};
-  for (const auto radius : radii)
-    for (const int vertices : {8, 20, 40}) {
-      const Image image = blob(400, 300, radius);
-      const Cage cage = auto_cage(image, {vertices, -1, true});
-      check_rest_cage(cage);
-      CHECK_FALSE(is_straight(cage));
-      CHECK(cage.size() <= std::max(2 * vertices, 45));
-      const Points flat = outline_of(cage, 64);
-      CHECK(signed_area(flat) > 0);
-      const auto part = largest_part(image);
-      int outside = 0;
-      for (int r = 0; r < image.height; ++r)
-        for (int c = 0; c < image.width; ++c)
-          if (part[static_cast<size_t>(r) * image.width + c])
-            outside += winding_number(flat, {c + 0.5, image.height - r - 0.5}) != 1;
-      CHECK(outside == 0);
-    }
-}
-
-TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") {
-  Image image(40, 30);
-  for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
-  const Points cage = vertices_of(auto_cage(image, {30, 5}));
-  REQUIRE(cage.size() == 4);
-  CHECK(cage[0] == Complex(-5, -5));
-  CHECK(cage[2] == Complex(45, 35));
-  CHECK(auto_cage(Image(40, 30)).size() == 4);  // nothing opaque at all
-  CHECK_THROWS_AS(auto_cage(image, {2, 5}), Error);
-  CHECK_THROWS_AS(auto_cage(image, {30, 1e9}), Error);
-}
-
 TEST_CASE(
     "The live map follows the scene, keeps the last map on errors, and poses without preparing") {
   LiveMap map({600});
@@ -413,8 +338,8 @@ TEST_CASE("The live map follows inserted and deleted points, pins and methods") 
     } else if (what == 1 && scene.rest.size() > 8) {
       Scene fewer = scene;
       const Index vertex = pick(scene.rest.size());
-      erase_vertex(fewer.rest, vertex);
-      erase_vertex(fewer.pose, vertex);
+      erase_vertex(fewer.rest, vertex, 0.5);
+      erase_vertex(fewer.pose, vertex, 0.5);
       if (!self_crossing(vertices_of(fewer.rest))) scene = fewer;
     } else if (what == 2) {
       const Complex z(10 + 4.0 * i, 20 + i);
@@ -454,77 +379,4 @@ TEST_CASE("Pictures that are none are refused") {
   const std::string png = encode_png(Image(20, 20));
   CHECK_THROWS_AS(decode_image(png.substr(0, png.size() / 2), "x"), Error);
   CHECK(decode_image(png, "x") == Image(20, 20));
-}
-
-TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") {
-  const auto loop = [](const std::string& d) {
-    return cage_of_svg("<svg height='100'><g><path d='" + d + "'/></g></svg>", "p.svg", 0);
-  };
-  const Cage expected = [] {
-    Cage cage;
-    cage.segments = {{{10, 90}},
-                     {{50, 90}, {60, 80}, {60, 60}},
-                     {{50, 50}, {40, 40}, {30, 30}},
-                     {{20, 50}, {15, 60}}};
-    return cage;
-  }();
-  for (const char* d : {"M10 10 L50 10 C60 20 60 40 50 50 C40 60 30 70 20 50 Q15 40 10 10 Z",
-                        "M10,10H50C60,20,60,40,50,50S30,70,20,50Q15,40,10,10",
-                        "m10 10h40c10 10 10 30 0 40s-20 20-30 0q-5-10-10-40z",
-                        "M 10 10 50 10 C 60 20 60 40 50 50 40 60 30 70 20 50 Q 15 40 10 10 z"}) {
-    const Cage cage = loop(d);
-    REQUIRE(cage.size() == expected.size());
-    for (Index e = 0; e < cage.size(); ++e) {
-      REQUIRE(cage.degree(e) == expected.degree(e));
-      for (int m = 0; m < cage.degree(e); ++m)
-        CHECK(std::abs(cage.segments[e][m] - expected.segments[e][m]) < 1e-12);
-    }
-  }
-  CHECK(loop("M0 0 Q10 0 10 10 T20 20 V0 z").segments[1][1] == Complex(10, 80));
-  CHECK(loop("M0 0V10H10v-10z").size() == 4);
-  // Handles on their points are pulled out.
-  const Cage freed = loop("M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z");
-  CHECK(freed.segments[0][1] != freed.segments[0][0]);
-  check_rest_cage(freed);
-  const Cage posed = cage_of_svg(
-      "<svg height='100'><path d='M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z'/></svg>", "p.svg", 0, false);
-  CHECK(posed.segments[0][1] == posed.segments[0][0]);  // a pose may do anything
-}
-
-TEST_CASE("SVG files that hold no cage are refused with the reason") {
-  const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      cage_of_svg(text, "p.svg", 0);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
-  using Catch::Contains;
-  CHECK_THAT(complaint("hello"), Contains("p.svg"));
-  CHECK_THAT(complaint("<svg><rect/></svg>"), Contains("no path"));
-  const auto path = [](const std::string& d) { return "<svg><path d='" + d + "'/></svg>"; };
-  CHECK_THAT(complaint(path("")), Contains("empty"));
-  CHECK_THAT(complaint(path("M0 0 L1 x")), Contains("character 9") && Contains("number"));
-  CHECK_THAT(complaint(path("M0 0 A1 1 0 0 0 2 2")), Contains("arcs"));
-  CHECK_THAT(complaint(path("M0 0 L1 0 L1 1 z M5 5 L6 6 L7 5 z")), Contains("several subpaths"));
-  CHECK_THAT(complaint(path("L0 0 L1 1")), Contains("begins with M"));
-  CHECK_THAT(complaint(path("M0 0 L1 0")), Contains("at least three"));
-  CHECK_THAT(complaint("<svg><g transform='scale(2)'><path d='M0 0 L1 0 L1 1'/></g></svg>"),
-             Contains("transform"));
-  CHECK_THAT(complaint(path("M0 0 L1e999 0 L1 1")), Contains("no number"));
-}
-
-TEST_CASE("A cage goes through SVG and back to 1e-9") {
-  Scene scene = with_cage(Scene{}, shapes::curved_star(9, 3, 0.3, 4));
-  scene.pose = shapes::curved_star(9, 2, 0.2, 7);
-  scene.pose.segments[3].resize(1);
-  scene.image = ImageReference{"x.png", 400, 400, "", ""};
-  const Cage back = cage_of_svg(svg_of(scene), "p.svg", 400);
-  REQUIRE(back.size() == scene.pose.size());
-  for (Index e = 0; e < back.size(); ++e) {
-    REQUIRE(back.degree(e) == scene.pose.degree(e));
-    for (int m = 0; m < back.degree(e); ++m)
-      CHECK(std::abs(back.segments[e][m] - scene.pose.segments[e][m]) < 1e-9);
-  }
 }
