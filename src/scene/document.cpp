@@ -198,7 +198,7 @@ std::string label_of(const Path& autosave, fs::file_time_type time) {
     else if (scene.image)
       name = Path(scene.image->file).stem().string() + " (never saved)";
     name += ", " + std::to_string(scene.rest.size()) + " cage points, " +
-            std::to_string(scene.pins.size()) + " pins";
+            std::to_string(scene.pins.size()) + (scene.pins.size() == 1 ? " pin" : " pins");
   } catch (const Error&) {
     name = "a damaged scene";
   }

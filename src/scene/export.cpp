@@ -78,35 +78,6 @@ std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int ima
   return out;
 }
 
-std::string svg_of(const Scene& scene) {
-  Box box = box_of(outline_of(scene.pose));
-  const double height = scene.image && scene.image->height > 0 ? scene.image->height : box.top;
-  if (scene.image && scene.image->width > 0) {
-    box.include({0, 0});
-    box.include({static_cast<double>(scene.image->width), height});
-  }
-  const auto point = [&](Complex z) { return number(z.real()) + " " + number(height - z.imag()); };
-  std::string path;
-  for (Index i = 0; i < scene.pose.size(); ++i) {
-    const Points c = scene.pose.controls(i);
-    if (i == 0) path += "M " + point(c[0]);
-    if (c.size() == 2) path += " L " + point(c[1]);
-    if (c.size() == 3) path += " Q " + point(c[1]) + " " + point(c[2]);
-    if (c.size() == 4) path += " C " + point(c[1]) + " " + point(c[2]) + " " + point(c[3]);
-    for (int k = 1; c.size() > 4 && k <= 64; ++k) path += " L " + point(bezier_point(c, k / 64.0));
-  }
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
-                    "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
-                    " " + number(height - box.top) + " " + number(box.width()) + " " +
-                    number(box.height()) + "\">\n";
-  if (!path.empty())
-    svg += "  <path d=\"" + path + " Z\" fill=\"none\" stroke=\"#1a7f37\" stroke-width=\"2\"/>\n";
-  for (const Pin& pin : method_named(scene.method).uses_pins ? scene.pins : std::vector<Pin>{})
-    svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
-           number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
-  return svg + "</svg>\n";
-}
-
 Points points_of_csv(const std::string& text, const std::string& name) {
   Points points;
   std::istringstream lines(text);

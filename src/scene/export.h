@@ -1,4 +1,4 @@
-// What leaves the program besides pictures: matrices, vertices, meshes, curves.
+// What leaves the program besides pictures and curves: matrices, vertices, meshes.
 #pragma once
 
 #include "core/mesh.h"
@@ -18,10 +18,6 @@ std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t column
 /// The warped mesh as Wavefront OBJ: positions in image pixels, texture coordinates of the picture.
 std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
                    int image_height);
-
-/// The posed cage as one SVG path over a drawing of the picture's size (degrees above three are
-/// drawn as fine polylines), pins as circles.
-std::string svg_of(const Scene& scene);
 
 /// The points of a CSV file: two numbers a line, separated by comma, semicolon or blanks; a first
 /// line that is no pair of numbers is a heading. Throws Error naming the line.

@@ -2,8 +2,10 @@
 #include "scene/svg_path.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
+#include <set>
 
 #include "core/error.h"
 
@@ -13,7 +15,9 @@ namespace {
 /// Reads path data command by command and keeps the loop as lists of control points.
 class PathReader {
  public:
-  PathReader(const std::string& data, std::string name) : data_(data), name_(std::move(name)) {}
+  /// Lines to where one is already are dropped unless `keeps_points`.
+  PathReader(const std::string& data, std::string name, bool keeps_points)
+      : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
 
   std::vector<Points> segments() {
     while (skip_blanks()) read_command();
@@ -42,11 +46,11 @@ class PathReader {
 
   double number() {
     if (!number_follows()) fail("a number is wanted here");
-    const char* from = data_.c_str() + at_;
-    char* end = nullptr;
-    const double x = std::strtod(from, &end);
-    if (end == from || !std::isfinite(x)) fail("this is no number");
-    at_ += static_cast<size_t>(end - from);
+    const char* from = data_.data() + at_ + (data_[at_] == '+');
+    double x = 0;
+    const auto [end, wrong] = std::from_chars(from, data_.data() + data_.size(), x);
+    if (wrong != std::errc{} || !std::isfinite(x)) fail("this is no number");
+    at_ = static_cast<size_t>(end - data_.data());
     return x;
   }
 
@@ -114,7 +118,7 @@ class PathReader {
   }
 
   void line_to(Complex to) {
-    if (to != here_) segments_.push_back({here_});
+    if (to != here_ || keeps_points_) segments_.push_back({here_});
     here_ = to;
   }
 
@@ -136,18 +140,34 @@ class PathReader {
   size_t at_ = 0;
   Complex start_, here_, control_;
   char last_ = ' ';
-  bool started_ = false, closed_ = false;
+  bool keeps_points_, started_ = false, closed_ = false;
   std::vector<Points> segments_;
 };
 
-/// The first path below a node, in document order.
-pugi::xml_node first_path(const pugi::xml_node& node) {
+/// The paths below a node in document order, without those that only serve others.
+void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths) {
+  static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
+                                             "marker", "pattern",  "symbol"};
   for (const pugi::xml_node& child : node.children()) {
-    const std::string tag = child.name();
-    if (tag == "path" || tag == "svg:path") return child;
-    if (const pugi::xml_node found = first_path(child)) return found;
+    std::string tag = child.name();
+    if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
+    if (tag == "path") paths.push_back(child);
+    if (!kUnseen.contains(tag)) collect_paths(child, paths);
   }
-  return {};
+}
+
+/// The path with this id, or the first one.
+pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
+  std::vector<pugi::xml_node> paths;
+  collect_paths(document, paths);
+  for (const pugi::xml_node& path : paths)
+    if (path.attribute("id").as_string() == id) return path;
+  return paths.empty() ? pugi::xml_node() : paths.front();
+}
+
+bool is_transformed(const pugi::xml_node& node) {
+  return node.attribute("transform") ||
+         std::string(node.attribute("style").as_string()).find("transform") != std::string::npos;
 }
 
 /// Handles on their points are pulled a little along the curve.
@@ -175,10 +195,10 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
     throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
-  const pugi::xml_node path = first_path(document);
+  const pugi::xml_node path = path_of(document, for_rest ? "rest" : "pose");
   if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
   for (pugi::xml_node node = path; node; node = node.parent())
-    if (node.attribute("transform"))
+    if (is_transformed(node))
       throw Error(ErrorKind::bad_input, name +
                                             ": the path or its group has a transform; apply it in "
                                             "the drawing program and save again");
@@ -187,7 +207,7 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
     height = root.attribute("height").as_double(0);
   }
   Cage cage;
-  cage.segments = PathReader(path.attribute("d").as_string(), name).segments();
+  cage.segments = PathReader(path.attribute("d").as_string(), name, !for_rest).segments();
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {z.real(), height - z.imag()};
   if (cage.size() < 3)
@@ -195,6 +215,80 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
                                           " segments; a cage needs at least three");
   if (for_rest) free_handles(cage);
   return cage;
+}
+
+namespace {
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string point(Complex z, double height) {
+  return number(z.real()) + " " + number(height - z.imag());
+}
+
+/// Cubics with the curve's tangents at their ends, as many as stay within 1e-4 of its size.
+void append_cubics(const Points& c, double height, int depth, std::string& data) {
+  const double n = static_cast<double>(c.size()) - 1;
+  const Points cubic{c[0], c[0] + n / 3 * (c[1] - c[0]),
+                     c.back() + n / 3 * (c[c.size() - 2] - c.back()), c.back()};
+  double off = 0;
+  for (const double t : {0.25, 0.5, 0.75})
+    off = std::max(off, std::abs(bezier_point(c, t) - bezier_point(cubic, t)));
+  if (constexpr int kDeepest = 6; depth < kDeepest && off > 1e-4 * box_of(c).diagonal()) {
+    const SplitCurve halves = split(c, 0.5);
+    append_cubics(halves.before, height, depth + 1, data);
+    append_cubics(halves.after, height, depth + 1, data);
+    return;
+  }
+  data += " C " + point(cubic[1], height) + " " + point(cubic[2], height) + " " +
+          point(cubic[3], height);
+}
+
+std::string path_data(const Cage& cage, double height) {
+  std::string data;
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points c = cage.controls(i);
+    if (i == 0) data += "M " + point(c[0], height);
+    if (c.size() > 4) {
+      append_cubics(c, height, 0, data);
+      continue;
+    }
+    data += c.size() == 2 ? " L" : c.size() == 3 ? " Q" : " C";
+    for (size_t m = 1; m < c.size(); ++m) data += " " + point(c[m], height);
+  }
+  return data + " Z";
+}
+
+}  // namespace
+
+std::string svg_of(const Scene& scene) {
+  Box box = box_of(outline_of(scene.pose));
+  for (const Complex& z : outline_of(scene.rest)) box.include(z);
+  double height = box.height();
+  if (scene.image && scene.image->width > 0) {
+    height = scene.image->height;
+    box.include({0, 0});
+    box.include({static_cast<double>(scene.image->width), height});
+  }
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
+                    "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
+                    " " + number(height - box.top) + " " + number(box.width()) + " " +
+                    number(box.height()) + "\">\n";
+  const auto add_path = [&](const Cage& cage, const std::string& look) {
+    svg += "  <path d=\"" + path_data(cage, height) + "\" fill=\"none\" " + look + "/>\n";
+  };
+  if (scene.has_cage()) {
+    if (scene.rest != scene.pose)
+      add_path(scene.rest, "id=\"rest\" stroke=\"#808080\" stroke-dasharray=\"4 4\"");
+    add_path(scene.pose, "id=\"pose\" stroke=\"#1a7f37\" stroke-width=\"2\"");
+  }
+  for (const Pin& pin : method_named(scene.method).uses_pins ? scene.pins : std::vector<Pin>{})
+    svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
+           number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
+  return svg + "</svg>\n";
 }
 
 }  // namespace holomorph
