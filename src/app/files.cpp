@@ -175,7 +175,7 @@ void Files::ask_export_svg() {
                                                   : workspace_.document.path();
   if (start.empty()) start = "cage";
   start.replace_extension(".svg");
-  dialog_.ask({FileQuestion::Mode::save, "Export the posed cage", "Export", {".svg"}, start, false},
+  dialog_.ask({FileQuestion::Mode::save, "Export the cage", "Export", {".svg"}, start, false},
               [this](const Path& path, double) -> std::string {
                 try {
                   check_not_a_source(path, workspace_.document.path(),

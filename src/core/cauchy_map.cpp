@@ -2,15 +2,21 @@
 // closed form cancels there like the distance to the power of the degree.
 #include "core/cauchy_map.h"
 
+#include <array>
+#include <limits>
+
 #include "core/arithmetic.h"
 #include "core/quadrature.h"
 
 namespace holomorph {
 namespace {
 
-constexpr int kNearNodes = 32, kFarNodes = 10;
-/// Moduli of W = q - s above which the two rules are exact to rounding.
-constexpr double kNear = 1.7, kFar = 8.0;
+/// Gauss-Legendre rules, each exact to rounding where the modulus of W = q - s is above `from`.
+struct Rule {
+  double from;
+  int nodes;
+};
+constexpr std::array<Rule, 3> kRules{Rule{8.0, 12}, {2.8, 16}, {1.7, 24}};
 
 Points at_nodes(std::span<const Complex> controls, int count) {
   Points values;
@@ -32,12 +38,12 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
     Points d;
     for (int m = 0; m <= rest.degree(e); ++m)
       d.push_back(displacement[(rest.control_offset(e) + m) % displacement.size()]);
-    Segment segment{SegmentPolynomial(rest.controls(e)),
-                    powers_about_middle(d),
-                    at_nodes(d, kNearNodes),
-                    at_nodes(d, kFarNodes),
-                    0,
-                    false};
+    Segment segment{
+        SegmentPolynomial(rest.controls(e)),
+        powers_about_middle(d),
+        {at_nodes(d, kRules[0].nodes), at_nodes(d, kRules[1].nodes), at_nodes(d, kRules[2].nodes)},
+        0,
+        false};
     for (const Complex& by : d) segment.is_moved = segment.is_moved || by != Complex(0);
     segments_.push_back(std::move(segment));
   }
@@ -59,10 +65,10 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
 CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, Complex log) {
   const Complex v = root.s - root.q;
   const double size = std::norm(v);
-  if (size > kNear * kNear) {
-    const bool far = size > kFar * kFar;
-    const GaussRule& rule = gauss_rule(far ? kFarNodes : kNearNodes);
-    const Points& d = far ? segment.far : segment.near;
+  for (size_t r = 0; r < kRules.size(); ++r) {
+    if (size <= kRules[r].from * kRules[r].from) continue;
+    const GaussRule& rule = gauss_rule(kRules[r].nodes);
+    const Points& d = segment.at_nodes[r];
     Value sum{0, 0};
     for (size_t g = 0; g < d.size(); ++g) {
       const Complex kernel = inverse(rule.nodes[g] - root.s),
@@ -100,7 +106,7 @@ CauchySum::Value CauchySum::at(Complex z) const {
       break;
     }
   Value sum{0, 0};
-  double turns = 0, nearest = 1e300;
+  double turns = 0, nearest = std::numeric_limits<double>::infinity();
   const Segment* across = nullptr;
   Root crossed;
   std::array<Root, kHighestDegree> roots;
@@ -112,7 +118,7 @@ CauchySum::Value CauchySum::at(Complex z) const {
       const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)),
                         std::atan2(cross(-root.s, root.q), dot(-root.s, root.q)));
       turns += log.imag();
-      const double beside = std::abs(root.s.imag()) * std::abs(slope);
+      const double beside = root.s.imag() * root.s.imag() * std::norm(slope);
       if (root.s.real() >= -0.1 && root.q.real() >= -0.1 && beside < nearest) {
         nearest = beside;
         across = &segment;

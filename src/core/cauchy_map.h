@@ -4,6 +4,8 @@
 // polynomial per segment: integral of d(t) / (t - s) dt = d(s) L + a polynomial, at each root s.
 #pragma once
 
+#include <array>
+
 #include "core/cage.h"
 #include "core/segment.h"
 
@@ -27,9 +29,9 @@ class CauchySum {
  private:
   struct Segment {
     SegmentPolynomial curve;
-    Points powers;     ///< d in powers of v = 2 t - 1
-    Points near, far;  ///< d at the nodes of the two quadrature rules
-    Complex inwards;   ///< a tiny step from the start into the cage
+    Points powers;                   ///< d in powers of v = 2 t - 1
+    std::array<Points, 3> at_nodes;  ///< d at the nodes of each quadrature rule
+    Complex inwards;                 ///< a tiny step from the start into the cage
     bool is_moved = false;
   };
   static Value integral(const Segment& segment, const Root& root, Complex log);

@@ -3,6 +3,7 @@
 #include "core/inverse.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/cauchy.h"
@@ -111,8 +112,9 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   std::vector<Preimage> found;
   if (!is_finite(w)) return found;
   constexpr double kSlack = 0.3;  // a triangle's image is not the image's triangle
-  const auto try_cell = [&](size_t cell, double slack) {
-    for (int i = cells_[cell].count; i-- > 0;) {
+  constexpr size_t kAll = std::numeric_limits<size_t>::max();
+  const auto try_cell = [&](size_t cell, double slack, size_t enough) {
+    for (int i = cells_[cell].count; i-- > 0 && found.size() < enough;) {
       const auto [a, b, c] = mesh_.triangles[triangles_[cells_[cell].first + i]];
       const Complex p = positions_[a] - w, q = positions_[b] - w, r = positions_[c] - w;
       const double wa = cross(q, r), wb = cross(r, p), wc = cross(p, q), area = wa + wb + wc;
@@ -122,7 +124,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
     }
   };
   const size_t cell = cell_of(w);
-  try_cell(cell, 1e-9);
+  try_cell(cell, 1e-9, kAll);
   const size_t wanted = static_cast<size_t>(std::abs(expected(w)));
   if (!found.empty() && found.size() >= wanted) return found;
   if (wanted == 0 && nearest_on_polygon(boundary_, w).distance > reach_) return found;
@@ -130,7 +132,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   const int column = static_cast<int>(cell % columns_), row = static_cast<int>(cell / columns_);
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
     for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
-      try_cell(static_cast<size_t>(r) * columns_ + c, kSlack);
+      try_cell(static_cast<size_t>(r) * columns_ + c, kSlack, std::max<size_t>(wanted, 1));
   if (!found.empty() && found.size() >= wanted) return found;
   std::vector<std::pair<double, int>> near;
   for (const int v : mesh_.boundary) near.push_back({std::norm(positions_[v] - w), v});

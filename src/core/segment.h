@@ -38,7 +38,7 @@ class SegmentPolynomial {
   /// out to half the digits, as it must. Cost: about 100 ns a root.
   void roots(Complex z, std::span<Root> out, std::span<const Root> near = {}) const;
 
-  /// c^(j)(t) / j! for j = 0 to order at a parameter.
+  /// c^(j)(t) / j! for j below out.size() at a parameter; 0 above the degree. Cost O(degree^2).
   void taylor(const Root& at, std::span<Complex> out) const;
   /// c(t) and c'(t).
   Complex at(const Root& parameter) const;
