@@ -82,10 +82,12 @@ int run_program(int argc, char** argv) {
   sub->add_option("--margin", fresh.margin,
                   "Distance from the content in pixels; default 2 % of the longer side");
   sub->add_flag("--curved", fresh.curved, "Cubic segments instead of straight edges");
-  sub->add_option("--cage", fresh.cage,
-                  "An SVG file whose first path is the cage, in place of alpha");
-  sub->add_option("--pose", fresh.pose,
-                  "An SVG file whose first path is the posed cage; needs --cage")
+  sub->add_option(
+      "--cage", fresh.cage,
+      "An SVG file whose path \"rest\", else the first, is the cage, in place of alpha");
+  sub->add_option(
+         "--pose", fresh.pose,
+         "An SVG file whose path \"pose\", else the first, is the posed cage; needs --cage")
       ->needs("--cage");
   on_run(sub, fresh, done);
 

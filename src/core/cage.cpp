@@ -167,7 +167,7 @@ FlatCage flattened(const Cage& cage) {
     const int pieces =
         is_straight(cage, i)
             ? 1
-            : static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / tolerance)), 2.0, 256.0));
+            : static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / tolerance)), 2.0, 1024.0));
     for (int k = 0; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       flat.points.push_back(k == 0 ? cage.vertex(i) : bezier_point(controls, t));
@@ -188,7 +188,7 @@ namespace {
 /// Vertices must keep a distance from the edges beside which they lie that survives rounding, also
 /// of what a mesher inserts between them: a needle's angle is at least kNeedle. Otherwise which
 /// side they are on is nobody's to say.
-void check_gaps(const FlatCage& flat) {
+std::optional<Error> gap_fault(const FlatCage& flat) {
   constexpr double kNeedle = 1e-7;
   const Points& polygon = flat.points;
   const Index n = static_cast<Index>(polygon.size());
@@ -219,19 +219,20 @@ void check_gaps(const FlatCage& flat) {
       const Complex z = polygon[*v];
       if (*v == e || *v == (e + 1) % n || z.imag() < low - most || z.imag() > high + most) continue;
       if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(*v, e)))
-        throw Error(ErrorKind::bad_input,
-                    "the rest cage touches itself: point " +
-                        std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
-                        " lies on segment " + std::to_string(flat.places[e].segment + 1) +
-                        "; move one of them away",
-                    z);
+        return Error(ErrorKind::bad_input,
+                     "the rest cage touches itself: point " +
+                         std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
+                         " lies on segment " + std::to_string(flat.places[e].segment + 1) +
+                         "; move one of them away",
+                     z);
     }
   }
+  return {};
 }
 
 /// A curve must not stop: where c' = 0 there is a cusp, and the map's derivative has no limit.
-void check_speed(const Cage& cage, Index segment) {
-  if (is_straight(cage, segment)) return;
+std::optional<Error> speed_fault(const Cage& cage, Index segment) {
+  if (is_straight(cage, segment)) return {};
   const Points controls = cage.controls(segment);
   Points slopes;
   for (size_t m = 0; m + 1 < controls.size(); ++m) slopes.push_back(controls[m + 1] - controls[m]);
@@ -244,77 +245,78 @@ void check_speed(const Cage& cage, Index segment) {
     if (std::abs(stop.s.imag()) > kNear || t < -kNear || t > 1 + kNear) continue;
     const Complex z = bezier_point(controls, std::clamp(t, 0.0, 1.0));
     const bool at_end = t < kNear || t > 1 - kNear;
-    throw Error(ErrorKind::bad_input,
-                "rest cage segment " + std::to_string(segment + 1) +
-                    (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
-                    point_text(z) + "; pull its handles apart",
-                z);
+    return Error(ErrorKind::bad_input,
+                 "rest cage segment " + std::to_string(segment + 1) +
+                     (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
+                     point_text(z) + "; pull its handles apart",
+                 z);
   }
+  return {};
 }
 
-/// Two segments must not leave their common vertex in the same direction: such a tip has no inside.
-void check_tips(const Cage& cage) {
+/// Two segments must not leave their common vertex in the same direction: rounding cannot tell an
+/// angle of 0 from one of 2 pi there.
+std::optional<Error> tip_fault(const Cage& cage) {
   constexpr double kTip = 1e-7;  // radians
   for (Index i = 0; i < cage.size(); ++i) {
     const Points before = cage.controls((i + cage.size() - 1) % cage.size()),
                  own = cage.controls(i);
     const Complex z = own[0], in = before[before.size() - 2] - z, out = own[1] - z;
     if (dot(in, out) > 0 && std::abs(cross(in, out)) <= kTip * std::abs(in) * std::abs(out))
-      throw Error(ErrorKind::bad_input,
-                  "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
-                      point_text(z) + ": its two segments run in the same direction; open them",
-                  z);
+      return Error(ErrorKind::bad_input,
+                   "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
+                       point_text(z) + ": its two segments run in the same direction; open them",
+                   z);
   }
+  return {};
 }
 
-void check_lengths(const Cage& cage) {
+std::optional<Error> length_fault(const Cage& cage) {
   for (Index i = 0; i < cage.size(); ++i) {
     const Points controls = cage.controls(i);
     const bool moves =
         std::any_of(controls.begin(), controls.end(), [&](Complex z) { return z != controls[0]; });
     if (!moves || (cage.vertex(i) == cage.vertex(i + 1) && is_straight(cage, i)))
-      throw Error(ErrorKind::bad_input,
-                  "rest cage segment " + std::to_string(i + 1) + " at " +
-                      point_text(cage.vertex(i)) + " has no length; delete one of its two points",
-                  cage.vertex(i));
+      return Error(ErrorKind::bad_input,
+                   "rest cage segment " + std::to_string(i + 1) + " at " +
+                       point_text(cage.vertex(i)) + " has no length; delete one of its two points",
+                   cage.vertex(i));
   }
+  return {};
 }
 
 }  // namespace
 
-void check_rest_cage(const Cage& cage) {
+std::optional<Error> rest_fault(const Cage& cage) {
   if (cage.size() < 3)
-    throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
-                                          " segments; a cage needs at least three");
+    return Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
+                                           " segments; a cage needs at least three");
   for (Index i = 0; i < cage.size(); ++i)
     for (const Complex& z : cage.segments[i])
       if (!is_finite(z))
-        throw Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) +
-                                              " has a coordinate that is no number");
-  check_lengths(cage);
-  for (Index i = 0; i < cage.size(); ++i) check_speed(cage, i);
-  check_tips(cage);
+        return Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) +
+                                               " has a coordinate that is no number");
+  if (auto fault = length_fault(cage)) return fault;
+  for (Index i = 0; i < cage.size(); ++i)
+    if (auto fault = speed_fault(cage, i)) return fault;
+  if (auto fault = tip_fault(cage)) return fault;
   const FlatCage flat = flattened(cage);
   if (const auto crossing = self_crossing(flat.points))
-    throw Error(ErrorKind::bad_input,
-                "the rest cage crosses itself: segments " +
-                    std::to_string(flat.places[crossing->first].segment + 1) + " and " +
-                    std::to_string(flat.places[crossing->second].segment + 1) + " meet near " +
-                    point_text(crossing->point) + "; move one of their points",
-                crossing->point);
-  check_gaps(flat);
+    return Error(ErrorKind::bad_input,
+                 "the rest cage crosses itself: segments " +
+                     std::to_string(flat.places[crossing->first].segment + 1) + " and " +
+                     std::to_string(flat.places[crossing->second].segment + 1) + " meet near " +
+                     point_text(crossing->point) + "; move one of their points",
+                 crossing->point);
+  if (auto fault = gap_fault(flat)) return fault;
   const Box box = box_of(flat.points);
   if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
-    throw Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+    return Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+  return {};
 }
 
-bool can_rest(const Cage& cage) {
-  try {
-    check_rest_cage(cage);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
+void check_rest_cage(const Cage& cage) {
+  if (const auto fault = rest_fault(cage)) throw *fault;
 }
 
 }  // namespace holomorph

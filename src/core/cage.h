@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/curve.h"
+#include "core/error.h"
 
 namespace holomorph {
 
@@ -55,7 +56,7 @@ Cage elevated_to(const Cage& cage, const Cage& other);
 Points outline_of(const Cage& cage, int per_curve = 16);
 
 /// The loop as a polygon within 5e-5 of its size: its vertices and where on the cage they are.
-/// Straight segments stay whole; curved ones are cut evenly in the parameter, into at most 256.
+/// Straight segments stay whole; curved ones are cut evenly in the parameter, into at most 1024.
 struct FlatCage {
   Points points;
   std::vector<BoundaryPoint> places;
@@ -96,8 +97,8 @@ bool is_straight(const Cage& cage, Index segment);
 /// `flattened`. Cost: O(n log n) in its points for ordinary loops.
 void check_rest_cage(const Cage& cage);
 
-/// Whether check_rest_cage accepts the cage.
-bool can_rest(const Cage& cage);
+/// What check_rest_cage would throw; none when the cage can rest.
+std::optional<Error> rest_fault(const Cage& cage);
 
 /// "(12, 30.5)": how messages write a point.
 std::string point_text(Complex z);

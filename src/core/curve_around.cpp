@@ -96,7 +96,7 @@ Cage curves_around(const Points& outline, const Points& kept, int wanted) {
     Cage cage = loop_over(outline, breaks);
     const std::set<Index> bad = bad_segments(cage, kept);
     if (bad.empty()) {
-      if (can_rest(cage)) return cage;
+      if (!rest_fault(cage)) return cage;
       break;
     }
     const std::vector<size_t> list(breaks.begin(), breaks.end());

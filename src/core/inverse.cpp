@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kFlat = 1e-4;  ///< of the cage's size: how near the boundary takes the exact test
+constexpr double kNear = 1e-4;  ///< of the control points' box: what `flattened` may be off, twice
 
 }  // namespace
 
@@ -20,6 +20,7 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
     : rest_(rest), mesh_(mesh), positions_(positions.begin(), positions.end()), map_(map) {
   size_ = box_of(mesh.vertices).diagonal();
   flat_ = flattened(rest);
+  near_ = kNear * std::max(size_, box_of(controls_of(rest)).diagonal());
   for (const int v : mesh.boundary) boundary_.push_back(positions_[v]);
   for (size_t i = 0; i < boundary_.size(); ++i)
     reach_ = std::max(reach_, std::abs(boundary_[(i + 1) % boundary_.size()] - boundary_[i]));
@@ -100,7 +101,7 @@ void InverseMap::add(Complex w, Complex start, std::vector<Preimage>& found) con
 bool InverseMap::is_inside(Complex z) const {
   const Points& outline = flat_.points;
   const NearestPoint near = nearest_on_polygon(outline, z);
-  if (near.distance > kFlat * size_) return winding_number(outline, z) != 0;
+  if (near.distance > near_) return winding_number(outline, z) != 0;
   // On the boundary rounding decides: a little inwards counts.
   const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
   const double left = signed_area(outline) > 0 ? 1 : -1;

@@ -24,7 +24,8 @@ class InverseMap {
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
 
-  /// All preimages of w inside the cage, the one drawn on top first; empty when there is none.
+  /// All preimages of w inside the cage that the mesh resolves, the one drawn on top first; empty
+  /// when there is none. A sheet of the map that lies within one triangle may be missed.
   /// Residuals are mostly a few rounding errors, at most 1e-11 of the cage's size and of |w|. Cost:
   /// about ten evaluations of the map, many more just outside its boundary.
   std::vector<Preimage> at(Complex w) const;
@@ -46,7 +47,8 @@ class InverseMap {
   Points positions_;
   const PointMap& map_;
   Points boundary_;   ///< the mesh's, posed
-  double reach_ = 0;  ///< its longest edge: the map's boundary is not farther from it
+  double reach_ = 0;  ///< its longest edge: the map's boundary is rarely farther from it
+  double near_ = 0;   ///< how near to the boundary the exact test decides
   FlatCage flat_;
   double size_ = 1;
   Box box_;

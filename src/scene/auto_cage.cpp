@@ -246,7 +246,7 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
           ? curves_around(levels.outline, levels.kept, options.vertices)
           : polygon_cage(simplified_around(levels.outline, levels.kept, options.vertices));
   Cage round = rounded(cage);
-  return can_rest(round) ? round : cage;
+  return rest_fault(round) ? cage : round;
 }
 
 }  // namespace holomorph

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <pugixml.hpp>
 #include <set>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -40,8 +41,12 @@ class PathReader {
   }
 
   bool number_follows() {
-    return skip_blanks() && (std::isdigit(static_cast<unsigned char>(data_[at_])) ||
-                             data_[at_] == '-' || data_[at_] == '+' || data_[at_] == '.');
+    if (!skip_blanks()) return false;
+    const auto begins = [](char c) {
+      return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
+    };
+    const bool is_signed = data_[at_] == '-' || data_[at_] == '+';
+    return begins(data_[at_]) || (is_signed && at_ + 1 < data_.size() && begins(data_[at_ + 1]));
   }
 
   double number() {
@@ -49,7 +54,8 @@ class PathReader {
     const char* from = data_.data() + at_ + (data_[at_] == '+');
     double x = 0;
     const auto [end, wrong] = std::from_chars(from, data_.data() + data_.size(), x);
-    if (wrong != std::errc{} || !std::isfinite(x)) fail("this is no number");
+    if (wrong == std::errc::result_out_of_range) fail("this number is too large or too small");
+    if (wrong != std::errc{}) fail("this is no number");
     at_ = static_cast<size_t>(end - data_.data());
     return x;
   }
@@ -165,9 +171,16 @@ pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
   return paths.empty() ? pugi::xml_node() : paths.front();
 }
 
+/// Whether a node has a transform, as an attribute or in its style.
 bool is_transformed(const pugi::xml_node& node) {
-  return node.attribute("transform") ||
-         std::string(node.attribute("style").as_string()).find("transform") != std::string::npos;
+  if (node.attribute("transform")) return true;
+  std::istringstream style(node.attribute("style").as_string());
+  std::string property;
+  while (std::getline(style, property, ';')) {
+    std::erase_if(property, [](unsigned char c) { return std::isspace(c); });
+    if (property.starts_with("transform:") && property != "transform:none") return true;
+  }
+  return false;
 }
 
 /// Handles on their points are pulled a little along the curve.
@@ -229,36 +242,54 @@ std::string point(Complex z, double height) {
   return number(z.real()) + " " + number(height - z.imag());
 }
 
-/// Cubics with the curve's tangents at their ends, as many as stay within 1e-4 of its size.
-void append_cubics(const Points& c, double height, int depth, std::string& data) {
-  const double n = static_cast<double>(c.size()) - 1;
-  const Points cubic{c[0], c[0] + n / 3 * (c[1] - c[0]),
-                     c.back() + n / 3 * (c[c.size() - 2] - c.back()), c.back()};
-  double off = 0;
-  for (const double t : {0.25, 0.5, 0.75})
-    off = std::max(off, std::abs(bezier_point(c, t) - bezier_point(cubic, t)));
-  if (constexpr int kDeepest = 6; depth < kDeepest && off > 1e-4 * box_of(c).diagonal()) {
-    const SplitCurve halves = split(c, 0.5);
-    append_cubics(halves.before, height, depth + 1, data);
-    append_cubics(halves.after, height, depth + 1, data);
-    return;
-  }
-  data += " C " + point(cubic[1], height) + " " + point(cubic[2], height) + " " +
-          point(cubic[3], height);
+/// The cubic with a curve's ends and end tangents.
+Points cubic_of(const Points& c) {
+  const double n = static_cast<double>(c.size()) - 1, arm = n / 3;
+  return {c.front(), c.front() + arm * (c[1] - c.front()),
+          c.back() + arm * (c[c.size() - 2] - c.back()), c.back()};
 }
 
-std::string path_data(const Cage& cage, double height) {
-  std::string data;
-  for (Index i = 0; i < cage.size(); ++i) {
-    const Points c = cage.controls(i);
-    if (i == 0) data += "M " + point(c[0], height);
-    if (c.size() > 4) {
-      append_cubics(c, height, 0, data);
-      continue;
-    }
-    data += c.size() == 2 ? " L" : c.size() == 3 ? " Q" : " C";
-    for (size_t m = 1; m < c.size(); ++m) data += " " + point(c[m], height);
+/// How far a curve is from its cubic at most: a curve lies within its control points.
+double off_cubic(const Points& c) {
+  const Points cubic = elevated(cubic_of(c), static_cast<int>(c.size()) - 1);
+  double off = 0;
+  for (size_t m = 0; m < c.size(); ++m) off = std::max(off, std::abs(c[m] - cubic[m]));
+  return off;
+}
+
+/// The curve in `count` pieces, equally long in the parameter.
+std::vector<Points> pieces_of(Points c, int count) {
+  std::vector<Points> pieces;
+  for (; count > 1; --count) {
+    SplitCurve halves = split(c, 1.0 / count);
+    pieces.push_back(std::move(halves.before));
+    c = std::move(halves.after);
   }
+  pieces.push_back(std::move(c));
+  return pieces;
+}
+
+/// How many pieces make cubics that follow a curve to kOffCubic of its size: one up to degree 3.
+int cubics_for(const Points& c) {
+  constexpr double kOffCubic = 1e-4;
+  const double allowed = kOffCubic * box_of(c).diagonal();
+  int count = 1;
+  if (c.size() > 4)
+    while (std::ranges::any_of(pieces_of(c, count),
+                               [&](const Points& piece) { return off_cubic(piece) > allowed; }))
+      count *= 2;
+  return count;
+}
+
+/// Path data of a cage, segment i in counts[i] pieces.
+std::string path_data(const Cage& cage, const std::vector<int>& counts, double height) {
+  std::string data = "M " + point(cage.vertex(0), height);
+  for (Index i = 0; i < cage.size(); ++i)
+    for (Points piece : pieces_of(cage.controls(i), counts[static_cast<size_t>(i)])) {
+      if (piece.size() > 4) piece = cubic_of(piece);
+      data += piece.size() == 2 ? " L" : piece.size() == 3 ? " Q" : " C";
+      for (size_t m = 1; m < piece.size(); ++m) data += " " + point(piece[m], height);
+    }
   return data + " Z";
 }
 
@@ -277,8 +308,12 @@ std::string svg_of(const Scene& scene) {
                     "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
                     " " + number(height - box.top) + " " + number(box.width()) + " " +
                     number(box.height()) + "\">\n";
+  std::vector<int> counts;  // the same for both, so that they still belong together
+  for (Index i = 0; i < scene.rest.size(); ++i)
+    counts.push_back(
+        std::max(cubics_for(scene.rest.controls(i)), cubics_for(scene.pose.controls(i))));
   const auto add_path = [&](const Cage& cage, const std::string& look) {
-    svg += "  <path d=\"" + path_data(cage, height) + "\" fill=\"none\" " + look + "/>\n";
+    svg += "  <path d=\"" + path_data(cage, counts, height) + "\" fill=\"none\" " + look + "/>\n";
   };
   if (scene.has_cage()) {
     if (scene.rest != scene.pose)

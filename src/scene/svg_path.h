@@ -19,7 +19,8 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
 
 /// The cage over a drawing of the picture's size: the posed one as the path "pose", the one at
 /// rest, where it differs, dashed as "rest", pins as circles. cage_of_svg reads both back to
-/// rounding, degrees above three excepted: they become several cubics within 1e-4 of their size.
+/// rounding; segments of a degree above three, and their counterparts, become several that are at
+/// most cubic and follow them to 1e-4 of their size.
 std::string svg_of(const Scene& scene);
 
 }  // namespace holomorph

@@ -255,16 +255,16 @@ class WindowTest(unittest.TestCase):
         with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             editor.key("ctrl+e")
-            time.sleep(0.4)
+            time.sleep(1.0)
             editor.key("ctrl+a")
             editor.type(target)
             editor.key("Return")
-            time.sleep(0.4)
+            time.sleep(1.0)
             with open(target) as file:
                 self.assertEqual(file.read(), "precious")
             self.screenshot(editor, "export-replace")
             editor.key("Return")
-            end = time.time() + 10
+            end = time.time() + 20
             while os.path.getsize(target) < 100 and time.time() < end:
                 time.sleep(0.05)
             subprocess.run([PROGRAM, "render", os.path.join(SOURCE, "assets/giraffe.json"), "--out",
