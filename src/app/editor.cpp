@@ -58,7 +58,9 @@ class Editor {
     use_tool(input);
     open_context_menu(input);
     answer(std::exchange(workspace_.request, Request::none));
-    if (workspace_.map.update(workspace_.scene(), is_heat(workspace_.view))) window_.wake();
+    if (workspace_.map.update(workspace_.scene(),
+                              {is_heat(workspace_.view), workspace_.preview.has_value()}))
+      window_.wake();
     update_title();
     files_.autosave();
     draw_canvas();

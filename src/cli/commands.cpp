@@ -49,8 +49,9 @@ void require_cage(const Scene& scene, const Path& path) {
 SampledMap map_at(const Scene& scene, const Points& points) {
   Rest rest = rest_of(scene, Precision::full);
   rest.samples = points;
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest));
   SampledMap map;
-  method_named(scene.method).prepare(rest, nullptr)->deform(pose_of(scene), map, true);
+  method_named(scene.method).prepare(rest, nullptr)->deform(pose_of(scene), map, {true});
   const Complex nowhere(NAN, NAN);
   for (size_t i = 0; i < points.size(); ++i)
     if (!contains(scene.rest, points[i])) {
@@ -101,7 +102,7 @@ void run(const InverseCommand& command) {
   const Points points = points_of_csv(read_file(command.points), command.points.string());
   const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, false);
+  prepared->deformer->deform(pose_of(scene), map, {});
   const auto at = prepared->deformer->point_map(pose_of(scene));
   if (!at) throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse");
   const InverseMap inverse(scene.rest, *prepared->mesh,
@@ -204,7 +205,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   if (format == "svg") return svg_of(loaded.scene);
   const auto prepared = prepared_map(loaded.scene, Precision::full, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(loaded.scene), map, false);
+  prepared->deformer->deform(pose_of(loaded.scene), map, {});
   const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
   if (format == "npy") return npy_of(positions);
   const auto& image = loaded.scene.image;

@@ -10,20 +10,26 @@
 #include <string>
 
 #include "core/cauchy_array.h"
+#include "core/mesh.h"
 
 namespace holomorph {
 
 /// Values of a method's parameters by key; a missing key has the specification's default.
 using Parameters = std::map<std::string, double>;
 
-/// One parameter of a method: what a slider, a JSON field and the help need to know.
+/// One parameter of a method: what a slider, a JSON field and the help need to know. A choice's
+/// value is the number of one of its options; files hold the option's id.
 struct ParameterSpec {
-  enum class Kind { number, toggle };
+  struct Option {
+    std::string id, label;
+  };
+  enum class Kind { number, toggle, choice };
   std::string key, label, hint;
   Kind kind = Kind::number;
   double fallback = 0, lowest = 0, highest = 1;
   bool logarithmic = false;
-  std::string idle_with;  ///< the key of a toggle that leaves this one without effect
+  std::string idle_with = {};        ///< the key of a toggle that leaves this one without effect
+  std::vector<Option> options = {};  ///< of a choice
 };
 
 enum class Precision {
@@ -52,6 +58,8 @@ struct Rest {
   Points samples;  ///< where the map is wanted, inside or on the cage
   Points
       derivative_samples;  ///< where f_z and f_zbar are wanted, one per sample; empty: at samples
+  /// The domain's triangles, for methods that integrate or minimise over it.
+  std::shared_ptr<const Mesh> mesh;
   Parameters parameters;
   Precision precision = Precision::single;
 };
@@ -71,6 +79,17 @@ struct SampledMap {
   Status status = Status::exact;
   std::string note;  ///< what the user should know, such as a pin that could not be used
   int iterations = 0;
+  Points zeros;  ///< where the derivative of a map that was projected vanishes, at rest
+};
+
+/// What is wanted of a map besides its values.
+struct Wanted {
+  bool derivatives = false;
+  /// While something is dragged: methods that iterate may go on from their last answer and stop
+  /// early. Without it the map depends on rest and pose alone.
+  bool draft = false;
+
+  bool operator==(const Wanted&) const = default;
 };
 
 /// A pose's map at single points; just outside the cage the inner map goes on.
@@ -90,7 +109,7 @@ class Deformer {
 
   /// The map of a pose. Throws Error when the pose does not fit the rest or is not finite.
   /// Cost for linear methods: one product with an operator of samples x controls.
-  virtual void deform(const Pose& pose, SampledMap& out, bool derivatives) = 0;
+  virtual void deform(const Pose& pose, SampledMap& out, Wanted wanted) = 0;
 
   /// For methods linear in the pose: f = samples + matrix * controls(pose), so that a vertex shader
   /// can apply the operator itself. Null when the method is not linear or works in full precision.
@@ -106,14 +125,23 @@ class Deformer {
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 
+/// Parameters under a name, such as "strict"; what is missing has its default.
+struct Preset {
+  std::string label;
+  Parameters parameters;
+};
+
 /// A row of the table of methods.
 struct Method {
   std::string id, label, hint;
   std::vector<ParameterSpec> parameters;
   bool uses_pins = false;
+  bool harmonic = true;  ///< f_z and conj(f_zbar) are holomorphic
+  bool similar = true;   ///< a similarity of all handles gives that similarity
   /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
+  std::vector<Preset> presets = {};
 };
 
 /// The table of methods, in menu order.
@@ -123,5 +151,7 @@ const Method& method_named(const std::string& id);
 
 /// The parameter's value, its default when missing.
 double parameter(const Method& method, const Parameters& values, const std::string& key);
+/// The id of the option that a choice has.
+std::string choice(const Method& method, const Parameters& values, const std::string& key);
 
 }  // namespace holomorph

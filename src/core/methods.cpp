@@ -6,7 +6,11 @@
 namespace holomorph {
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> table{cage_method(), pins_method()};
+  static const std::vector<Method> table = [] {
+    std::vector<Method> rows{cage_method(), pins_method()};
+    rows.push_back(bounded_method(rows));
+    return rows;
+  }();
   return table;
 }
 
@@ -26,6 +30,14 @@ double parameter(const Method& method, const Parameters& values, const std::stri
     if (spec.key == key) return spec.fallback;
   check(false, "a method asks for a parameter that its row names");
   return 0;
+}
+
+std::string choice(const Method& method, const Parameters& values, const std::string& key) {
+  for (const ParameterSpec& spec : method.parameters)
+    if (spec.key == key)
+      return spec.options[static_cast<size_t>(parameter(method, values, key))].id;
+  check(false, "a method asks for a choice that its row names");
+  return "";
 }
 
 }  // namespace holomorph

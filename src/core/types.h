@@ -12,6 +12,8 @@ namespace holomorph {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using VectorXc = Eigen::VectorXcd;
+using MatrixXd = Eigen::MatrixXd;
+using VectorXd = Eigen::VectorXd;
 using MatrixXc = Eigen::MatrixXcd;
 using Points = std::vector<Complex>;
 

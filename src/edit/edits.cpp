@@ -153,8 +153,9 @@ Scene reset(Scene scene, const Selection& selection) {
 }
 
 Scene baked(Scene scene) {
-  const auto deformer =
-      method_named(scene.method).prepare(rest_of(scene, Precision::full), nullptr);
+  Rest rest = rest_of(scene, Precision::full);
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest));
+  const auto deformer = method_named(scene.method).prepare(rest, nullptr);
   const std::optional<Cage> solved = deformer->solved_cage(pose_of(scene));
   if (!solved)
     throw Error(

@@ -22,7 +22,7 @@ RasterResult picture_of(const Scene& scene, const Image* source, const PictureOp
                 "the scene has no picture; choose the view checker, angle, area or stretch");
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, is_heat(options.view));
+  prepared->deformer->deform(pose_of(scene), map, {is_heat(options.view)});
   if (is_heat(options.view)) {
     job.heat = heat_values(options.view, distortion_of(map));
     job.scale = heat_scale(options.view, job.heat, options.automatic_range);

@@ -41,7 +41,7 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
     throw Error(ErrorKind::bad_input, "an ST-map needs the scene's picture, and it has none");
   const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
   SampledMap sampled;
-  prepared->deformer->deform(pose_of(scene), sampled, false);
+  prepared->deformer->deform(pose_of(scene), sampled, {});
   const auto points = prepared->deformer->point_map(pose_of(scene));
   if (!points)
     throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse to export");
@@ -68,7 +68,7 @@ Image unwarped(const Scene& scene, const Image* picture, double scale) {
     throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
   const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, false);
+  prepared->deformer->deform(pose_of(scene), map, {});
   Mesh posed = *prepared->mesh;
   posed.vertices.assign(map.f.begin(), map.f.end());
   RasterJob job;

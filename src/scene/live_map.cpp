@@ -40,6 +40,7 @@ std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precisio
   prepared->mesh =
       same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(scene.rest, options));
   prepared->rest.samples = prepared->mesh->vertices;
+  prepared->rest.mesh = prepared->mesh;
   prepared->rest.derivative_samples =
       same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
   const bool same_method = previous && previous->method == scene.method;
@@ -94,7 +95,7 @@ void LiveMap::work() {
   }
 }
 
-void LiveMap::take_result(const Scene& scene, bool derivatives) {
+void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   const std::lock_guard lock(mutex_);
   busy_ = working_ || waiting_;
   if (!std::exchange(finished_, false)) return;
@@ -108,7 +109,7 @@ void LiveMap::take_result(const Scene& scene, bool derivatives) {
   ++preparation_;
   // Mesh and map always belong together: when the scene has moved on, it is posed as it was asked
   // for.
-  pose(same_rest(*requested_, scene) ? scene : *requested_, derivatives);
+  pose(same_rest(*requested_, scene) ? scene : *requested_, wanted);
 }
 
 namespace {
@@ -131,12 +132,12 @@ std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
 
 }  // namespace
 
-bool LiveMap::pose(const Scene& scene, bool derivatives) {
-  if (!shown_ || (posed_ == scene && posed_derivatives_ == derivatives)) return false;
+bool LiveMap::pose(const Scene& scene, Wanted wanted) {
+  if (!shown_ || (posed_ == scene && posed_wanted_ == wanted)) return false;
   const double start = now_ms();
   try {
     SampledMap map;
-    shown_->deformer->deform(pose_of(scene), map, derivatives);
+    shown_->deformer->deform(pose_of(scene), map, wanted);
     map_ = std::move(map);
     error_.reset();
   } catch (const Error& error) {
@@ -146,7 +147,7 @@ bool LiveMap::pose(const Scene& scene, bool derivatives) {
   pose_milliseconds_ = now_ms() - start;
   fold_ = visible_fold(*shown_->mesh, map_.f);
   posed_ = scene;
-  posed_derivatives_ = derivatives;
+  posed_wanted_ = wanted;
   return true;
 }
 
@@ -165,9 +166,9 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-bool LiveMap::update(const Scene& scene, bool derivatives) {
+bool LiveMap::update(const Scene& scene, Wanted wanted) {
   const unsigned before = preparation_;
-  take_result(scene, derivatives);
+  take_result(scene, wanted);
   if (!scene.has_cage()) {
     const bool changed = shown_ != nullptr;
     clear();
@@ -187,16 +188,16 @@ bool LiveMap::update(const Scene& scene, bool derivatives) {
     return before != preparation_;
   }
   if (busy_ || failed_) return before != preparation_;
-  return pose(scene, derivatives) || before != preparation_;
+  return pose(scene, wanted) || before != preparation_;
 }
 
-void LiveMap::finish(const Scene& scene, bool derivatives) {
-  update(scene, derivatives);
+void LiveMap::finish(const Scene& scene, Wanted wanted) {
+  update(scene, wanted);
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !working_ && !waiting_; });
   }
-  update(scene, derivatives);
+  update(scene, wanted);
 }
 
 }  // namespace holomorph

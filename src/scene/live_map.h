@@ -41,12 +41,12 @@ class LiveMap {
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
   /// Takes what the worker has finished, asks for what the scene needs, and poses the map when it
-  /// fits the scene. Returns whether the map changed. `derivatives` asks for f_z and f_zbar, too.
-  bool update(const Scene& scene, bool derivatives);
+  /// fits the scene. Returns whether the map changed.
+  bool update(const Scene& scene, Wanted wanted);
   /// Forgets scene, map and whatever the worker is busy with.
   void clear();
   /// update(), then waits for the worker until the map is the scene's or failed. For tests.
-  void finish(const Scene& scene, bool derivatives);
+  void finish(const Scene& scene, Wanted wanted);
 
   const PreparedMap* prepared() const { return shown_.get(); }
   /// The map at mesh->vertices; empty until there is one.
@@ -65,8 +65,8 @@ class LiveMap {
 
  private:
   void work();
-  void take_result(const Scene& scene, bool derivatives);
-  bool pose(const Scene& scene, bool derivatives);
+  void take_result(const Scene& scene, Wanted wanted);
+  bool pose(const Scene& scene, Wanted wanted);
 
   MeshOptions options_;
   std::function<void()> wake_;
@@ -75,8 +75,9 @@ class LiveMap {
   std::optional<Error> error_;
   std::optional<Complex> fold_;
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
-  std::optional<Scene> posed_;      ///< the scene that map_ shows
-  bool posed_derivatives_ = false, busy_ = false, failed_ = false;
+  Wanted posed_wanted_;
+  std::optional<Scene> posed_;  ///< the scene that map_ shows
+  bool busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
   unsigned preparation_ = 0;
 

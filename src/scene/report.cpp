@@ -36,7 +36,7 @@ double pin_distance(const PreparedMap& prepared, const Scene& scene) {
     }
   if (targets.empty()) return 0;
   SampledMap map;
-  method_named(prepared.method).prepare(rest, nullptr)->deform(pose_of(scene), map, false);
+  method_named(prepared.method).prepare(rest, nullptr)->deform(pose_of(scene), map, {});
   double sum = 0;
   for (size_t i = 0; i < targets.size(); ++i)
     sum += std::norm(map.f[static_cast<Index>(i)] - targets[i]);
@@ -62,10 +62,10 @@ const char* name_of(SampledMap::Status status) {
 SceneReport report_of(const Scene& scene) {
   const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, true);
+  prepared->deformer->deform(pose_of(scene), map, {true});
   const double start = now_ms();
   SampledMap again;
-  prepared->deformer->deform(pose_of(scene), again, false);
+  prepared->deformer->deform(pose_of(scene), again, {});
   SceneReport report;
   report.pose_milliseconds = now_ms() - start;
   report.method = scene.method;

@@ -179,6 +179,14 @@ void read_method(const Reader& reader, Scene& scene) {
                                      [&](const ParameterSpec& s) { return s.key == key; });
       if (spec == method.parameters.end())
         values.fail("method '" + scene.method + "' has no parameter '" + key + "'");
+      if (spec->kind == ParameterSpec::Kind::choice) {
+        const std::string id = values[key.c_str()].text();
+        const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
+        if (option == spec->options.end())
+          values[key.c_str()].fail("'" + id + "' is no choice here");
+        scene.parameters[key] = static_cast<double>(option - spec->options.begin());
+        continue;
+      }
       const double value = values[key.c_str()].value();
       if (value < spec->lowest || value > spec->highest)
         values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
@@ -320,6 +328,8 @@ std::string json_of(const Scene& scene) {
     if (const auto found = scene.parameters.find(spec.key); found != scene.parameters.end()) {
       if (spec.kind == ParameterSpec::Kind::toggle)
         method["parameters"][spec.key] = found->second != 0;
+      else if (spec.kind == ParameterSpec::Kind::choice)
+        method["parameters"][spec.key] = spec.options[static_cast<size_t>(found->second)].id;
       else
         method["parameters"][spec.key] = found->second;
     }

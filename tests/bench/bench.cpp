@@ -165,7 +165,7 @@ double inverse_ms(int runs) {
   scene.pose = wavy_curves(3, 0.15);
   const auto prepared = prepared_map(scene, Precision::full, {4000});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, false);
+  prepared->deformer->deform(pose_of(scene), map, {});
   const auto points = prepared->deformer->point_map(pose_of(scene));
   const std::span<const Complex> f(map.f.data(), static_cast<size_t>(map.f.size()));
   const InverseMap inverse(scene.rest, *prepared->mesh, f, *points);
@@ -199,7 +199,7 @@ double frame_ms(int runs) {
   const Scene scene = scene_with(wavy(100, {500, 500}, 350));
   const auto prepared = prepared_map(scene, Precision::single, {kAsked});
   SampledMap map;
-  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, false); });
+  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
 }
 
 double mesh_ms(int runs) {
@@ -223,7 +223,7 @@ double export_ms(int runs, int threads) {
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
   return median_ms(runs, [&] {
     SampledMap map;
-    prepared->deformer->deform(pose_of(scene), map, false);
+    prepared->deformer->deform(pose_of(scene), map, {});
     RasterJob job;
     job.mesh = prepared->mesh.get();
     job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
@@ -249,7 +249,7 @@ double memory_mb(int) {
   const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, true);
+  prepared->deformer->deform(pose_of(scene), map, {true});
   return resident_mb();
 }
 

@@ -27,7 +27,7 @@ struct Warp {
     all.samples = mesh.vertices;
     all.precision = Precision::full;
     deformer = method_named("cage").prepare(all, nullptr);
-    deformer->deform({pose, {}}, sampled, false);
+    deformer->deform({pose, {}}, sampled, {});
     map = deformer->point_map({pose, {}});
     inverse = std::make_unique<InverseMap>(
         rest, mesh, std::span<const Complex>(sampled.f.data(), mesh.vertices.size()), *map);

@@ -46,6 +46,7 @@ Setup setup(const Method& method, Precision precision, Shape shape = Shape::stra
   s.rest.precision = precision;
   const Mesh mesh = domain_mesh(s.rest.cage, {400});
   s.rest.samples = mesh.vertices;
+  s.rest.mesh = std::make_shared<const Mesh>(mesh);
   s.rest.derivative_samples = derivative_samples(mesh);
   if (method.uses_pins) s.rest.pins = {{{40, 40}, false}, {{150, 60}, true}, {{50, 160}, false}};
   s.pose.cage = s.rest.cage;
@@ -83,7 +84,7 @@ void for_every_method(Check check) {
 
 SampledMap run(const Method& method, const Rest& rest, const Pose& pose) {
   SampledMap map;
-  method.prepare(rest, nullptr)->deform(pose, map, true);
+  method.prepare(rest, nullptr)->deform(pose, map, {true});
   return map;
 }
 
@@ -125,6 +126,9 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else")
     for (PosePin& pin : s.pose.pins) pin.position *= scale;
     for (Complex& z : s.rest.samples) z *= scale;
     for (Complex& z : s.rest.derivative_samples) z *= scale;
+    Mesh mesh = *s.rest.mesh;
+    for (Complex& z : mesh.vertices) z *= scale;
+    s.rest.mesh = std::make_shared<const Mesh>(mesh);
     const SampledMap after = run(method, s.rest, s.pose);
     CHECK((after.f - scale * before.f).cwiseAbs().maxCoeff() <= scale * tolerance);
     CHECK((after.fz - before.fz).cwiseAbs().maxCoeff() <= tolerance);
@@ -158,7 +162,7 @@ TEST_CASE("Contract: the operator for the shader is the map") {
     const PlanarMatrix<float>* matrix = deformer->operator_matrix();
     if (!matrix) continue;
     SampledMap map;
-    deformer->deform(s.pose, map, false);
+    deformer->deform(s.pose, map, {});
     const VectorXc controls = deformer->controls(s.pose);
     REQUIRE(matrix->cols() == controls.size());
     const MatrixXc exact =
@@ -177,7 +181,7 @@ TEST_CASE("Contract: the map at single points is the map at samples, inside and 
       const auto points = deformer->point_map(pose);
       if (!points) return;
       SampledMap map;
-      deformer->deform(pose, map, true);
+      deformer->deform(pose, map, {true});
       for (size_t i = 0; i < rest.samples.size(); i += 7) {
         const auto at = points->at(rest.samples[i]);
         CHECK(std::abs(at.f - map.f[static_cast<Index>(i)]) <= tolerance);
@@ -209,18 +213,18 @@ TEST_CASE("Contract: bad input throws and the deformer still answers") {
   for_every_method([](const Method& method, const Setup& s, double) {
     const auto deformer = method.prepare(s.rest, nullptr);
     SampledMap map;
-    deformer->deform(s.pose, map, false);
+    deformer->deform(s.pose, map, {});
     const VectorXc before = map.f;
     Pose bad = s.pose;
     bad.cage.segments[0][0] = {NAN, 0};
-    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
+    CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
     bad = s.pose;
     bad.cage.segments[0].resize(s.rest.cage.degree(0) + 1, bad.cage.segments[0][0]);
-    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
+    CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
     bad = s.pose;
     bad.cage.segments.pop_back();
-    CHECK_THROWS_AS(deformer->deform(bad, map, false), Error);
-    deformer->deform(s.pose, map, false);
+    CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
+    deformer->deform(s.pose, map, {});
     CHECK(map.f == before);
     Rest crossed = s.rest;
     crossed.cage = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
@@ -235,8 +239,8 @@ TEST_CASE("Contract: a previous deformer changes nothing but the time") {
     if (!fewer.pins.empty()) fewer.pins.pop_back();
     const auto previous = method.prepare(fewer, nullptr);
     SampledMap a, b;
-    method.prepare(s.rest, previous.get())->deform(s.pose, a, true);
-    method.prepare(s.rest, nullptr)->deform(s.pose, b, true);
+    method.prepare(s.rest, previous.get())->deform(s.pose, a, {true});
+    method.prepare(s.rest, nullptr)->deform(s.pose, b, {true});
     CHECK(a.f == b.f);
     CHECK(a.fz == b.fz);
   });
@@ -331,18 +335,18 @@ TEST_CASE("Pins of the cage's own control points: the solved cage alone gives th
       s.rest.parameters = {{"own_controls", 1}, {"exact", exact}};
       const auto deformer = pins.prepare(s.rest, nullptr);
       SampledMap map, alone;
-      deformer->deform(s.pose, map, false);
+      deformer->deform(s.pose, map, {});
       const auto solved = deformer->solved_cage(s.pose);
       REQUIRE(solved);
       Rest rest = s.rest;
       rest.pins.clear();
       rest.parameters.clear();
-      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, false);
+      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, {});
       CHECK((map.f - alone.f).cwiseAbs().maxCoeff() <= 1e-9);
       if (exact == 0) continue;
       rest.samples = {s.rest.pins[0].position, s.rest.pins[2].position};
       rest.derivative_samples.clear();
-      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, false);
+      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, {});
       CHECK(std::abs(alone.f[0] - s.pose.pins[0].position) <= 1e-8);
       CHECK(std::abs(alone.f[1] - s.pose.pins[2].position) <= 1e-8);
     }

@@ -52,7 +52,7 @@ TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 
       scene.pins = {{{40, 40}, {44, 46}, 0.3, {}}, {{150, 50}, {140, 60}, {}, {}}};
     const auto prepared = prepared_map(scene, Precision::single, {3000});
     SampledMap map;
-    prepared->deformer->deform(pose_of(scene), map, false);
+    prepared->deformer->deform(pose_of(scene), map, {});
     renderer.set_mesh(prepared->mesh.get());
     REQUIRE(renderer.set_operator(prepared->deformer->operator_matrix()));
     renderer.set_controls(prepared->deformer->controls(pose_of(scene)));
@@ -82,7 +82,7 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
                                loaded.image->pixels.data()) == 1);
     const auto prepared = prepared_map(loaded.scene, Precision::single, MeshOptions{});
     SampledMap map;
-    prepared->deformer->deform(pose_of(loaded.scene), map, false);
+    prepared->deformer->deform(pose_of(loaded.scene), map, {});
     renderer.set_mesh(prepared->mesh.get());
     renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
     Frame frame;
@@ -162,7 +162,7 @@ TEST_CASE("A heat map on the canvas has the colours of the exported one") {
   scene.pose.segments[2][0] += Complex(40, -25);
   const auto prepared = prepared_map(scene, Precision::single, {3000});
   SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, true);
+  prepared->deformer->deform(pose_of(scene), map, {true});
   for (const View view : {View::area, View::stretch, View::checker}) {
     const Eigen::VectorXd values =
         is_heat(view) ? heat_values(view, distortion_of(map)) : Eigen::VectorXd();

@@ -289,25 +289,25 @@ TEST_CASE(
     "The live map follows the scene, keeps the last map on errors, and poses without preparing") {
   LiveMap map({600});
   Scene scene = with_cage(Scene{}, shapes::l_shape());
-  map.finish(scene, false);
+  map.finish(scene, {});
   REQUIRE(map.has_map());
   const unsigned first = map.preparation();
   scene.pose.segments[2][0] += Complex(20, 10);
-  CHECK(map.update(scene, true));
+  CHECK(map.update(scene, {true}));
   CHECK(map.preparation() == first);
   CHECK(map.map().fz.size() == map.map().f.size());
   const VectorXc posed = map.map().f;
   Scene broken = scene;
   broken.rest = broken.pose = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
-  map.finish(broken, false);
+  map.finish(broken, {});
   REQUIRE(map.error());
   CHECK(map.error()->where());
   CHECK(map.map().f.size() == posed.size());
   CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(posed.size()));
-  map.finish(scene, true);
+  map.finish(scene, {true});
   CHECK_FALSE(map.error());
   CHECK(map.map().f == posed);
-  map.update(Scene{}, false);
+  map.update(Scene{}, {});
   CHECK_FALSE(map.has_map());
 }
 
@@ -317,8 +317,8 @@ TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
   for (int i = 0; i < 60; ++i) {
     scene.rest.segments[1][0] += Complex(0.5 * i, 0.1);
     scene.pose.segments[0][0] += Complex(0.3, 0.2);
-    if (i % 3 == 0) map.finish(scene, i % 2);
-    map.update(scene, i % 2);
+    if (i % 3 == 0) map.finish(scene, {i % 2 == 1});
+    map.update(scene, {i % 2 == 1});
     if (map.has_map())
       CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
   }
@@ -349,16 +349,16 @@ TEST_CASE("The live map follows inserted and deleted points, pins and methods") 
       scene.method = i % 2 ? "pins" : "cage";
     }
     if (i % 3 == 0)
-      map.finish(scene, false);
+      map.finish(scene, {});
     else
-      map.update(scene, false);
+      map.update(scene, {});
     if (map.has_map())
       CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
   }
-  map.finish(scene, true);
+  map.finish(scene, {true});
   const auto alone = prepared_map(scene, Precision::single, {400});
   SampledMap expected;
-  alone->deformer->deform(pose_of(scene), expected, true);
+  alone->deformer->deform(pose_of(scene), expected, {true});
   CHECK(map.map().f == expected.f);
   CHECK(map.map().fz == expected.fz);
 }

@@ -41,7 +41,8 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 Method cage_method() {
   return {
       "cage", "Cage", "Move the cage's points; the picture follows conformally. Pins do not act.",
-      {},     false,  prepare};
+      {},     false,  true,
+      true,   prepare};
 }
 
 }  // namespace holomorph

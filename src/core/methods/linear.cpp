@@ -26,7 +26,7 @@ template <class T>
 LinearDeformer<T>::LinearDeformer(const Rest& rest) : rest_(rest) {}
 
 template <class T>
-void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, bool derivatives) {
+void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, Wanted wanted) {
   check_pose(rest_, pose);
   const VectorXc by = controls(pose);
   const Eigen::Map<const VectorXc> z(rest_.samples.data(),
@@ -37,7 +37,7 @@ void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, bool derivativ
   out.iterations = 0;
   out.fz.resize(0);
   out.fzbar.resize(0);
-  if (!derivatives || z.size() == 0) return;
+  if (!wanted.derivatives || z.size() == 0) return;
   if (derivative_.rows() != z.size()) derivative_ = derivative_matrix();
   out.fz = product(derivative_, by).array() + Complex(1.0);
   out.fzbar = VectorXc::Zero(z.size());

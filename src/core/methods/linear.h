@@ -15,7 +15,7 @@ class LinearDeformer : public Deformer {
  public:
   explicit LinearDeformer(const Rest& rest);
 
-  void deform(const Pose& pose, SampledMap& out, bool derivatives) override;
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override;
   const PlanarMatrix<float>* operator_matrix() const override;
 
  protected:

@@ -345,6 +345,8 @@ Method pins_method() {
         "of a hundred points follows",
         ParameterSpec::Kind::toggle, 0, 0, 1, false, ""}},
       true,
+      true,
+      true,
       prepare};
 }
 

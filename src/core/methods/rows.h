@@ -12,4 +12,7 @@ Method cage_method();
 /// targets.
 Method pins_method();
 
+/// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
+Method bounded_method(const std::vector<Method>& references);
+
 }  // namespace holomorph

@@ -1,0 +1,145 @@
+// The polygon is a mitred offset, halved until it is simple and keeps the domain inside.
+#include "core/boundary_basis.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "core/cauchy_array.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+/// A polygon's corners moved outwards by `distance` from both their edges.
+Points mitred(const Points& polygon, double distance) {
+  const size_t n = polygon.size();
+  constexpr double kLongest = 12;  // of a mitre, in distances
+  Points outer;
+  for (size_t i = 0; i < n; ++i) {
+    const Complex before = polygon[i] - polygon[(i + n - 1) % n],
+                  after = polygon[(i + 1) % n] - polygon[i];
+    const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
+    Complex mitre = u + v;
+    const double size = std::norm(mitre);
+    mitre = size > 4 / (kLongest * kLongest) ? mitre * (2 / size)
+                                             : kLongest * before / std::abs(before);
+    outer.push_back(polygon[i] + distance * mitre);
+  }
+  return outer;
+}
+
+/// How many equal parts each length gets, one at least, about `wanted` in all.
+std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
+  double total = 0;
+  for (const double length : lengths) total += length;
+  std::vector<int> parts;
+  for (const double length : lengths)
+    parts.push_back(std::max(1, static_cast<int>(std::lround(wanted * length / total))));
+  return parts;
+}
+
+/// The boundary's length from segment to segment, and the domain as a fine polygon.
+std::vector<double> lengths_of(const Cage& domain) {
+  std::vector<double> lengths;
+  for (Index e = 0; e < domain.size(); ++e) {
+    const Points controls = domain.controls(e);
+    constexpr int kSteps = 32;
+    double length = 0;
+    const int steps = is_straight(domain, e) ? 1 : kSteps;
+    for (int k = 0; k < steps; ++k)
+      length += std::abs(bezier_point(controls, (k + 1.0) / steps) -
+                         bezier_point(controls, static_cast<double>(k) / steps));
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+std::vector<BoundaryPiece> cut(const Cage& domain, int wanted) {
+  const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
+  std::vector<BoundaryPiece> pieces;
+  for (Index e = 0; e < domain.size(); ++e)
+    for (int k = 0; k < parts[static_cast<size_t>(e)]; ++k)
+      pieces.push_back(piece_of(domain, e, static_cast<double>(k) / parts[static_cast<size_t>(e)],
+                                (k + 1.0) / parts[static_cast<size_t>(e)]));
+  return pieces;
+}
+
+Points starts_of(const std::vector<BoundaryPiece>& pieces) {
+  Points starts;
+  for (const BoundaryPiece& piece : pieces) starts.push_back(piece.start);
+  return starts;
+}
+
+bool is_around(const Points& polygon, const Points& inner, double distance) {
+  if (self_crossing(polygon)) return false;
+  return std::ranges::all_of(inner, [&](Complex z) {
+    return winding_number(polygon, z) == 1 && nearest_on_polygon(polygon, z).distance > distance;
+  });
+}
+
+Points polygon_around(const Cage& domain, int wanted, double distance) {
+  const Points fine = flattened(domain).points;
+  for (int vertices = wanted; vertices <= 16 * wanted; vertices *= 2) {
+    const std::vector<BoundaryPiece> pieces = cut(domain, vertices);
+    double sagitta = 0;  // chords of curves leave parts of the domain outside
+    for (const BoundaryPiece& piece : pieces) sagitta = std::max(sagitta, piece.bend / 8);
+    const Points inner = starts_of(pieces);
+    double off = distance;
+    for (int halving = 0; halving < 12; ++halving, off *= 0.5) {
+      const Points outer = mitred(inner, off + 1.5 * sagitta);
+      if (is_around(outer, fine, 0.3 * off)) return outer;
+    }
+  }
+  throw Error(ErrorKind::bad_input,
+              "no smooth boundary fits around the cage: parts of it nearly touch each other; move "
+              "them apart");
+}
+
+}  // namespace
+
+BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to) {
+  BoundaryPiece piece{segment, from, to, 0, 0, 0, 0};
+  Points controls = domain.controls(segment);
+  if (to < 1) controls = split(controls, to).before;
+  if (from > 0) controls = split(controls, from / to).after;
+  piece.start = controls.front();
+  piece.end = controls.back();
+  const double n = static_cast<double>(controls.size()) - 1;
+  for (size_t m = 0; m + 1 < controls.size(); ++m)
+    piece.length = std::max(piece.length, n * std::abs(controls[m + 1] - controls[m]));
+  if (is_straight(domain, segment)) return piece;
+  for (size_t m = 0; m + 2 < controls.size(); ++m)
+    piece.bend = std::max(
+        piece.bend, n * (n - 1) * std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
+  return piece;
+}
+
+BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
+    : domain_(signed_area(outline_of(domain)) < 0 ? reversed(domain) : domain) {
+  check_rest_cage(domain);
+  pieces_ = cut(domain_, samples);
+  samples_ = starts_of(pieces_);
+  const double around = perimeter(flattened(domain_).points);
+  const int vertices = std::max(basis, 25);
+  constexpr double kOffset = 0.05;  // of the mean edge: 0.1 % of the perimeter for 50 vertices
+  polygon_ = polygon_around(domain_, vertices, kOffset * around / vertices);
+  const MatrixXc c = values(samples_);
+  check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
+  const Eigen::HouseholderQR<MatrixXc> qr(c);
+  const double root = std::sqrt(static_cast<double>(c.rows()));
+  const MatrixXc r = qr.matrixQR().topRows(c.cols()).triangularView<Eigen::Upper>();
+  coefficients_ =
+      root * r.triangularView<Eigen::Upper>().solve(MatrixXc::Identity(c.cols(), c.cols())).eval();
+  at_samples_ = root * (qr.householderQ() * MatrixXc::Identity(c.rows(), c.cols()));
+  one_ = r * VectorXc::Ones(c.cols()) / root;
+}
+
+MatrixXc BoundaryBasis::values(std::span<const Complex> points) const {
+  const PlanarMatrix<double> planar = planar_coordinates<double>(polygon_cage(polygon_), points, 0);
+  MatrixXc c(planar.rows(), planar.cols());
+  c.real() = planar.re;
+  c.imag() = planar.im;
+  return c;
+}
+
+}  // namespace holomorph

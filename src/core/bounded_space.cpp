@@ -1,0 +1,208 @@
+// Unknowns are real: (Re, Im) of l's whitened coefficients, then of nu's.
+#include "core/bounded_space.h"
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kTightening = 0.002;
+
+/// Columns (Re, Im) of a complex row q: Re(q x) = re . (Re x, Im x), Im(q x) = im . (Re x, Im x).
+void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
+  const Index n = q.cols();
+  re.resize(2 * n, q.rows());
+  im.resize(2 * n, q.rows());
+  re.topRows(n) = q.real().transpose();
+  re.bottomRows(n) = -q.imag().transpose();
+  im.topRows(n) = q.imag().transpose();
+  im.bottomRows(n) = q.real().transpose();
+}
+
+VectorXd stacked(const VectorXc& x) {
+  VectorXd real(2 * x.size());
+  real << x.real(), x.imag();
+  return real;
+}
+VectorXc complex_of(const VectorXd& x) {
+  const Index n = x.size() / 2;
+  VectorXc result(n);
+  result.real() = x.head(n);
+  result.imag() = x.tail(n);
+  return result;
+}
+
+}  // namespace
+
+BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
+                           std::span<const Complex> inner, const BoundedSettings& settings)
+    : basis_(std::move(basis)), settings_(settings), certifier_(*basis_) {
+  settings.bounds.check_usable();
+  const Bounds tight = settings.bounds.tightened(kTightening);
+  const Index n = basis_->size(), m = static_cast<Index>(basis_->samples().size());
+  const bool conformal = settings.bounds.k == 0;
+  system_.re.resize(conformal ? 0 : 2 * n, 0);
+  append_samples(basis_->at_samples(), system_);
+  const auto same = [](double offset) { return VectorXd::Constant(1, offset); };
+  system_.cones = {{same(std::log(tight.Sigma)), -1, 0}, {same(1), 0, tight.sigma}};
+  if (!conformal) system_.cones.push_back({same(tight.k), 0, 0});
+  system_.quadratic = MatrixXd::Zero(system_.unknowns(), system_.unknowns());
+  if (!conformal) inner_ = basis_->whitened(basis_->values(inner));
+  if (!conformal) {
+    const Index count = inner_.rows();
+    const double share = count > 0 ? 0.5 : 1;
+    auto nu = system_.quadratic.bottomRightCorner(2 * n, 2 * n);
+    nu = settings.weight * share * MatrixXd::Identity(2 * n, 2 * n);  // whitened
+    if (count > 0) {
+      MatrixXd re, im;
+      real_columns(inner_, re, im);
+      nu += settings.weight * share / static_cast<double>(count) *
+            (re * re.transpose() + im * im.transpose());
+    }
+  }
+  if (settings.norm == BoundedSettings::Norm::l1) {
+    system_.fit.resize(2 * n, 2 * m);
+    MatrixXd re, im;
+    real_columns(basis_->at_samples(), re, im);
+    system_.fit << re, im;
+    system_.fit_weight = 1 / static_cast<double>(m);
+  } else {
+    system_.quadratic.topLeftCorner(2 * n, 2 * n).diagonal().setConstant(1);
+    system_.fit.resize(2 * n, 0);
+  }
+  centre_ = VectorXd::Zero(system_.unknowns());
+  centre_.head(2 * n) = stacked(tight.middle() * basis_->one());
+}
+
+void BoundedSpace::append_samples(const MatrixXc& whitened, ConeSystem& system) const {
+  MatrixXd re, im;
+  real_columns(whitened, re, im);
+  const auto append = [](const MatrixXd& columns, MatrixXd& to) {
+    const Index before = to.cols();
+    to.conservativeResize(columns.rows(), before + columns.cols());
+    to.rightCols(columns.cols()) = columns;
+  };
+  append(re, system.height);
+  if (system.re.rows() == 0) return;  // conformal: nu is 0
+  append(re, system.re);
+  append(im, system.im);
+}
+
+ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
+  const Index n = basis_->size(), m = basis_->at_samples().rows(), count = inner_.rows();
+  check(reference.log_fz.size() == m && reference.nu.size() == m &&
+            (count == 0 || reference.inner_nu.size() == count),
+        "bounded reference: one value for each sample");
+  ConeTarget target;
+  target.linear = VectorXd::Zero(system_.unknowns());
+  // nu_g beyond the bound says no more than its direction.
+  const auto clamped = [&](const VectorXc& nu) {
+    VectorXc result = nu;
+    for (Complex& x : result) {
+      const double size = std::abs(x);
+      if (!std::isfinite(size))
+        x = 0;
+      else if (size > settings_.bounds.k)
+        x *= settings_.bounds.k / size;
+    }
+    return result;
+  };
+  const auto add_nu = [&](const MatrixXc& rows, const VectorXc& nu, double share) {
+    const double weight = settings_.weight * share / static_cast<double>(rows.rows());
+    target.linear.tail(2 * n) -= weight * stacked(rows.adjoint() * nu);
+    target.constant += 0.5 * weight * nu.squaredNorm();
+  };
+  if (system_.re.rows() > 0) {
+    const double share = count > 0 ? 0.5 : 1;
+    add_nu(basis_->at_samples(), clamped(reference.nu), share);
+    if (count > 0) add_nu(inner_, clamped(reference.inner_nu), share);
+  }
+  if (settings_.norm == BoundedSettings::Norm::l1) {
+    target.wanted.resize(2 * m);
+    target.wanted << reference.log_fz.real(), reference.log_fz.imag();
+  } else {
+    const double weight = 1 / static_cast<double>(m);
+    target.linear.head(2 * n) =
+        -weight * stacked(basis_->at_samples().adjoint() * reference.log_fz);
+    target.constant += 0.5 * weight * reference.log_fz.squaredNorm();
+  }
+  return target;
+}
+
+ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
+  ConeSolution start;
+  start.x = centre_;
+  if (warm && warm->solution.x.size() == centre_.size()) {
+    const VectorXd x = 0.98 * warm->solution.x + 0.02 * centre_;
+    if (is_feasible(system_, x)) start.x = x;
+  }
+  return start;
+}
+
+VectorXd BoundedSpace::unconstrained(const BoundedReference& reference) const {
+  const double m = static_cast<double>(basis_->at_samples().rows());
+  VectorXd x(system_.unknowns());
+  const Index n = basis_->size();
+  x.head(2 * n) = stacked(basis_->at_samples().adjoint() * reference.log_fz / m);
+  if (system_.re.rows() > 0)
+    x.tail(2 * n) = stacked(basis_->at_samples().adjoint() * reference.nu / m);
+  return x;
+}
+
+LogMap BoundedSpace::map_of(const VectorXd& x) const {
+  const Index n = basis_->size();
+  VectorXc nu = VectorXc::Zero(n);
+  if (system_.re.rows() > 0) nu = basis_->coefficients(complex_of(x.tail(2 * n)));
+  return {basis_->coefficients(complex_of(x.head(2 * n))), std::move(nu)};
+}
+
+double BoundedSpace::energy(const BoundedReference& reference, const ConeSolution& solution) const {
+  return energy_of(system_, target_of(reference), solution.x);
+}
+
+BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const BoundedMap* warm) const {
+  const ConeTarget target = target_of(reference);
+  ConeSettings settings;
+  settings.gap = warm ? 1e-3 : 1e-5;
+  settings.smoothing = warm ? 0.03 : 0.01;
+  settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
+  settings.neglected = 0.1;
+  BoundedMap best;
+  const VectorXd itself = unconstrained(reference);
+  constexpr double kNothing = 1e-9;  // a reference of the space that keeps the bounds is the answer
+  if (is_feasible(system_, itself) && energy_of(system_, target, itself) <= kNothing) {
+    best.solution.x = itself;
+    best.solution.status = ConeSolution::Status::solved;
+  } else {
+    best.solution = solved(system_, target, settings, start(warm));
+  }
+  best.map = map_of(best.solution.x);
+  best.certificate = certifier_.certify(best.map, settings_.bounds);
+  // Where the proof fails the function leaves its samples' chord: bind it there.
+  constexpr int kMostRounds = 3;
+  ConeSystem cut;
+  for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
+    if (best.rounds == 0) cut = system_;
+    append_samples(basis_->whitened(basis_->values(best.certificate.open)), cut);
+    ConeSolution from;
+    from.x = best.solution.x;
+    for (double share = 0.02; !is_feasible(cut, from.x) && share <= 1; share *= 2)
+      from.x = (1 - share) * best.solution.x + share * centre_;
+    if (!is_feasible(cut, from.x)) from.x = centre_;
+    best.solution = solved(cut, target, settings, from);
+    best.map = map_of(best.solution.x);
+    best.certificate = certifier_.certify(best.map, settings_.bounds);
+  }
+  // The centre is certified, and what lies between two certified maps is, too, nearly always.
+  const VectorXd x = best.solution.x;
+  for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
+    best.blend = share;
+    best.solution.x = (1 - share) * x + share * centre_;
+    best.map = map_of(best.solution.x);
+    best.certificate = certifier_.certify(best.map, settings_.bounds);
+    if (share == 1) break;
+  }
+  return best;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,77 @@
+// The space L_nu of locally injective harmonic maps (Levi, Weber 2016), and the nearest of its maps
+// to a reference: f_z = e^l, conj(f_zbar) = nu e^l with l and nu holomorphic.
+//
+// The bounds on angles and stretch are convex in (Re l, nu), so that the nearest map is the
+// solution of a small cone program.
+#pragma once
+
+#include <memory>
+
+#include "core/certificate.h"
+#include "core/cone_program.h"
+
+namespace holomorph {
+
+/// A map to be projected: its Wirtinger derivatives at the boundary's samples, with ln f_z
+/// continuous, and nu = conj(f_zbar) / f_z at inner points.
+struct BoundedReference {
+  VectorXc log_fz, nu;
+  VectorXc inner_nu;
+};
+
+struct BoundedSettings {
+  Bounds bounds;
+  /// Of l's distance: mean of |Re| + |Im|, which forgives jumps of 2 pi, or half the mean square.
+  enum class Norm { l1, l2 } norm = Norm::l1;
+  double weight = 1;  ///< of nu's distance, half the mean square
+};
+
+/// The nearest map, and the proof that it keeps the bounds.
+struct BoundedMap {
+  LogMap map;
+  Certificate certificate;
+  ConeSolution solution;
+  int rounds = 0;    ///< of added samples
+  double blend = 0;  ///< how far towards the centre of the bounds it was moved, to be proved
+};
+
+class BoundedSpace {
+ public:
+  /// `inner` are points of the domain where nu's distance counts, besides the boundary's samples;
+  /// both count by half. The bounds are solved 0.2 % narrower than they are proved. Throws Error
+  /// for bounds that cannot be used. Cost: a product of unknowns^2 and samples.
+  BoundedSpace(std::shared_ptr<const BoundaryBasis> basis, std::span<const Complex> inner,
+               const BoundedSettings& settings);
+
+  /// Projects. With `warm`, a solution of this space, the work starts from there and is less
+  /// exact: for dragging; without, the result depends on the reference alone. The result is always
+  /// certified: what cannot be proved is cut off by added samples, then moved towards the centre.
+  BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
+
+  /// Tries to prove the bounds for a map of this space.
+  Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
+
+  const BoundaryBasis& basis() const { return *basis_; }
+  const BoundedSettings& settings() const { return settings_; }
+
+  /// The distance of a map from the reference: l's plus weight times nu's.
+  double energy(const BoundedReference& reference, const ConeSolution& solution) const;
+
+ private:
+  ConeTarget target_of(const BoundedReference& reference) const;
+  ConeSolution start(const BoundedMap* warm) const;
+  LogMap map_of(const VectorXd& x) const;
+  /// The space's best fit to the reference at the samples, whatever the bounds.
+  VectorXd unconstrained(const BoundedReference& reference) const;
+  /// The program's columns for points whose C these are.
+  void append_samples(const MatrixXc& whitened, ConeSystem& system) const;
+
+  std::shared_ptr<const BoundaryBasis> basis_;
+  BoundedSettings settings_;
+  ConeSystem system_;
+  MatrixXc inner_;  ///< the whitened basis at the inner points
+  Certifier certifier_;
+  VectorXd centre_;  ///< nu = 0, l in the middle of the bounds
+};
+
+}  // namespace holomorph

@@ -1,0 +1,70 @@
+// A proof that a map keeps its bounds everywhere, from the boundary's samples.
+//
+// ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
+// superharmonic: bounds that hold on the boundary hold inside. Between two samples l and nu leave
+// the chord of their values by at most an eighth of the largest second derivative, and the bounds
+// are convex in (Re l, |nu|). Levi, Weber 2016, section 5, with second derivatives in closed form.
+#pragma once
+
+#include <optional>
+
+#include "core/boundary_basis.h"
+
+namespace holomorph {
+
+/// k = |f_zbar / f_z| <= k and sigma <= |f_z| - |f_zbar|, |f_z| + |f_zbar| <= Sigma.
+struct Bounds {
+  double k = 0.7, sigma = 0.2, Sigma = 5;
+
+  /// Throws Error unless 0 <= k < 1 and 0 < sigma < Sigma.
+  void check_usable() const;
+  /// Narrowed by a share, so that what is solved for can be proved: k and ln of both sigmas.
+  Bounds tightened(double share) const;
+  /// The Re l that is farthest from both stretch bounds.
+  double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }
+};
+
+/// f_z = e^l and conj(f_zbar) = nu e^l: coefficients over a BoundaryBasis' polygon.
+struct LogMap {
+  VectorXc l, nu;
+};
+
+/// What a proof found.
+struct Certificate {
+  enum class Bound { k, sigma, Sigma };
+  bool holds = false;
+  Bound failed = Bound::k;  ///< the first one that could not be proved, and where
+  Complex where;
+  Points open;  ///< the middles of all smallest pieces that could not be proved
+};
+
+class Certifier {
+ public:
+  /// Cost: pieces times polygon vertices. The basis must outlive this.
+  explicit Certifier(const BoundaryBasis& basis);
+
+  /// Tries to prove the bounds for all pieces, each halved up to `depth` times. Cost: a product
+  /// with two matrices of pieces x vertices, and a row of coordinates for each halving.
+  Certificate certify(const LogMap& map, const Bounds& bounds, int depth = 6) const;
+
+ private:
+  struct Values {
+    Complex l, nu;
+  };
+  struct Slopes {
+    VectorXc l, nu;  ///< jumps of the coefficients' slope at the polygon's vertices
+  };
+  bool prove(const BoundaryPiece& piece, const Values& start, const Values& end, Complex l2,
+             double l3, Complex nu2, double nu3, const Bounds& bounds,
+             Certificate::Bound& failed) const;
+  void halve(const BoundaryPiece& piece, const Values& start, const Values& end, const LogMap& map,
+             const Slopes& jumps, const Bounds& bounds, int depth, Certificate& result) const;
+  VectorXc jumps_of(const VectorXc& coefficients) const;
+
+  const BoundaryBasis& basis_;
+  MatrixXc values_;  ///< C at samples
+  MatrixXc second_;  ///< F'' at the pieces' middles from the jumps
+  MatrixXd third_;   ///< bounds of |F'''| on the pieces from the jumps' moduli
+};
+
+}  // namespace holomorph

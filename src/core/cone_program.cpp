@@ -1,0 +1,395 @@
+// Slacks are recomputed from x after each step, so that no drift ever leaves the cones.
+#include "core/cone_program.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+using Cone3 = Eigen::Vector3d;  // (height, w)
+
+/// height^2 - |w|^2, without cancellation of the squares.
+double det(const Cone3& v) {
+  const double r = std::hypot(v[1], v[2]);
+  return (v[0] - r) * (v[0] + r);
+}
+bool is_inside(const Cone3& v) {
+  return v[0] > 0 && det(v) > 0;
+}
+
+/// The Jordan product's inverse: x with v o x = r.
+Cone3 divided(const Cone3& v, const Cone3& r) {
+  Cone3 x;
+  x[0] = (v[0] * r[0] - v[1] * r[1] - v[2] * r[2]) / det(v);
+  x.tail<2>() = (r.tail<2>() - x[0] * v.tail<2>()) / v[0];
+  return x;
+}
+Cone3 jordan(const Cone3& a, const Cone3& b) {
+  Cone3 product;
+  product[0] = a.dot(b);
+  product.tail<2>() = a[0] * b.tail<2>() + b[0] * a.tail<2>();
+  return product;
+}
+Cone3 reflected(const Cone3& v) {
+  return {v[0], -v[1], -v[2]};
+}
+
+/// The largest step to the boundary of the cone, at most 1 / 0.98.
+double step_to_boundary(const Cone3& v, const Cone3& d) {
+  const double a = d[0] * d[0] - d[1] * d[1] - d[2] * d[2],
+               b = v[0] * d[0] - v[1] * d[1] - v[2] * d[2], c = det(v);
+  double step = d[0] < 0 ? -v[0] / d[0] : std::numeric_limits<double>::infinity();
+  const double root = b * b - a * c;
+  // The smallest positive root of a t^2 + 2 b t + c.
+  if (a < 0)
+    step = std::min(step, (b + std::sqrt(std::max(root, 0.0))) / -a);
+  else if (b < 0 && root > 0)
+    step = std::min(step, c / (-b + std::sqrt(root)));
+  return step;
+}
+
+/// The scaling W with W z = W^-1 s.
+struct Scaling {
+  double eta = 1;
+  Cone3 w{1, 0, 0};
+
+  Scaling() = default;
+  Scaling(const Cone3& s, const Cone3& z) {
+    const double ds = det(s), dz = det(z);
+    const Cone3 s1 = s / std::sqrt(ds), z1 = z / std::sqrt(dz);
+    eta = std::sqrt(std::sqrt(ds / dz));
+    w = (s1 + reflected(z1)) / std::sqrt(2 * (1 + s1.dot(z1)));
+  }
+  static Cone3 times(const Cone3& w, const Cone3& v) {
+    const double along = w[1] * v[1] + w[2] * v[2], lift = v[0] + along / (1 + w[0]);
+    return {w[0] * v[0] + along, v[1] + w[1] * lift, v[2] + w[2] * lift};
+  }
+  Cone3 apply(const Cone3& v) const { return eta * times(w, v); }
+  Cone3 undo(const Cone3& v) const { return times(reflected(w), v) / eta; }
+  Eigen::Matrix3d inverse_square() const {
+    const Cone3 v = reflected(w);
+    Eigen::Matrix3d m = 2 * v * v.transpose();
+    m(0, 0) -= 1, m(1, 1) += 1, m(2, 2) += 1;
+    return m / (eta * eta);
+  }
+};
+
+class Solver {
+ public:
+  Solver(const ConeSystem& system, const ConeTarget& target, const ConeSettings& settings,
+         const ConeSolution& start)
+      : system_(system),
+        target_(target),
+        settings_(settings),
+        p_(system.height.rows()),
+        q_(system.re.rows()),
+        m_(system.samples()),
+        k_(system.fit.cols()),
+        at_(start) {
+    check(at_.x.size() == p_ + q_ && target.linear.size() == p_ + q_ && target.wanted.size() == k_,
+          "cone program: sizes agree");
+    s_.resize(system.cones.size());
+    check(take_slacks(at_.x, s_), "cone program: the start is strictly feasible");
+    if (at_.z.size() != s_.size() || (!at_.z.empty() && at_.z[0].cols() != m_)) centre_duals();
+    if (at_.fit_duals.size() != k_) at_.fit_duals = VectorXd::Zero(k_);
+    scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
+    smoothing_ = k_ > 0 ? std::max(settings.smoothing, 0.3) : 0;
+  }
+
+  ConeSolution run() {
+    for (at_.iterations = 0;; ++at_.iterations) {
+      take_gradient();
+      measure();
+      if (at_.gap <= settings_.gap && at_.residual <= settings_.residual &&
+          smoothing_ <= settings_.smoothing) {
+        at_.status = ConeSolution::Status::solved;
+        break;
+      }
+      if (at_.iterations == settings_.iterations || !step()) break;
+    }
+    at_.energy = energy_of(system_, target_, at_.x);
+    return std::move(at_);
+  }
+
+ private:
+  VectorXd heights(const VectorXd& x) const {
+    return p_ > 0 ? VectorXd(system_.height.transpose() * x.head(p_)) : VectorXd::Zero(m_);
+  }
+
+  /// Slacks of x; false when one is not strictly inside.
+  bool take_slacks(const VectorXd& x, std::vector<Eigen::Matrix3Xd>& s) {
+    const VectorXd u = heights(x);
+    VectorXd re = VectorXd::Zero(m_), im = VectorXd::Zero(m_);
+    if (q_ > 0) {
+      re = system_.re.transpose() * x.tail(q_);
+      im = system_.im.transpose() * x.tail(q_);
+    }
+    decay_ = (-u.array()).exp();
+    bool inside = true;
+    for (size_t c = 0; c < s.size(); ++c) {
+      const Cone& cone = system_.cones[c];
+      s[c].resize(3, m_);
+      for (Index i = 0; i < m_; ++i) {
+        s[c].col(i) << cone.offset_at(i) + cone.slope * u[i] -
+                           (cone.decay > 0 ? cone.decay * decay_[i] : 0),
+            re[i], im[i];
+        inside = inside && is_inside(s[c].col(i));
+      }
+    }
+    return inside;
+  }
+
+  double slope_at(const Cone& cone, Index i) const {
+    return cone.slope + (cone.decay > 0 ? cone.decay * decay_[i] : 0);
+  }
+
+  /// z = mu s^-1 at a moderate mu.
+  void centre_duals() {
+    at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, m_));
+    const double mu = 0.1 / static_cast<double>(std::max<Index>(m_, 1));
+    for (size_t c = 0; c < s_.size(); ++c)
+      for (Index i = 0; i < m_; ++i)
+        at_.z[c].col(i) = mu / det(s_[c].col(i)) * reflected(s_[c].col(i));
+  }
+
+  /// Sum over the cones of J' v.
+  VectorXd pulled_back(const std::vector<Eigen::Matrix3Xd>& v) const {
+    VectorXd u = VectorXd::Zero(m_), re = u, im = u, result(p_ + q_);
+    for (size_t c = 0; c < v.size(); ++c)
+      for (Index i = 0; i < m_; ++i) {
+        u[i] += slope_at(system_.cones[c], i) * v[c](0, i);
+        re[i] += v[c](1, i);
+        im[i] += v[c](2, i);
+      }
+    if (p_ > 0) result.head(p_) = system_.height * u;
+    if (q_ > 0) result.tail(q_) = system_.re * re + system_.im * im;
+    return result;
+  }
+
+  void take_gradient() {
+    gradient_ = system_.quadratic * at_.x + target_.linear;
+    if (k_ == 0) return;
+    residual_ = system_.fit.transpose() * at_.x.head(p_) - target_.wanted;
+    rho_ = (residual_.array().square() + smoothing_ * smoothing_).sqrt();
+    gradient_.head(p_) += system_.fit_weight * (system_.fit * residual_.cwiseQuotient(rho_));
+  }
+
+  void measure() {
+    at_.gap = 0;
+    for (size_t c = 0; c < s_.size(); ++c) at_.gap += s_[c].cwiseProduct(at_.z[c]).sum();
+    at_.residual = (gradient_ - pulled_back(at_.z)).norm();
+  }
+
+  /// The normal matrix' lower triangle.
+  void assemble() {
+    normal_ = system_.quadratic;
+    for (size_t c = 0; c < s_.size(); ++c)
+      for (Index i = 0; i < m_; ++i)
+        scalings_[c][static_cast<size_t>(i)] = Scaling(s_[c].col(i), at_.z[c].col(i));
+    scratch_.resize(p_, std::max(m_, k_));
+    across_.resize(q_, 2 * m_);
+    left_.resize(q_, m_);
+    add_fit();
+    add_barrier();
+  }
+
+  /// Curvature (1 - d r / rho) / rho with d the dual; 1 - (r / rho)^2 when it has settled.
+  void add_fit() {
+    for (Index i = 0; i < k_; ++i) {
+      const double along = at_.fit_duals[i] * residual_[i] / rho_[i];
+      const double weight = system_.fit_weight * std::max(1 - along, 1e-9) / rho_[i];
+      scratch_.col(i) = std::sqrt(weight) * system_.fit.col(i);
+    }
+    add_gram(scratch_, k_, 0, normal_);
+  }
+
+  void add_barrier() {
+    Index used = 0;
+    MatrixXd& a = scratch_;  // sqrt(uu) height, one column a sample
+    MatrixXd& b = across_;   // Cholesky of ww, two columns
+    MatrixXd& ab = left_;    // w's share of the mixed block over sqrt(uu)
+    for (Index i = 0; i < m_; ++i) {
+      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+      for (size_t c = 0; c < s_.size(); ++c) {
+        const Cone& cone = system_.cones[c];
+        Eigen::Matrix3d part = scalings_[c][static_cast<size_t>(i)].inverse_square();
+        const double slope = slope_at(cone, i);
+        part.row(0) *= slope;
+        part.col(0) *= slope;
+        h += part;
+        if (cone.decay > 0) h(0, 0) += cone.decay * decay_[i] * at_.z[c](0, i);
+      }
+      if (h.trace() * static_cast<double>(m_) < settings_.neglected) continue;
+      const double root = std::sqrt(h(0, 0));
+      if (p_ > 0) a.col(used) = root * system_.height.col(i);
+      if (q_ > 0) {
+        const double l = std::sqrt(h(1, 1)), m = h(2, 1) / l,
+                     n = std::sqrt(std::max(h(2, 2) - m * m, 0.0));
+        b.col(2 * used) = l * system_.re.col(i) + m * system_.im.col(i);
+        b.col(2 * used + 1) = n * system_.im.col(i);
+        if (p_ > 0 && root > 0)
+          ab.col(used) = (h(1, 0) * system_.re.col(i) + h(2, 0) * system_.im.col(i)) / root;
+      }
+      ++used;
+    }
+    add_gram(a, used, 0, normal_);
+    add_gram(b, 2 * used, p_, normal_);
+    if (p_ > 0 && q_ > 0) add_product(ab, a, used, p_, 0, normal_);
+  }
+
+  /// Directions of slacks along dx.
+  void push(const VectorXd& dx, std::vector<Eigen::Matrix3Xd>& ds) const {
+    const VectorXd u = heights(dx);
+    VectorXd re = VectorXd::Zero(m_), im = re;
+    if (q_ > 0) {
+      re = system_.re.transpose() * dx.tail(q_);
+      im = system_.im.transpose() * dx.tail(q_);
+    }
+    ds.resize(s_.size());
+    for (size_t c = 0; c < ds.size(); ++c) {
+      ds[c].resize(3, m_);
+      for (Index i = 0; i < m_; ++i)
+        ds[c].col(i) << slope_at(system_.cones[c], i) * u[i], re[i], im[i];
+    }
+  }
+
+  /// dz = t - z - W^-2 ds, with t given or none.
+  void dual_step(const std::vector<Eigen::Matrix3Xd>& ds, const std::vector<Eigen::Matrix3Xd>* t,
+                 std::vector<Eigen::Matrix3Xd>& dz) const {
+    dz.resize(s_.size());
+    for (size_t c = 0; c < dz.size(); ++c) {
+      dz[c].resize(3, m_);
+      for (Index i = 0; i < m_; ++i) {
+        const Scaling& scaling = scalings_[c][static_cast<size_t>(i)];
+        dz[c].col(i) = -at_.z[c].col(i) - scaling.undo(scaling.undo(ds[c].col(i)));
+        if (t) dz[c].col(i) += (*t)[c].col(i);
+      }
+    }
+  }
+
+  double longest(const std::vector<Eigen::Matrix3Xd>& ds,
+                 const std::vector<Eigen::Matrix3Xd>& dz) const {
+    double step = 1 / 0.98;
+    for (size_t c = 0; c < s_.size(); ++c)
+      for (Index i = 0; i < m_; ++i)
+        step = std::min({step, step_to_boundary(s_[c].col(i), ds[c].col(i)),
+                         step_to_boundary(at_.z[c].col(i), dz[c].col(i))});
+    return step;
+  }
+
+  bool step() {
+    assemble();
+    if (!cholesky_.factor(normal_)) {
+      const double ridge = 1e-10 * normal_.diagonal().maxCoeff();
+      normal_.diagonal().array() += ridge;
+      if (!cholesky_.factor(normal_)) return false;
+    }
+    const double count = static_cast<double>(m_) * static_cast<double>(s_.size());
+    const double mu = at_.gap / std::max(count, 1.0);
+    VectorXd dx = cholesky_.solve(-gradient_);
+    push(dx, ds_);
+    dual_step(ds_, nullptr, dz_);
+    const double reach = std::min(1.0, longest(ds_, dz_));
+    double later = 0;
+    for (size_t c = 0; c < s_.size(); ++c)
+      later += (s_[c] + reach * ds_[c]).cwiseProduct(at_.z[c] + reach * dz_[c]).sum();
+    const double center = std::pow(std::clamp(later / at_.gap, 0.0, 1.0), 3);
+    for (size_t c = 0; c < s_.size(); ++c)
+      for (Index i = 0; i < m_; ++i) {
+        const Scaling& scaling = scalings_[c][static_cast<size_t>(i)];
+        const Cone3 lambda = scaling.apply(at_.z[c].col(i));
+        Cone3 right = -jordan(scaling.undo(ds_[c].col(i)), scaling.apply(dz_[c].col(i)));
+        right[0] += center * mu;
+        dz_[c].col(i) = scaling.undo(divided(lambda, right));
+      }
+    std::vector<Eigen::Matrix3Xd> t = dz_;
+    dx = cholesky_.solve(pulled_back(t) - gradient_);
+    push(dx, ds_);
+    dual_step(ds_, &t, dz_);
+    return move(dx, 0.98 * longest(ds_, dz_));
+  }
+
+  /// Goes along dx as far as the exact slacks allow.
+  bool move(const VectorXd& dx, double length) {
+    std::vector<Eigen::Matrix3Xd> slacks(s_.size());
+    const auto shrinks_too_much = [&] {
+      for (size_t c = 0; c < s_.size(); ++c)
+        for (Index i = 0; i < m_; ++i)
+          if (det(slacks[c].col(i)) < 1e-4 * det(s_[c].col(i))) return true;
+      return false;
+    };
+    VectorXd x;
+    int tries = 0;
+    constexpr int kMostTries = 60;
+    do {
+      if (tries > 0) length *= 0.8;
+      x = at_.x + length * dx;
+    } while ((!take_slacks(x, slacks) || shrinks_too_much()) && ++tries < kMostTries);
+    if (tries == kMostTries || !x.allFinite()) {
+      take_slacks(at_.x, s_);
+      return false;
+    }
+    move_fit_duals(x - at_.x, length);
+    at_.x = std::move(x);
+    s_ = std::move(slacks);
+    for (size_t c = 0; c < s_.size(); ++c) at_.z[c] += length * dz_[c];
+    return true;
+  }
+
+  void move_fit_duals(const VectorXd& moved, double length) {
+    if (k_ == 0) return;
+    const VectorXd dr = system_.fit.transpose() * moved.head(p_);
+    for (Index i = 0; i < k_; ++i) {
+      double& d = at_.fit_duals[i];
+      const double r = residual_[i] / rho_[i];
+      d += (1 - d * r) * dr[i] / rho_[i] + length * (r - d);
+      d = std::clamp(d, -0.999, 0.999);
+    }
+    smoothing_ = std::max(settings_.smoothing, 0.3 * smoothing_);
+  }
+
+  const ConeSystem& system_;
+  const ConeTarget& target_;
+  const ConeSettings& settings_;
+  Index p_, q_, m_, k_;
+  ConeSolution at_;
+  double smoothing_ = 0;
+  std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
+  std::vector<std::vector<Scaling>> scalings_;
+  VectorXd decay_, gradient_, residual_, rho_;
+  MatrixXd normal_, scratch_, across_, left_;
+  Cholesky cholesky_;
+};
+
+}  // namespace
+
+bool is_feasible(const ConeSystem& system, const VectorXd& x) {
+  const Index p = system.height.rows(), q = system.re.rows();
+  for (Index i = 0; i < system.samples(); ++i) {
+    const double u = p > 0 ? system.height.col(i).dot(x.head(p)) : 0;
+    const double w =
+        q > 0 ? std::hypot(system.re.col(i).dot(x.tail(q)), system.im.col(i).dot(x.tail(q))) : 0;
+    for (const Cone& cone : system.cones)
+      if (!(cone.offset_at(i) + cone.slope * u - cone.decay * std::exp(-u) > w)) return false;
+  }
+  return true;
+}
+
+double energy_of(const ConeSystem& system, const ConeTarget& target, const VectorXd& x) {
+  double energy = 0.5 * x.dot(system.quadratic * x) + target.linear.dot(x) + target.constant;
+  if (system.fit.cols() > 0)
+    energy += system.fit_weight *
+              (system.fit.transpose() * x.head(system.height.rows()) - target.wanted).lpNorm<1>();
+  return energy;
+}
+
+ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
+                    const ConeSettings& settings, const ConeSolution& start) {
+  return Solver(system, target, settings, start).run();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,79 @@
+// Small dense second-order cone programs: a convex fit under cones at many samples.
+//
+//     minimise   x'Px / 2 + p'x + c + weight * sum of |fit_k . a - wanted_k|
+//     subject to |w_i(b)| <= height_ci(u_i(a))   for each sample i and each cone c,
+//                height(u) = offset + slope u - decay e^-u,
+//
+// with unknowns x = (a, b), u_i real-linear in a, w_i complex and real-linear in b. These are the
+// programs of bounded distortion (Levi, Weber 2016): u = ln |f_z|, w = nu or Psi'.
+#pragma once
+
+#include "core/dense.h"
+
+namespace holomorph {
+
+/// height(u) = offset + slope u - decay e^-u, decay >= 0: concave, so that the cone's set is
+/// convex.
+struct Cone {
+  VectorXd offset;  ///< one for all samples, or one each
+  double slope = 0, decay = 0;
+
+  double offset_at(Index sample) const { return offset[offset.size() == 1 ? 0 : sample]; }
+};
+
+/// What stays while targets move. p unknowns a, q unknowns b, m samples, k rows of the fit.
+struct ConeSystem {
+  MatrixXd height;          ///< p x m: u_i = height.col(i) . a; p = 0: u = 0
+  MatrixXd re, im;          ///< q x m: w_i = (re.col(i) . b, im.col(i) . b); q = 0: w = 0
+  std::vector<Cone> cones;  ///< all of them on each sample
+  MatrixXd quadratic;       ///< P, (p + q) x (p + q), positive semidefinite, both triangles
+  MatrixXd fit;             ///< p x k; k may be 0
+  double fit_weight = 1;
+
+  Index samples() const { return std::max(height.cols(), re.cols()); }
+  Index unknowns() const { return height.rows() + re.rows(); }
+};
+
+/// What moves.
+struct ConeTarget {
+  VectorXd linear;  ///< p
+  double constant = 0;
+  VectorXd wanted;  ///< k
+};
+
+struct ConeSettings {
+  double gap = 1e-4;        ///< of the energy: the sum of the cones' s'z
+  double residual = 3e-3;   ///< norm of the Lagrangian's gradient
+  double smoothing = 0.01;  ///< |r| is sqrt(r^2 + smoothing^2)
+  double neglected = 0;     ///< samples whose barrier curves less than this are left out of it
+  int iterations = 60;
+};
+
+/// A strictly feasible x, the multipliers, and how good they are.
+struct ConeSolution {
+  enum class Status { solved, stopped };
+  Status status = Status::stopped;
+  VectorXd x;
+  std::vector<Eigen::Matrix3Xd> z;  ///< for each cone 3 x m: (height, w)
+  VectorXd fit_duals;               ///< in (-1, 1)
+  double energy = 0;                ///< of the exact norm, without smoothing
+  double gap = 0, residual = 0;
+  int iterations = 0;
+};
+
+/// Whether x lies strictly inside all cones.
+bool is_feasible(const ConeSystem& system, const VectorXd& x);
+
+/// The program's energy at x.
+double energy_of(const ConeSystem& system, const ConeTarget& target, const VectorXd& x);
+
+/// Solves the program from `start.x`, which must be strictly feasible (a check); multipliers that
+/// are missing or of another size are made up. Every iterate is strictly feasible, so that stopping
+/// after settings.iterations still gives a point that keeps all cones. Primal-dual interior points
+/// with Nesterov-Todd scaling and Mehrotra's corrector; the norm by the duals of Chan, Golub, Mulet
+/// 1999. Cost: an iteration takes one Cholesky factorisation and one symmetric product of
+/// (p + q)^2 (m + k) / 2.
+ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
+                    const ConeSettings& settings, const ConeSolution& start);
+
+}  // namespace holomorph

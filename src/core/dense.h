@@ -1,0 +1,29 @@
+// Dense real linear algebra by BLAS: what a solver repeats in every iteration.
+//
+// The library chooses its instruction set when the program runs and has a portable path.
+#pragma once
+
+#include "core/types.h"
+
+namespace holomorph {
+
+/// Adds K K^T of the first `columns` columns to the lower triangle of out's block that starts at
+/// (first, first) and has K's rows. Cost: rows^2 * columns multiplications, half of them saved.
+void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out);
+
+/// Adds A B^T of the first `columns` columns to out's block at (row, column).
+void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row, Index column,
+                 MatrixXd& out);
+
+/// A symmetric positive definite matrix as L L^T; reads the lower triangle only.
+class Cholesky {
+ public:
+  /// Returns false when the matrix is not positive definite to rounding.
+  bool factor(const MatrixXd& matrix);
+  VectorXd solve(const VectorXd& right) const;
+
+ private:
+  MatrixXd lower_;
+};
+
+}  // namespace holomorph

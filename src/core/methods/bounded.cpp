@@ -1,0 +1,415 @@
+// Method `bounded`: the nearest map that folds nowhere and stretches no more than allowed, to the
+// map of another method (Levi, Weber 2016, the space L_nu).
+//
+// Reference at the boundary's samples -> continuous ln f_z -> cone program -> proof -> integration
+// along the mesh.
+#include <cstdio>
+
+#include "core/antiderivative.h"
+#include "core/argument.h"
+#include "core/bounded_space.h"
+#include "core/error.h"
+#include "core/methods/rows.h"
+#include "core/quadrature.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
+constexpr size_t kInnerSamples = 300;
+
+/// f_z = e^l and f_zbar = conj(nu e^l) over a polygon.
+class BoundedPointMap final : public PointMap {
+ public:
+  BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
+                  LogMap map, VectorXc f)
+      : basis_(std::move(basis)), mesh_(std::move(mesh)), map_(std::move(map)), f_(std::move(f)) {}
+
+  /// From the nearest vertex by Gauss-Legendre quadrature of both derivatives.
+  Value at(Complex z) const override {
+    const auto nearest =
+        std::ranges::min_element(mesh_->vertices, {}, [&](Complex v) { return std::norm(v - z); });
+    const Complex from = *nearest, h = z - from;
+    Points places;
+    const GaussRule& rule = gauss_rule(8);
+    for (const double t : rule.nodes) places.push_back(from + t * h);
+    places.push_back(z);
+    const MatrixXc c = basis_->values(places);
+    const VectorXc l = c * map_.l, nu = c * map_.nu;
+    Complex phi = 0, psi = 0;
+    for (size_t g = 0; g < rule.nodes.size(); ++g) {
+      const Complex slope = rule.weights[g] * h * std::exp(l[static_cast<Index>(g)]);
+      phi += slope;
+      psi += nu[static_cast<Index>(g)] * slope;
+    }
+    const Index last = l.size() - 1;
+    const Complex fz = std::exp(l[last]);
+    return {f_[nearest - mesh_->vertices.begin()] + phi + std::conj(psi), fz,
+            std::conj(nu[last] * fz)};
+  }
+
+ private:
+  std::shared_ptr<const BoundaryBasis> basis_;
+  std::shared_ptr<const Mesh> mesh_;
+  LogMap map_;
+  VectorXc f_;
+};
+
+/// w -> factor (w - from) + to.
+struct Similarity {
+  Complex factor, from, to;
+};
+
+/// The similarity that takes points nearest to others, in the sense of least squares; a
+/// translation where they have no extent.
+Similarity similarity_between(const Points& from, const Points& to) {
+  Similarity s{1, 0, 0};
+  for (size_t i = 0; i < from.size(); ++i) s.from += from[i], s.to += to[i];
+  s.from /= static_cast<double>(from.size());
+  s.to /= static_cast<double>(from.size());
+  Complex together = 0;
+  double extent = 0;
+  for (size_t i = 0; i < from.size(); ++i) {
+    together += std::conj(from[i] - s.from) * (to[i] - s.to);
+    extent += std::norm(from[i] - s.from);
+  }
+  if (std::abs(together) > 1e-12 * extent) s.factor = together / extent;
+  return s;
+}
+
+Bounds bounds_of(const Method& method, const Parameters& values) {
+  return {parameter(method, values, "k"), parameter(method, values, "sigma"),
+          parameter(method, values, "Sigma")};
+}
+
+class BoundedDeformer final : public Deformer {
+ public:
+  explicit BoundedDeformer(const Rest& rest)
+      : rest_(rest),
+        method_(method_named("bounded")),
+        bounds_(bounds_of(method_, rest.parameters)) {
+    check(rest.mesh != nullptr, "method bounded: a rest with a mesh");
+    bounds_.check_usable();
+    const int basis = std::clamp(2 * static_cast<int>(rest.cage.size()), kBasis, kMostBasis);
+    basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
+    tree_ = std::make_unique<MeshTree>(*rest.mesh);
+    take_inner_samples();
+    space_ = std::make_unique<BoundedSpace>(basis_, inner_, BoundedSettings{bounds_});
+    prepare_reference();
+    values_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 0);
+    slopes_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 1);
+    for (const RestPin& pin : rest.pins)
+      pins_.push_back(locate(*rest.mesh, rest.mesh->vertices, pin.position));
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    SampledMap reference;
+    reference_->deform(pose, reference, {true, wanted.draft});
+    if (is_identity(reference)) return take_identity(out, wanted);
+    if (!reference.f.allFinite())
+      throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
+    const BoundedReference target = target_of(reference, out.zeros);
+    solution_ = space_->nearest(target, wanted.draft && solved_ ? &solution_ : nullptr);
+    solved_ = true;
+    integrate(pose, reference);
+    answer(out, wanted);
+    out.status = solution_.certificate.holds ? SampledMap::Status::certified
+                                             : SampledMap::Status::infeasible;
+    out.iterations = solution_.solution.iterations;
+    out.note = note(pose);
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    if (posed_ != pose || !solved_) {
+      BoundedDeformer copy(rest_);
+      SampledMap map;
+      copy.deform(pose, map, {});
+      return copy.current();
+    }
+    return current();
+  }
+
+ private:
+  std::unique_ptr<PointMap> current() const {
+    return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, solution_.map, f_);
+  }
+
+  /// Every so many inner vertices of the mesh.
+  void take_inner_samples() {
+    const Mesh& mesh = *rest_.mesh;
+    std::vector<char> outer(mesh.vertices.size(), 0);
+    for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
+    std::vector<int> inner;
+    for (size_t v = 0; v < mesh.vertices.size(); ++v)
+      if (!outer[v]) inner.push_back(static_cast<int>(v));
+    const size_t step = std::max<size_t>(1, inner.size() / kInnerSamples);
+    for (size_t i = 0; i < inner.size(); i += step) {
+      inner_vertices_.push_back(inner[i]);
+      inner_.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
+    }
+  }
+
+  /// The reference is sampled at the boundary's samples, then at the inner ones. Where f' is
+  /// infinite, at the cage's vertices, it is sampled a little inside.
+  void prepare_reference() {
+    Rest rest = rest_;
+    rest.parameters.clear();
+    rest.precision = Precision::full;  // the samples are few
+    const Points& boundary = basis_->samples();
+    rest.samples = boundary;
+    rest.samples.insert(rest.samples.end(), inner_.begin(), inner_.end());
+    rest.derivative_samples = rest.samples;
+    const Points vertices = vertices_of(basis_->domain());
+    constexpr double kInside = 0.15;  // of the way to the mean of the neighbours and a point inside
+    for (size_t i = 0; i < boundary.size(); ++i) {
+      if (std::ranges::find(vertices, boundary[i]) == vertices.end()) continue;
+      const Complex before = boundary[(i + boundary.size() - 1) % boundary.size()],
+                    after = boundary[(i + 1) % boundary.size()];
+      const Complex in = before - boundary[i], out = after - boundary[i];
+      double angle = std::atan2(cross(out, in), dot(out, in));
+      if (angle <= 0) angle += 2 * kPi;
+      rest.derivative_samples[i] += kInside * std::min(std::abs(in), std::abs(out)) *
+                                    std::polar(1.0, std::arg(out) + 0.5 * angle);
+    }
+    reference_method_ = &method_named(choice(method_, rest_.parameters, "reference"));
+    if (!reference_method_->uses_pins) rest.pins.clear();
+    reference_ = reference_method_->prepare(rest, nullptr);
+  }
+
+  bool is_identity(const SampledMap& reference) const {
+    const auto count = basis_->samples().size();
+    for (size_t i = 0; i < count + inner_.size(); ++i)
+      if (reference.f[static_cast<Index>(i)] !=
+          (i < count ? basis_->samples()[i] : inner_[i - count]))
+        return false;
+    return reference.fz == VectorXc::Ones(reference.fz.size()) && reference.fzbar.isZero(0) &&
+           bounds_.sigma <= 1 && bounds_.Sigma >= 1;
+  }
+
+  void take_identity(SampledMap& out, Wanted wanted) {
+    const Index count = static_cast<Index>(rest_.samples.size());
+    out = SampledMap{};
+    out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
+    if (wanted.derivatives) {
+      out.fz = VectorXc::Ones(count);
+      out.fzbar = VectorXc::Zero(count);
+    }
+    out.status = SampledMap::Status::certified;
+    out.note = bounds_text();
+    f_ = Eigen::Map<const VectorXc>(rest_.mesh->vertices.data(),
+                                    static_cast<Index>(rest_.mesh->vertices.size()));
+    solution_ = BoundedMap{};
+    solution_.map = {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())};
+    solved_ = false;
+  }
+
+  /// ln f_z along the boundary and nu everywhere (algorithm 4).
+  BoundedReference target_of(const SampledMap& g, Points& zeros) const {
+    const Index m = static_cast<Index>(basis_->samples().size()),
+                inner = static_cast<Index>(inner_.size());
+    const VectorXc fz = g.fz.head(m);
+    // The nearest holomorphic function tells the turns and the zeros.
+    const MatrixXc& q = basis_->at_samples();
+    const VectorXc unknowns = q.adjoint() * fz / static_cast<double>(m);
+    const VectorXc gamma = reference_method_->harmonic ? fz : VectorXc(q * unknowns);
+    std::vector<Zero> found;
+    zeros.clear();
+    double turns = 0;
+    for (Index i = 0; i < m; ++i) {
+      const Complex a = gamma[i], b = gamma[(i + 1) % m];
+      turns += std::atan2(cross(a, b), dot(a, b));
+    }
+    if (std::lround(turns / (2 * kPi)) != 0) {
+      found = zeros_of(*rest_.mesh, product(values_, basis_->coefficients(unknowns)));
+      for (const Zero& zero : found) zeros.push_back(zero.place);
+    }
+    const VectorXd theta = boundary_argument(basis_->samples(), gamma, found);
+    BoundedReference target;
+    target.log_fz.resize(m);
+    const double least = 1e-6 * fz.cwiseAbs().maxCoeff();
+    for (Index i = 0; i < m; ++i)
+      target.log_fz[i] = {std::log(std::max(std::abs(fz[i]), least)), theta[i]};
+    target.nu = (g.fzbar.head(m).conjugate().array() / fz.array()).matrix();
+    target.inner_nu = (g.fzbar.tail(inner).conjugate().array() / g.fz.tail(inner).array()).matrix();
+    return target;
+  }
+
+  static VectorXc product(const PlanarMatrix<double>& matrix, const VectorXc& factors) {
+    PlanarMatrix<double> column(factors.size(), 1), sum(matrix.rows(), 1);
+    column.re = factors.real();
+    column.im = factors.imag();
+    multiply(matrix, column, sum);
+    VectorXc result(matrix.rows());
+    result.real() = sum.re;
+    result.imag() = sum.im;
+    return result;
+  }
+
+  /// Phi and Psi along the mesh, and the place from the pins or, without any, from the reference.
+  void integrate(const Pose& pose, const SampledMap& reference) {
+    const VectorXc l = product(values_, solution_.map.l), nu = product(values_, solution_.map.nu),
+                   l1 = product(slopes_, solution_.map.l), nu1 = product(slopes_, solution_.map.nu);
+    fz_ = l.array().exp();
+    psi_ = nu.cwiseProduct(fz_);
+    const VectorXc phi2 = l1.cwiseProduct(fz_),
+                   psi2 = (nu1 + nu.cwiseProduct(l1)).cwiseProduct(fz_);
+    f_ = tree_->antiderivative(fz_, phi2) + tree_->antiderivative(psi_, psi2).conjugate();
+    align(pose, reference);
+    posed_ = pose;
+  }
+
+  /// Turns, scales and moves the map to the pins' places or, with less than two of them, to the
+  /// reference's. A turn keeps all bounds, a change of scale is proved anew.
+  void align(const Pose& pose, const SampledMap& reference) {
+    Points from, to;
+    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
+    if (reference_method_->uses_pins)
+      for (size_t i = 0; i < pins_.size(); ++i)
+        if (pins_[i]) {
+          from.push_back(pins_[i]->in(*rest_.mesh, f));
+          to.push_back(pose.pins[i].position);
+        }
+    if (from.size() < 2) {
+      from.clear(), to.clear();
+      const Index m = static_cast<Index>(basis_->samples().size());
+      for (size_t i = 0; i < inner_.size(); ++i) {
+        from.push_back(f_[inner_vertices_[i]]);
+        to.push_back(reference.f[m + static_cast<Index>(i)]);
+      }
+    }
+    const Similarity nearest = similarity_between(from, to);
+    Complex factor = nearest.factor;
+    const VectorXc one = VectorXc::Ones(basis_->size());
+    LogMap scaled = solution_.map;
+    scaled.l += std::log(factor) * one;
+    const Certificate certificate = space_->certify(scaled);
+    if (!certificate.holds) {
+      factor /= std::abs(factor);
+      scaled.l = solution_.map.l + std::log(factor) * one;
+    } else {
+      solution_.certificate = certificate;
+    }
+    solution_.map = std::move(scaled);
+    fz_ *= factor;
+    f_ = (factor * (f_.array() - nearest.from) + nearest.to).matrix();
+    psi_ *= std::conj(factor);  // conj(Psi) turns along
+  }
+
+  void answer(SampledMap& out, Wanted wanted) const {
+    out.fz.resize(0);
+    out.fzbar.resize(0);
+    if (rest_.samples == rest_.mesh->vertices) {
+      out.f = f_;
+      if (!wanted.derivatives) return;
+      out.fz = fz_;
+      out.fzbar = psi_.conjugate();
+      return;
+    }
+    const auto map = current();
+    const Index count = static_cast<Index>(rest_.samples.size());
+    out.f.resize(count);
+    out.fz.resize(count);
+    out.fzbar.resize(count);
+    for (Index i = 0; i < count; ++i) {
+      const PointMap::Value value = map->at(rest_.samples[static_cast<size_t>(i)]);
+      out.f[i] = value.f;
+      out.fz[i] = value.fz;
+      out.fzbar[i] = value.fzbar;
+    }
+  }
+
+  std::string bounds_text() const {
+    char text[120];
+    std::snprintf(text, sizeof text, "Locally injective: k <= %.2f, %.2f <= sigma <= %.2f",
+                  bounds_.k, bounds_.sigma, bounds_.Sigma);
+    return text;
+  }
+
+  /// What the proof says, and the pin that is farthest from its place.
+  std::string note(const Pose& pose) const {
+    static constexpr const char* kNames[] = {"angle", "smallest stretch", "largest stretch"};
+    if (!solution_.certificate.holds)
+      return std::string("Not proved: the bound on the ") +
+             kNames[static_cast<int>(solution_.certificate.failed)] + " near " +
+             point_text(solution_.certificate.where);
+    std::string text = bounds_text();
+    if (!reference_method_->uses_pins) return text;
+    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
+    double farthest = 0;
+    size_t which = 0;
+    for (size_t i = 0; i < pins_.size(); ++i) {
+      if (!pins_[i]) continue;
+      const double off = std::abs(pins_[i]->in(*rest_.mesh, f) - pose.pins[i].position);
+      if (off > farthest) farthest = off, which = i;
+    }
+    if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return text;
+    char more[120];
+    std::snprintf(more, sizeof more, "; pin %d ends %.0f px from its place",
+                  static_cast<int>(which) + 1, farthest);
+    return text + more;
+  }
+
+  Rest rest_;
+  const Method& method_;
+  Bounds bounds_;
+  std::shared_ptr<const BoundaryBasis> basis_;
+  std::unique_ptr<BoundedSpace> space_;
+  std::unique_ptr<MeshTree> tree_;
+  Points inner_;
+  std::vector<int> inner_vertices_;  ///< the same in the mesh
+  const Method* reference_method_ = nullptr;
+  std::unique_ptr<Deformer> reference_;
+  PlanarMatrix<double> values_, slopes_;  ///< C and C' at the mesh's vertices
+  std::vector<std::optional<Location>> pins_;
+
+  BoundedMap solution_;
+  bool solved_ = false;
+  Pose posed_;
+  VectorXc f_, fz_, psi_;
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  return std::make_unique<BoundedDeformer>(rest);
+}
+
+}  // namespace
+
+Method bounded_method(const std::vector<Method>& references) {
+  ParameterSpec reference{"reference", "Follows", "The map that is kept within the bounds"};
+  reference.kind = ParameterSpec::Kind::choice;
+  for (const Method& method : references) {
+    if (method.id == "pins") reference.fallback = static_cast<double>(reference.options.size());
+    reference.options.push_back({method.id, method.label});
+  }
+  reference.highest = static_cast<double>(references.size()) - 1;
+  const auto number = [](const char* key, const char* label, const char* hint, double fallback,
+                         double lowest, double highest) {
+    ParameterSpec spec{key, label, hint};
+    spec.fallback = fallback;
+    spec.lowest = lowest;
+    spec.highest = highest;
+    return spec;
+  };
+  Method method{
+      "bounded",
+      "No folds",
+      "Nothing folds and nothing is stretched more than allowed, proved for every frame.",
+      {reference,
+       number("k", "Angle bound", "0 keeps all angles; towards 1 circles may turn flat", 0.7, 0,
+              0.99),
+       number("sigma", "Least stretch", "No length shrinks by more than this", 0.2, 0.01, 0.99),
+       number("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100)},
+      true,
+      true,
+      false,
+      prepare};
+  method.parameters.back().logarithmic = true;
+  method.presets = {{"Conformal", {{"k", 0}}},
+                    {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
+                    {"Default", {}},
+                    {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}};
+  return method;
+}
+
+}  // namespace holomorph
