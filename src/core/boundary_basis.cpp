@@ -134,6 +134,20 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   one_ = r * VectorXc::Ones(c.cols()) / root;
 }
 
+Points BoundaryBasis::inset(double share) const {
+  Points inner = samples_;
+  const size_t n = inner.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Complex in = samples_[(i + n - 1) % n] - samples_[i],
+                  out = samples_[(i + 1) % n] - samples_[i];
+    double angle = std::atan2(cross(out, in), dot(out, in));
+    if (angle <= 0) angle += 2 * kPi;
+    inner[i] += share * std::min(std::abs(in), std::abs(out)) *
+                std::polar(1.0, std::arg(out) + 0.5 * angle);
+  }
+  return inner;
+}
+
 MatrixXc BoundaryBasis::values(std::span<const Complex> points) const {
   const PlanarMatrix<double> planar = planar_coordinates<double>(polygon_cage(polygon_), points, 0);
   MatrixXc c(planar.rows(), planar.cols());

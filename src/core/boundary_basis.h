@@ -39,6 +39,9 @@ class BoundaryBasis {
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   Index size() const { return static_cast<Index>(polygon_.size()); }
 
+  /// The samples moved inwards by a share of the distance to their nearer neighbour.
+  Points inset(double share) const;
+
   /// C at points of the domain: one row each.
   MatrixXc values(std::span<const Complex> points) const;
   /// The whitened basis at points whose C these are: F = row . unknowns.

@@ -35,11 +35,11 @@ VectorXc complex_of(const VectorXd& x) {
 }  // namespace
 
 BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
-                           std::span<const Complex> inner, const BoundedSettings& settings)
+                           const ReferencePoints& points, const BoundedSettings& settings)
     : basis_(std::move(basis)), settings_(settings), certifier_(*basis_) {
   settings.bounds.check_usable();
   const Bounds tight = settings.bounds.tightened(kTightening);
-  const Index n = basis_->size(), m = static_cast<Index>(basis_->samples().size());
+  const Index n = basis_->size(), m = static_cast<Index>(points.boundary.size());
   const bool conformal = settings.bounds.k == 0;
   system_.re.resize(conformal ? 0 : 2 * n, 0);
   append_samples(basis_->at_samples(), system_);
@@ -47,29 +47,32 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
   system_.cones = {{same(std::log(tight.Sigma)), -1, 0}, {same(1), 0, tight.sigma}};
   if (!conformal) system_.cones.push_back({same(tight.k), 0, 0});
   system_.quadratic = MatrixXd::Zero(system_.unknowns(), system_.unknowns());
-  if (!conformal) inner_ = basis_->whitened(basis_->values(inner));
+  boundary_ = basis_->whitened(basis_->values(points.boundary));
+  if (!conformal) inner_ = basis_->whitened(basis_->values(points.inner));
+  MatrixXd re, im;
+  real_columns(boundary_, re, im);
+  const MatrixXd mean_square = (re * re.transpose() + im * im.transpose()) / static_cast<double>(m);
   if (!conformal) {
     const Index count = inner_.rows();
     const double share = count > 0 ? 0.5 : 1;
     auto nu = system_.quadratic.bottomRightCorner(2 * n, 2 * n);
-    nu = settings.weight * share * MatrixXd::Identity(2 * n, 2 * n);  // whitened
+    nu = settings.weight * share * mean_square;
     if (count > 0) {
-      MatrixXd re, im;
-      real_columns(inner_, re, im);
+      MatrixXd inner_re, inner_im;
+      real_columns(inner_, inner_re, inner_im);
       nu += settings.weight * share / static_cast<double>(count) *
-            (re * re.transpose() + im * im.transpose());
+            (inner_re * inner_re.transpose() + inner_im * inner_im.transpose());
     }
   }
   if (settings.norm == BoundedSettings::Norm::l1) {
     system_.fit.resize(2 * n, 2 * m);
-    MatrixXd re, im;
-    real_columns(basis_->at_samples(), re, im);
     system_.fit << re, im;
     system_.fit_weight = 1 / static_cast<double>(m);
   } else {
-    system_.quadratic.topLeftCorner(2 * n, 2 * n).diagonal().setConstant(1);
+    system_.quadratic.topLeftCorner(2 * n, 2 * n) = mean_square;
     system_.fit.resize(2 * n, 0);
   }
+  fit_.compute(boundary_);
   centre_ = VectorXd::Zero(system_.unknowns());
   centre_.head(2 * n) = stacked(tight.middle() * basis_->one());
 }
@@ -89,7 +92,7 @@ void BoundedSpace::append_samples(const MatrixXc& whitened, ConeSystem& system) 
 }
 
 ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
-  const Index n = basis_->size(), m = basis_->at_samples().rows(), count = inner_.rows();
+  const Index n = basis_->size(), m = boundary_.rows(), count = inner_.rows();
   check(reference.log_fz.size() == m && reference.nu.size() == m &&
             (count == 0 || reference.inner_nu.size() == count),
         "bounded reference: one value for each sample");
@@ -114,7 +117,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
   };
   if (system_.re.rows() > 0) {
     const double share = count > 0 ? 0.5 : 1;
-    add_nu(basis_->at_samples(), clamped(reference.nu), share);
+    add_nu(boundary_, clamped(reference.nu), share);
     if (count > 0) add_nu(inner_, clamped(reference.inner_nu), share);
   }
   if (settings_.norm == BoundedSettings::Norm::l1) {
@@ -122,8 +125,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
     target.wanted << reference.log_fz.real(), reference.log_fz.imag();
   } else {
     const double weight = 1 / static_cast<double>(m);
-    target.linear.head(2 * n) =
-        -weight * stacked(basis_->at_samples().adjoint() * reference.log_fz);
+    target.linear.head(2 * n) = -weight * stacked(boundary_.adjoint() * reference.log_fz);
     target.constant += 0.5 * weight * reference.log_fz.squaredNorm();
   }
   return target;
@@ -140,13 +142,16 @@ ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
 }
 
 VectorXd BoundedSpace::unconstrained(const BoundedReference& reference) const {
-  const double m = static_cast<double>(basis_->at_samples().rows());
   VectorXd x(system_.unknowns());
   const Index n = basis_->size();
-  x.head(2 * n) = stacked(basis_->at_samples().adjoint() * reference.log_fz / m);
-  if (system_.re.rows() > 0)
-    x.tail(2 * n) = stacked(basis_->at_samples().adjoint() * reference.nu / m);
+  x.head(2 * n) = stacked(fit_.solve(reference.log_fz));
+  if (system_.re.rows() > 0) x.tail(2 * n) = stacked(fit_.solve(reference.nu));
   return x;
+}
+
+BoundedSpace::Fit BoundedSpace::holomorphic_fit(const VectorXc& values) const {
+  VectorXc unknowns = fit_.solve(values);
+  return {unknowns, boundary_ * unknowns};
 }
 
 LogMap BoundedSpace::map_of(const VectorXd& x) const {

@@ -5,6 +5,7 @@
 // solution of a small cone program.
 #pragma once
 
+#include <Eigen/QR>
 #include <memory>
 
 #include "core/certificate.h"
@@ -12,8 +13,12 @@
 
 namespace holomorph {
 
-/// A map to be projected: its Wirtinger derivatives at the boundary's samples, with ln f_z
-/// continuous, and nu = conj(f_zbar) / f_z at inner points.
+/// Where a reference is looked at: at or near the boundary's samples, and inside.
+struct ReferencePoints {
+  Points boundary, inner;
+};
+
+/// A map to be projected: ln f_z, continuous, and nu = conj(f_zbar) / f_z at those points.
 struct BoundedReference {
   VectorXc log_fz, nu;
   VectorXc inner_nu;
@@ -37,16 +42,23 @@ struct BoundedMap {
 
 class BoundedSpace {
  public:
-  /// `inner` are points of the domain where nu's distance counts, besides the boundary's samples;
-  /// both count by half. The bounds are solved 0.2 % narrower than they are proved. Throws Error
+  /// Distances count at the points, nu's inside by half; without inner points at the boundary's
+  /// alone. The bounds are solved 0.2 % narrower than they are proved. Throws Error
   /// for bounds that cannot be used. Cost: a product of unknowns^2 and samples.
-  BoundedSpace(std::shared_ptr<const BoundaryBasis> basis, std::span<const Complex> inner,
+  BoundedSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePoints& points,
                const BoundedSettings& settings);
 
   /// Projects. With `warm`, a solution of this space, the work starts from there and is less
   /// exact: for dragging; without, the result depends on the reference alone. The result is always
   /// certified: what cannot be proved is cut off by added samples, then moved towards the centre.
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
+
+  /// The holomorphic function nearest to values at the reference's boundary points: whitened
+  /// unknowns, and its values there.
+  struct Fit {
+    VectorXc unknowns, values;
+  };
+  Fit holomorphic_fit(const VectorXc& values) const;
 
   /// Tries to prove the bounds for a map of this space.
   Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
@@ -69,7 +81,8 @@ class BoundedSpace {
   std::shared_ptr<const BoundaryBasis> basis_;
   BoundedSettings settings_;
   ConeSystem system_;
-  MatrixXc inner_;  ///< the whitened basis at the inner points
+  MatrixXc boundary_, inner_;           ///< the whitened basis at the reference's points
+  Eigen::HouseholderQR<MatrixXc> fit_;  ///< of boundary_
   Certifier certifier_;
   VectorXd centre_;  ///< nu = 0, l in the middle of the bounds
 };

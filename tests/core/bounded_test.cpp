@@ -88,7 +88,8 @@ struct Projection {
     for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = true;
     for (size_t v = 0; v < mesh.vertices.size(); ++v)
       if (!outer[v] && !getenv("NOINNER")) inner.push_back(mesh.vertices[v]);
-    space = std::make_unique<BoundedSpace>(basis, inner, BoundedSettings{bounds, norm, 1});
+    space = std::make_unique<BoundedSpace>(basis, ReferencePoints{basis->samples(), inner},
+                                           BoundedSettings{bounds, norm, 1});
     VectorXc fz = values(known.fz, basis->samples());
     VectorXc gamma = fz;
     VectorXc gmesh = values(known.fz, mesh.vertices);

@@ -17,6 +17,9 @@ namespace {
 
 constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
 constexpr size_t kInnerSamples = 300;
+/// The references' derivatives are rough on the boundary; they are looked at this far inside, in
+/// samples' distances.
+constexpr double kInset = 1.0;
 
 /// f_z = e^l and f_zbar = conj(nu e^l) over a polygon.
 class BoundedPointMap final : public PointMap {
@@ -94,7 +97,8 @@ class BoundedDeformer final : public Deformer {
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
     tree_ = std::make_unique<MeshTree>(*rest.mesh);
     take_inner_samples();
-    space_ = std::make_unique<BoundedSpace>(basis_, inner_, BoundedSettings{bounds_});
+    points_.boundary = basis_->inset(kInset);
+    space_ = std::make_unique<BoundedSpace>(basis_, points_, BoundedSettings{bounds_});
     prepare_reference();
     values_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 0);
     slopes_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 1);
@@ -145,42 +149,28 @@ class BoundedDeformer final : public Deformer {
     const size_t step = std::max<size_t>(1, inner.size() / kInnerSamples);
     for (size_t i = 0; i < inner.size(); i += step) {
       inner_vertices_.push_back(inner[i]);
-      inner_.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
+      points_.inner.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
     }
   }
 
-  /// The reference is sampled at the boundary's samples, then at the inner ones. Where f' is
-  /// infinite, at the cage's vertices, it is sampled a little inside.
+  /// The reference is sampled next to the boundary's samples, then inside.
   void prepare_reference() {
     Rest rest = rest_;
     rest.parameters.clear();
     rest.precision = Precision::full;  // the samples are few
-    const Points& boundary = basis_->samples();
-    rest.samples = boundary;
-    rest.samples.insert(rest.samples.end(), inner_.begin(), inner_.end());
-    rest.derivative_samples = rest.samples;
-    const Points vertices = vertices_of(basis_->domain());
-    constexpr double kInside = 0.15;  // of the way to the mean of the neighbours and a point inside
-    for (size_t i = 0; i < boundary.size(); ++i) {
-      if (std::ranges::find(vertices, boundary[i]) == vertices.end()) continue;
-      const Complex before = boundary[(i + boundary.size() - 1) % boundary.size()],
-                    after = boundary[(i + 1) % boundary.size()];
-      const Complex in = before - boundary[i], out = after - boundary[i];
-      double angle = std::atan2(cross(out, in), dot(out, in));
-      if (angle <= 0) angle += 2 * kPi;
-      rest.derivative_samples[i] += kInside * std::min(std::abs(in), std::abs(out)) *
-                                    std::polar(1.0, std::arg(out) + 0.5 * angle);
-    }
+    rest.samples = points_.boundary;
+    rest.samples.insert(rest.samples.end(), points_.inner.begin(), points_.inner.end());
+    rest.derivative_samples.clear();
     reference_method_ = &method_named(choice(method_, rest_.parameters, "reference"));
     if (!reference_method_->uses_pins) rest.pins.clear();
     reference_ = reference_method_->prepare(rest, nullptr);
   }
 
   bool is_identity(const SampledMap& reference) const {
-    const auto count = basis_->samples().size();
-    for (size_t i = 0; i < count + inner_.size(); ++i)
+    const size_t count = points_.boundary.size();
+    for (size_t i = 0; i < count + points_.inner.size(); ++i)
       if (reference.f[static_cast<Index>(i)] !=
-          (i < count ? basis_->samples()[i] : inner_[i - count]))
+          (i < count ? points_.boundary[i] : points_.inner[i - count]))
         return false;
     return reference.fz == VectorXc::Ones(reference.fz.size()) && reference.fzbar.isZero(0) &&
            bounds_.sigma <= 1 && bounds_.Sigma >= 1;
@@ -206,12 +196,11 @@ class BoundedDeformer final : public Deformer {
   /// ln f_z along the boundary and nu everywhere (algorithm 4).
   BoundedReference target_of(const SampledMap& g, Points& zeros) const {
     const Index m = static_cast<Index>(basis_->samples().size()),
-                inner = static_cast<Index>(inner_.size());
+                inner = static_cast<Index>(points_.inner.size());
     const VectorXc fz = g.fz.head(m);
     // The nearest holomorphic function tells the turns and the zeros.
-    const MatrixXc& q = basis_->at_samples();
-    const VectorXc unknowns = q.adjoint() * fz / static_cast<double>(m);
-    const VectorXc gamma = reference_method_->harmonic ? fz : VectorXc(q * unknowns);
+    const auto [unknowns, fitted] = space_->holomorphic_fit(fz);
+    const VectorXc& gamma = reference_method_->harmonic ? fz : fitted;
     std::vector<Zero> found;
     zeros.clear();
     double turns = 0;
@@ -223,7 +212,7 @@ class BoundedDeformer final : public Deformer {
       found = zeros_of(*rest_.mesh, product(values_, basis_->coefficients(unknowns)));
       for (const Zero& zero : found) zeros.push_back(zero.place);
     }
-    const VectorXd theta = boundary_argument(basis_->samples(), gamma, found);
+    const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
     BoundedReference target;
     target.log_fz.resize(m);
     const double least = 1e-6 * fz.cwiseAbs().maxCoeff();
@@ -272,7 +261,7 @@ class BoundedDeformer final : public Deformer {
     if (from.size() < 2) {
       from.clear(), to.clear();
       const Index m = static_cast<Index>(basis_->samples().size());
-      for (size_t i = 0; i < inner_.size(); ++i) {
+      for (size_t i = 0; i < points_.inner.size(); ++i) {
         from.push_back(f_[inner_vertices_[i]]);
         to.push_back(reference.f[m + static_cast<Index>(i)]);
       }
@@ -282,6 +271,7 @@ class BoundedDeformer final : public Deformer {
     const VectorXc one = VectorXc::Ones(basis_->size());
     LogMap scaled = solution_.map;
     scaled.l += std::log(factor) * one;
+    scaled.nu *= std::conj(factor) / factor;
     const Certificate certificate = space_->certify(scaled);
     if (!certificate.holds) {
       factor /= std::abs(factor);
@@ -355,8 +345,8 @@ class BoundedDeformer final : public Deformer {
   std::shared_ptr<const BoundaryBasis> basis_;
   std::unique_ptr<BoundedSpace> space_;
   std::unique_ptr<MeshTree> tree_;
-  Points inner_;
-  std::vector<int> inner_vertices_;  ///< the same in the mesh
+  ReferencePoints points_;
+  std::vector<int> inner_vertices_;  ///< of points_.inner in the mesh
   const Method* reference_method_ = nullptr;
   std::unique_ptr<Deformer> reference_;
   PlanarMatrix<double> values_, slopes_;  ///< C and C' at the mesh's vertices
