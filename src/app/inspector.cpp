@@ -21,6 +21,41 @@ void edit_number(const char* label, double value, const char* format, float spee
     workspace.commit(step, *workspace.preview);
 }
 
+void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec& spec,
+                  size_t chosen) {
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (!ImGui::BeginCombo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
+  for (size_t i = 0; i < spec.options.size(); ++i)
+    if (ImGui::Selectable(spec.options[i].label.c_str(), i == chosen)) {
+      Scene after = scene;
+      after.parameters[spec.key] = static_cast<double>(i);
+      workspace.commit(spec.label + ": " + spec.options[i].label, after);
+    }
+  ImGui::EndCombo();
+}
+
+/// A button for each preset; the one that is set is pressed in.
+void preset_buttons(Workspace& workspace, const Scene& scene, const Method& method) {
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  for (const Preset& preset : method.presets) {
+    Scene after = scene;
+    for (const Preset& other : method.presets)
+      for (const auto& entry : other.parameters) after.parameters.erase(entry.first);
+    for (const auto& [key, value] : preset.parameters) after.parameters[key] = value;
+    const float width =
+        ImGui::CalcTextSize(preset.label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (&preset != &method.presets.front()) {
+      ImGui::SameLine(0, 4);
+      if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
+    }
+    const bool is_set = after.parameters == scene.parameters;
+    if (is_set)
+      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (ImGui::Button(preset.label.c_str())) workspace.commit(preset.label, after);
+    if (is_set) ImGui::PopStyleColor();
+  }
+}
+
 void method_section(Workspace& workspace) {
   const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
   const Method& method = method_named(scene.method);
@@ -34,9 +69,12 @@ void method_section(Workspace& workspace) {
     ImGui::EndCombo();
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", method.hint.c_str());
+  preset_buttons(workspace, scene, method);
   for (const ParameterSpec& spec : method.parameters) {
     const double value = parameter(method, scene.parameters, spec.key);
-    if (spec.kind == ParameterSpec::Kind::toggle) {
+    if (spec.kind == ParameterSpec::Kind::choice) {
+      choice_combo(workspace, scene, spec, static_cast<size_t>(value));
+    } else if (spec.kind == ParameterSpec::Kind::toggle) {
       bool on = value != 0;
       if (ImGui::Checkbox(spec.label.c_str(), &on)) {
         Scene after = scene;

@@ -84,6 +84,24 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
   }
 }
 
+/// A line from a pin to where the picture went instead, when that is visibly elsewhere.
+void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;
+  list.AddLine(pin, place, style.colors.outline, 3.5f * s);
+  list.AddLine(pin, place, style.colors.warning, 1.8f * s);
+  list.AddCircleFilled(place, 4.5f * s, style.colors.outline);
+  list.AddCircleFilled(place, 3 * s, style.colors.warning);
+}
+
+/// A zero of the derivative of the map that is being kept from folding.
+void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  list.AddCircleFilled(at, 5.5f * s, style.colors.outline);
+  list.AddCircleFilled(at, 4 * s, style.colors.warning);
+  list.AddCircleFilled(at, 1.6f * s, style.colors.outline);
+}
+
 void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -153,6 +171,13 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                              style.colors.pin);
     }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
+    if (layer == Layer::pose) {
+      for (size_t i = 0; i < scene.pins.size(); ++i)
+        if (const auto place = workspace.map.pin_place(i))
+          draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
+      for (const Complex& zero : workspace.map.zero_places())
+        draw_zero(list, px(workspace, zero), style);
+    }
     for (const Handle& handle : handles_of(scene, layer)) {
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;

@@ -125,6 +125,16 @@ void draw_toolbar(Workspace& workspace, double scale) {
   ImGui::PopStyleVar();
 }
 
+namespace {
+
+/// Green that is readable on the bar of either theme.
+ImVec4 proved_color() {
+  const ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
+  return bar.x > 0.5f ? ImVec4(0.05f, 0.45f, 0.15f, 1) : ImVec4(0.45f, 0.85f, 0.5f, 1);
+}
+
+}  // namespace
+
 void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale) {
   const PanelSizes sizes = PanelSizes::at(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -146,7 +156,14 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     }
   } else {
     hint = status.hint;
-    if (const auto fold = map.fold()) {
+    const auto state = map.map().status;
+    if (map.has_map() && state == SampledMap::Status::certified) {
+      ImGui::TextColored(proved_color(), "\uf00c %s", map.map().note.c_str());
+      ImGui::SameLine();
+    } else if (map.has_map() && state == SampledMap::Status::infeasible) {
+      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.map().note.c_str());
+      ImGui::SameLine();
+    } else if (const auto fold = map.fold()) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) {

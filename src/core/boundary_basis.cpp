@@ -99,6 +99,13 @@ Points polygon_around(const Cage& domain, int wanted, double distance) {
 
 BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to) {
   BoundaryPiece piece{segment, from, to, 0, 0, 0, 0};
+  if (domain.degree(segment) == 1) {
+    const Complex a = domain.vertex(segment), b = domain.vertex(segment + 1);
+    piece.start = from == 0 ? a : a + from * (b - a);
+    piece.end = to == 1 ? b : a + to * (b - a);
+    piece.length = std::abs(piece.end - piece.start);
+    return piece;
+  }
   Points controls = domain.controls(segment);
   if (to < 1) controls = split(controls, to).before;
   if (from > 0) controls = split(controls, from / to).after;

@@ -189,8 +189,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
   for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
     if (best.rounds == 0) cut = system_;
     append_samples(basis_->whitened(basis_->values(best.certificate.open)), cut);
-    ConeSolution from;
-    from.x = best.solution.x;
+    ConeSolution from = best.solution;
     for (double share = 0.02; !is_feasible(cut, from.x) && share <= 1; share *= 2)
       from.x = (1 - share) * best.solution.x + share * centre_;
     if (!is_feasible(cut, from.x)) from.x = centre_;

@@ -2,6 +2,7 @@
 #include "core/certificate.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
@@ -23,70 +24,94 @@ Bounds Bounds::tightened(double share) const {
 
 namespace {
 
-struct Derivatives {
-  VectorXc second;  ///< row of F'' at the middle
-  VectorXd third;   ///< row of bounds of |F'''|
+/// What a piece of the boundary sees of the polygon's vertices.
+struct Sight {
+  VectorXc second;        ///< F'' at the middle from the slopes' jumps
+  VectorXd near, nearer;  ///< bounds of |F''| and |F'''| from their moduli
 };
 
-Derivatives derivatives_at(const Points& polygon, const BoundaryPiece& piece) {
+Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
   const Index n = static_cast<Index>(polygon.size());
-  Derivatives row{VectorXc(n), VectorXd(n)};
+  Sight sight{VectorXc(n), VectorXd(n), VectorXd(n)};
   const Complex middle = 0.5 * (piece.start + piece.end);
   for (Index j = 0; j < n; ++j) {
     const Complex z = polygon[static_cast<size_t>(j)];
-    row.second[j] = inverse(2 * kPi * kI * (z - middle));
+    sight.second[j] = inverse(2 * kPi * kI * (z - middle));
     // The piece stays within bend / 8 of its chord.
     const double gap =
         std::max(nearest_on_segment(piece.start, piece.end, z).distance - piece.bend / 8, 1e-300);
-    row.third[j] = 1 / (2 * kPi * gap * gap);
+    sight.near[j] = 1 / (2 * kPi * gap);
+    sight.nearer[j] = sight.near[j] / gap;
   }
-  return row;
+  return sight;
 }
 
 }  // namespace
+
+Certifier::Function Certifier::function_of(const VectorXc& a) const {
+  const Points& z = basis_.polygon();
+  const Index n = a.size();
+  Function f{a, VectorXc(n), VectorXc(n), VectorXd(n)};
+  for (Index j = 0; j < n; ++j) {
+    const Index next = (j + 1) % n;
+    f.slopes[j] =
+        quotient(a[next] - a[j], z[static_cast<size_t>(next)] - z[static_cast<size_t>(j)]);
+  }
+  for (Index j = 0; j < n; ++j) f.jumps[j] = f.slopes[j] - f.slopes[(j + n - 1) % n];
+  f.moduli = f.jumps.cwiseAbs();
+  return f;
+}
 
 Certifier::Certifier(const BoundaryBasis& basis)
     : basis_(basis), values_(basis.values(basis.samples())) {
   const Index count = static_cast<Index>(basis.pieces().size());
   second_.resize(count, basis.size());
-  third_.resize(count, basis.size());
+  near_.resize(count, basis.size());
+  nearer_.resize(count, basis.size());
   for (Index i = 0; i < count; ++i) {
-    const Derivatives row = derivatives_at(basis.polygon(), basis.pieces()[static_cast<size_t>(i)]);
-    second_.row(i) = row.second.transpose();
-    third_.row(i) = row.third.transpose();
+    const Sight sight = sight_of(basis.polygon(), basis.pieces()[static_cast<size_t>(i)]);
+    second_.row(i) = sight.second.transpose();
+    near_.row(i) = sight.near.transpose();
+    nearer_.row(i) = sight.nearer.transpose();
   }
 }
 
-VectorXc Certifier::jumps_of(const VectorXc& a) const {
-  const Points& z = basis_.polygon();
-  const Index n = a.size();
-  VectorXc slope(n), jump(n);
-  for (Index j = 0; j < n; ++j) {
-    const Index next = (j + 1) % n;
-    slope[j] = quotient(a[next] - a[j], z[static_cast<size_t>(next)] - z[static_cast<size_t>(j)]);
+// With s the slope of the coefficients along an edge and L = log (z_{e+1} - z) / (z_e - z):
+// 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the last two cancel in the sum.
+Certifier::Values Certifier::at(Complex z, const Function& l, const Function& nu) const {
+  const Points& polygon = basis_.polygon();
+  const size_t n = polygon.size();
+  Complex sum_l = 0, sum_nu = 0, p = polygon[0] - z;
+  for (size_t e = 0; e < n; ++e) {
+    const Complex q = polygon[(e + 1) % n] - z;
+    const Complex log(0.5 * std::log(std::norm(q) / std::norm(p)),
+                      std::atan2(cross(p, q), dot(p, q)));
+    const Index i = static_cast<Index>(e);
+    sum_l += times(l.values[i] - times(p, l.slopes[i]), log);
+    sum_nu += times(nu.values[i] - times(p, nu.slopes[i]), log);
+    p = q;
   }
-  for (Index j = 0; j < n; ++j) jump[j] = slope[j] - slope[(j + n - 1) % n];
-  return jump;
+  const Complex factor = inverse(2 * kPi * kI);
+  return {times(sum_l, factor), times(sum_nu, factor)};
 }
 
 bool Certifier::prove(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      Complex l2, double l3, Complex nu2, double nu3, const Bounds& bounds,
+                      const Curvature& l, const Curvature& nu, const Bounds& bounds,
                       Certificate::Bound& failed) const {
   // |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8; the middle is within half the length and
   // bend.
   const double reach = 0.5 * piece.length + piece.bend / 8,
                chord = std::abs(piece.end - piece.start);
-  const auto off = [&](Complex second, double third, Complex from, Complex to) {
-    const double most = std::abs(second) + third * reach;
+  const auto off = [&](const Curvature& f, Complex from, Complex to) {
+    const double most = std::min(std::abs(f.second) + f.third * reach, f.bound);
     double sum = most * piece.length * piece.length;
     // |F'| from the chord's slope, which F' equals on average.
     if (piece.bend > 0) sum += piece.bend * (std::abs(to - from) / chord + 2 * most * reach);
     return sum / 8;
   };
-  const double dl = off(l2, l3, start.l, end.l), dnu = off(nu2, nu3, start.nu, end.nu);
+  const double dl = off(l, start.l, end.l), dnu = off(nu, start.nu, end.nu);
   for (const Values& at : {start, end}) {
     const double u = at.l.real(), w = std::abs(at.nu) + dnu;
-    // With k = 0 the map is conformal: nu is 0 exactly.
     if (!(w <= bounds.k)) return failed = Certificate::Bound::k, false;
     if (!(u + dl + w <= std::log(bounds.Sigma))) return failed = Certificate::Bound::Sigma, false;
     if (!(w <= 1 - bounds.sigma * std::exp(dl - u)))
@@ -96,32 +121,37 @@ bool Certifier::prove(const BoundaryPiece& piece, const Values& start, const Val
 }
 
 void Certifier::halve(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      const LogMap& map, const Slopes& jumps, const Bounds& bounds, int depth,
+                      const Function& l, const Function& nu, const Bounds& bounds, int depth,
                       Certificate& result) const {
-  const Derivatives row = derivatives_at(basis_.polygon(), piece);
-  Certificate::Bound failed{};
-  if (prove(piece, start, end, row.second.transpose() * jumps.l, row.third.dot(jumps.l.cwiseAbs()),
-            row.second.transpose() * jumps.nu, row.third.dot(jumps.nu.cwiseAbs()), bounds, failed))
-    return;
   if (depth == 0) {
-    if (result.open.empty()) result.failed = failed, result.where = 0.5 * (piece.start + piece.end);
+    if (result.open.empty()) result.where = 0.5 * (piece.start + piece.end);
     result.open.push_back(0.5 * (piece.start + piece.end));
     return;
   }
   const double middle = 0.5 * (piece.from + piece.to);
   const BoundaryPiece first = piece_of(basis_.domain(), piece.segment, piece.from, middle),
                       second = piece_of(basis_.domain(), piece.segment, middle, piece.to);
-  const MatrixXc c = basis_.values(std::span(&first.end, 1));
-  const Values at{(c * map.l)(0), (c * map.nu)(0)};
-  halve(first, start, at, map, jumps, bounds, depth - 1, result);
-  halve(second, at, end, map, jumps, bounds, depth - 1, result);
+  const Values at_middle = at(first.end, l, nu);
+  for (const auto& [half, from, to] :
+       {std::tie(first, start, at_middle), std::tie(second, at_middle, end)}) {
+    const Sight sight = sight_of(basis_.polygon(), half);
+    const auto curvature = [&](const Function& f) {
+      return Curvature{(sight.second.transpose() * f.jumps)(0), sight.nearer.dot(f.moduli),
+                       sight.near.dot(f.moduli)};
+    };
+    Certificate::Bound failed{};
+    if (prove(half, from, to, curvature(l), curvature(nu), bounds, failed)) continue;
+    if (result.open.empty()) result.failed = failed;
+    halve(half, from, to, l, nu, bounds, depth - 1, result);
+  }
 }
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
-  const Slopes jumps{jumps_of(map.l), jumps_of(map.nu)};
-  const VectorXc l = values_ * map.l, nu = values_ * map.nu, l2 = second_ * jumps.l,
-                 nu2 = second_ * jumps.nu;
-  const VectorXd l3 = third_ * jumps.l.cwiseAbs(), nu3 = third_ * jumps.nu.cwiseAbs();
+  const Function fl = function_of(map.l), fnu = function_of(map.nu);
+  const VectorXc l = values_ * map.l, nu = values_ * map.nu, l2 = second_ * fl.jumps,
+                 nu2 = second_ * fnu.jumps;
+  const VectorXd l3 = nearer_ * fl.moduli, nu3 = nearer_ * fnu.moduli, lb = near_ * fl.moduli,
+                 nub = near_ * fnu.moduli;
   Certificate result;
   const Index count = l.size();
   for (Index i = 0; i < count; ++i) {
@@ -129,8 +159,10 @@ Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int dept
     const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
     const Values start{l[i], nu[i]}, end{l[next], nu[next]};
     Certificate::Bound failed{};
-    if (!prove(piece, start, end, l2[i], l3[i], nu2[i], nu3[i], bounds, failed))
-      halve(piece, start, end, map, jumps, bounds, depth, result);
+    if (prove(piece, start, end, {l2[i], l3[i], lb[i]}, {nu2[i], nu3[i], nub[i]}, bounds, failed))
+      continue;
+    if (result.open.empty()) result.failed = failed;
+    halve(piece, start, end, fl, fnu, bounds, depth, result);
   }
   result.holds = result.open.empty();
   return result;

@@ -94,7 +94,7 @@ class Solver {
           "cone program: sizes agree");
     s_.resize(system.cones.size());
     check(take_slacks(at_.x, s_), "cone program: the start is strictly feasible");
-    if (at_.z.size() != s_.size() || (!at_.z.empty() && at_.z[0].cols() != m_)) centre_duals();
+    centre_duals();
     if (at_.fit_duals.size() != k_) at_.fit_duals = VectorXd::Zero(k_);
     scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
     smoothing_ = k_ > 0 ? std::max(settings.smoothing, 0.3) : 0;
@@ -147,13 +147,22 @@ class Solver {
     return cone.slope + (cone.decay > 0 ? cone.decay * decay_[i] : 0);
   }
 
-  /// z = mu s^-1 at a moderate mu.
+  /// z = mu s^-1 where there are no multipliers, at a moderate mu or the present one.
   void centre_duals() {
-    at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, m_));
-    const double mu = 0.1 / static_cast<double>(std::max<Index>(m_, 1));
-    for (size_t c = 0; c < s_.size(); ++c)
-      for (Index i = 0; i < m_; ++i)
+    if (at_.z.size() != s_.size()) at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, 0));
+    const Index known = std::min(at_.z.empty() ? 0 : at_.z[0].cols(), m_);
+    double mu = 0.1 / static_cast<double>(std::max<Index>(m_, 1));
+    if (known > 0) {
+      mu = 0;
+      for (size_t c = 0; c < s_.size(); ++c)
+        mu += s_[c].leftCols(known).cwiseProduct(at_.z[c].leftCols(known)).sum();
+      mu /= static_cast<double>(known) * static_cast<double>(s_.size());
+    }
+    for (size_t c = 0; c < s_.size(); ++c) {
+      at_.z[c].conservativeResize(3, m_);
+      for (Index i = known; i < m_; ++i)
         at_.z[c].col(i) = mu / det(s_[c].col(i)) * reflected(s_[c].col(i));
+    }
   }
 
   /// Sum over the cones of J' v.

@@ -68,11 +68,11 @@ bool is_feasible(const ConeSystem& system, const VectorXd& x);
 double energy_of(const ConeSystem& system, const ConeTarget& target, const VectorXd& x);
 
 /// Solves the program from `start.x`, which must be strictly feasible (a check); multipliers that
-/// are missing or of another size are made up. Every iterate is strictly feasible, so that stopping
-/// after settings.iterations still gives a point that keeps all cones. Primal-dual interior points
-/// with Nesterov-Todd scaling and Mehrotra's corrector; the norm by the duals of Chan, Golub, Mulet
-/// 1999. Cost: an iteration takes one Cholesky factorisation and one symmetric product of
-/// (p + q)^2 (m + k) / 2.
+/// are missing, as those of appended samples, are made up. Every iterate is strictly feasible, so
+/// that stopping after settings.iterations still gives a point that keeps all cones. Primal-dual
+/// interior points with Nesterov-Todd scaling and Mehrotra's corrector; the norm by the duals of
+/// Chan, Golub, Mulet 1999. Cost: an iteration takes one Cholesky factorisation and one symmetric
+/// product of (p + q)^2 (m + k) / 2.
 ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
                     const ConeSettings& settings, const ConeSolution& start);
 

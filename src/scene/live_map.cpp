@@ -47,6 +47,8 @@ std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precisio
   prepared->deformer =
       method_named(scene.method)
           .prepare(prepared->rest, same_method ? previous->deformer.get() : nullptr);
+  for (const RestPin& pin : prepared->rest.pins)
+    prepared->pins.push_back(locate(*prepared->mesh, prepared->mesh->vertices, pin.position));
   prepared->milliseconds = now_ms() - start;
   return prepared;
 }
@@ -149,6 +151,20 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   posed_ = scene;
   posed_wanted_ = wanted;
   return true;
+}
+
+std::optional<Complex> LiveMap::pin_place(size_t i) const {
+  if (!has_map() || i >= shown_->pins.size() || !shown_->pins[i]) return {};
+  return shown_->pins[i]->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())});
+}
+
+Points LiveMap::zero_places() const {
+  Points places;
+  if (!has_map()) return places;
+  for (const Complex& zero : map_.zeros)
+    if (const auto at = locate(*shown_->mesh, shown_->mesh->vertices, zero))
+      places.push_back(at->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())}));
+  return places;
 }
 
 void LiveMap::clear() {

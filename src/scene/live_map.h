@@ -19,7 +19,8 @@ struct PreparedMap {
   std::string method;
   std::shared_ptr<const Mesh> mesh;
   std::unique_ptr<Deformer> deformer;
-  double milliseconds = 0;  ///< what preparing took
+  std::vector<std::optional<Location>> pins;  ///< of the rest's pins; none outside the mesh
+  double milliseconds = 0;                    ///< what preparing took
 };
 
 /// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh
@@ -57,6 +58,10 @@ class LiveMap {
   /// Where the shown map turns the picture over most, in the posed picture; none when that is less
   /// than 1e-4 of its area.
   std::optional<Complex> fold() const { return fold_; }
+  /// Where the map takes the place that pin `i` holds at rest.
+  std::optional<Complex> pin_place(size_t i) const;
+  /// Where the map takes the zeros that it reports.
+  Points zero_places() const;
   /// The scene that map() shows; it may lag behind the one being edited.
   const std::optional<Scene>& posed() const { return posed_; }
   double pose_milliseconds() const { return pose_milliseconds_; }

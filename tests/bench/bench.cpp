@@ -184,6 +184,49 @@ double inverse_ms(int runs) {
   });
 }
 
+/// A bar of 16 vertices with pins, one of which is dragged around until the reference folds.
+Scene pulled_bar() {
+  Points bar;
+  for (int i = 0; i < 8; ++i) bar.push_back({100.0 * i, 0});
+  for (int i = 7; i >= 0; --i) bar.push_back({100.0 * i, 160});
+  Scene scene = scene_with(bar);
+  scene.method = "bounded";
+  for (const Complex z : {Complex(40, 80), Complex(350, 80), Complex(660, 80)})
+    scene.pins.push_back({z, z, {}, {}});
+  return scene;
+}
+
+/// 300 frames of a drag: the median or the longest frame, or how many frames were not certified.
+enum class DragFigure { median, longest, unproved };
+
+double bounded_drag(DragFigure figure) {
+  Scene scene = pulled_bar();
+  const auto prepared = prepared_map(scene, Precision::single, {5000});
+  std::vector<double> times;
+  int unproved = 0;
+  SampledMap map;
+  for (int frame = 0; frame < 300; ++frame) {
+    const double t = frame / 300.0;
+    scene.pins[2].pose = Complex(350, 80) + (310 - 280 * t) * std::polar(1.0, 7 * t);
+    const double start = now_ms();
+    prepared->deformer->deform(pose_of(scene), map, {false, true});
+    times.push_back(now_ms() - start);
+    unproved += map.status != SampledMap::Status::certified;
+  }
+  if (figure == DragFigure::unproved) return unproved;
+  if (figure == DragFigure::longest) return *std::max_element(times.begin(), times.end());
+  std::nth_element(times.begin(), times.begin() + 150, times.end());
+  return times[150];
+}
+
+double bounded_cold_ms(int runs) {
+  Scene scene = pulled_bar();
+  const auto prepared = prepared_map(scene, Precision::single, {5000});
+  scene.pins[2].pose = Complex(350, 80) + 120.0 * std::polar(1.0, 3.0);
+  SampledMap map;
+  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+}
+
 double prepare_ms(int runs) {
   const Scene scene = scene_with(wavy(100, {500, 500}, 350));
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
@@ -285,6 +328,13 @@ const Entry kEntries[] = {
     {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
     {"pins: one pin more at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
+    {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",
+     "ms", 16, 1, [](int) { return bounded_drag(DragFigure::median); }},
+    {"bounded: the same, the longest frame", "ms", 33, 1,
+     [](int) { return bounded_drag(DragFigure::longest); }},
+    {"bounded: the same, frames that were not proved", "", 0, 1,
+     [](int) { return bounded_drag(DragFigure::unproved); }},
+    {"bounded: a folded pose from nothing, end to end", "ms", 0, 9, bounded_cold_ms},
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
      [](int runs) { return export_ms(runs, 2); }},
     {"export: the same, one core", "ms", 0, 9, [](int runs) { return export_ms(runs, 1); }},
