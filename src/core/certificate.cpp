@@ -46,6 +46,11 @@ Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
   return sight;
 }
 
+/// How far a piece's points are from its middle.
+double reach_of(const BoundaryPiece& piece) {
+  return 0.5 * piece.length + piece.bend / 8;
+}
+
 }  // namespace
 
 Certifier::Function Certifier::function_of(const VectorXc& a) const {
@@ -96,20 +101,18 @@ Certifier::Values Certifier::at(Complex z, const Function& l, const Function& nu
 }
 
 bool Certifier::prove(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      const Curvature& l, const Curvature& nu, const Bounds& bounds,
+                      double second_l, double second_nu, const Bounds& bounds,
                       Certificate::Bound& failed) const {
-  // |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8; the middle is within half the length and
-  // bend.
-  const double reach = 0.5 * piece.length + piece.bend / 8,
-               chord = std::abs(piece.end - piece.start);
-  const auto off = [&](const Curvature& f, Complex from, Complex to) {
-    const double most = std::min(std::abs(f.second) + f.third * reach, f.bound);
+  // |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8.
+  const auto off = [&](double most, Complex from, Complex to) {
     double sum = most * piece.length * piece.length;
     // |F'| from the chord's slope, which F' equals on average.
-    if (piece.bend > 0) sum += piece.bend * (std::abs(to - from) / chord + 2 * most * reach);
+    if (piece.bend > 0)
+      sum += piece.bend *
+             (std::abs(to - from) / std::abs(piece.end - piece.start) + 2 * most * reach_of(piece));
     return sum / 8;
   };
-  const double dl = off(l, start.l, end.l), dnu = off(nu, start.nu, end.nu);
+  const double dl = off(second_l, start.l, end.l), dnu = off(second_nu, start.nu, end.nu);
   for (const Values& at : {start, end}) {
     const double u = at.l.real(), w = std::abs(at.nu) + dnu;
     if (!(w <= bounds.k)) return failed = Certificate::Bound::k, false;
@@ -121,8 +124,8 @@ bool Certifier::prove(const BoundaryPiece& piece, const Values& start, const Val
 }
 
 void Certifier::halve(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      const Function& l, const Function& nu, const Bounds& bounds, int depth,
-                      Certificate& result) const {
+                      const Function& l, const Function& nu, double second_l, double second_nu,
+                      const Bounds& bounds, int depth, Certificate& result) const {
   if (depth == 0) {
     if (result.open.empty()) result.where = 0.5 * (piece.start + piece.end);
     result.open.push_back(0.5 * (piece.start + piece.end));
@@ -134,15 +137,10 @@ void Certifier::halve(const BoundaryPiece& piece, const Values& start, const Val
   const Values at_middle = at(first.end, l, nu);
   for (const auto& [half, from, to] :
        {std::tie(first, start, at_middle), std::tie(second, at_middle, end)}) {
-    const Sight sight = sight_of(basis_.polygon(), half);
-    const auto curvature = [&](const Function& f) {
-      return Curvature{(sight.second.transpose() * f.jumps)(0), sight.nearer.dot(f.moduli),
-                       sight.near.dot(f.moduli)};
-    };
     Certificate::Bound failed{};
-    if (prove(half, from, to, curvature(l), curvature(nu), bounds, failed)) continue;
+    if (prove(half, from, to, second_l, second_nu, bounds, failed)) continue;
     if (result.open.empty()) result.failed = failed;
-    halve(half, from, to, l, nu, bounds, depth - 1, result);
+    halve(half, from, to, l, nu, second_l, second_nu, bounds, depth - 1, result);
   }
 }
 
@@ -159,10 +157,13 @@ Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int dept
     const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
     const Values start{l[i], nu[i]}, end{l[next], nu[next]};
     Certificate::Bound failed{};
-    if (prove(piece, start, end, {l2[i], l3[i], lb[i]}, {nu2[i], nu3[i], nub[i]}, bounds, failed))
-      continue;
+    // What bounds |F''| on a piece bounds it on its halves.
+    const double reach = reach_of(piece),
+                 second_l = std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
+                 second_nu = std::min(std::abs(nu2[i]) + nu3[i] * reach, nub[i]);
+    if (prove(piece, start, end, second_l, second_nu, bounds, failed)) continue;
     if (result.open.empty()) result.failed = failed;
-    halve(piece, start, end, fl, fnu, bounds, depth, result);
+    halve(piece, start, end, fl, fnu, second_l, second_nu, bounds, depth, result);
   }
   result.holds = result.open.empty();
   return result;

@@ -57,17 +57,14 @@ class Certifier {
     VectorXc values, slopes, jumps;
     VectorXd moduli;
   };
-  /// F'' in the middle of a piece, and bounds of |F'''| and |F''| on it.
-  struct Curvature {
-    Complex second;
-    double third, bound;
-  };
   Function function_of(const VectorXc& coefficients) const;
   Values at(Complex z, const Function& l, const Function& nu) const;
-  bool prove(const BoundaryPiece& piece, const Values& start, const Values& end, const Curvature& l,
-             const Curvature& nu, const Bounds& bounds, Certificate::Bound& failed) const;
+  /// With bounds of |l''| and |nu''| on the piece.
+  bool prove(const BoundaryPiece& piece, const Values& start, const Values& end, double second_l,
+             double second_nu, const Bounds& bounds, Certificate::Bound& failed) const;
   void halve(const BoundaryPiece& piece, const Values& start, const Values& end, const Function& l,
-             const Function& nu, const Bounds& bounds, int depth, Certificate& result) const;
+             const Function& nu, double second_l, double second_nu, const Bounds& bounds, int depth,
+             Certificate& result) const;
 
   const BoundaryBasis& basis_;
   MatrixXc values_;         ///< C at samples
