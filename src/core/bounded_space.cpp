@@ -168,8 +168,7 @@ double BoundedSpace::energy(const BoundedReference& reference, const ConeSolutio
 BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const BoundedMap* warm) const {
   const ConeTarget target = target_of(reference);
   ConeSettings settings;
-  settings.gap = warm ? 1e-3 : 1e-5;
-  settings.smoothing = warm ? 0.03 : 0.01;
+  settings.gap = warm ? 1e-3 : 1e-4;
   settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
   settings.neglected = 0.1;
   BoundedMap best;

@@ -95,22 +95,21 @@ class Solver {
     s_.resize(system.cones.size());
     check(take_slacks(at_.x, s_), "cone program: the start is strictly feasible");
     centre_duals();
-    if (at_.fit_duals.size() != k_) at_.fit_duals = VectorXd::Zero(k_);
+    start_fit(start.fit_duals.size() == k_);
     scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
-    smoothing_ = k_ > 0 ? std::max(settings.smoothing, 0.3) : 0;
   }
 
   ConeSolution run() {
     for (at_.iterations = 0;; ++at_.iterations) {
       take_gradient();
       measure();
-      if (at_.gap <= settings_.gap && at_.residual <= settings_.residual &&
-          smoothing_ <= settings_.smoothing) {
+      if (at_.gap <= settings_.gap && at_.residual <= settings_.residual) {
         at_.status = ConeSolution::Status::solved;
         break;
       }
       if (at_.iterations == settings_.iterations || !step()) break;
     }
+    at_.fit_duals = (up_.z - down_.z) / system_.fit_weight;
     at_.energy = energy_of(system_, target_, at_.x);
     return std::move(at_);
   }
@@ -179,18 +178,59 @@ class Solver {
     return result;
   }
 
-  void take_gradient() {
-    gradient_ = system_.quadratic * at_.x + target_.linear;
+  /// One side of |r| <= t: slacks t - r or t + r, multipliers, and their directions.
+  struct Side {
+    VectorXd s, z, ds, dz;
+  };
+
+  void start_fit(bool warm) {
+    residual_ = fit_residual(at_.x);
+    constexpr double kRoom = 0.1;  // between |r| and its bound
+    const double room = std::max(kRoom, k_ > 0 ? residual_.cwiseAbs().mean() : 0.0);
+    const VectorXd t = residual_.cwiseAbs().array() + (warm ? 0.2 * kRoom : room);
+    up_.s = t - residual_;
+    down_.s = t + residual_;
+    constexpr double kSurest = 0.95;
+    const VectorXd d =
+        warm ? VectorXd(at_.fit_duals.cwiseMax(-kSurest).cwiseMin(kSurest)) : VectorXd::Zero(k_);
+    up_.z = 0.5 * system_.fit_weight * (1 + d.array());
+    down_.z = 0.5 * system_.fit_weight * (1 - d.array());
+  }
+
+  VectorXd fit_residual(const VectorXd& x) const {
+    return k_ > 0 ? VectorXd(system_.fit.transpose() * x.head(p_) - target_.wanted) : VectorXd();
+  }
+
+  void take_gradient() { gradient_ = system_.quadratic * at_.x + target_.linear; }
+
+  /// Adds the fit's share of the right-hand side, with c = (the complementarity's right) / s - z.
+  void add_fit_right(const VectorXd& up, const VectorXd& down, VectorXd& right) const {
     if (k_ == 0) return;
-    residual_ = system_.fit.transpose() * at_.x.head(p_) - target_.wanted;
-    rho_ = (residual_.array().square() + smoothing_ * smoothing_).sqrt();
-    gradient_.head(p_) += system_.fit_weight * (system_.fit * residual_.cwiseQuotient(rho_));
+    const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array();
+    const VectorXd pull =
+        (up_.z - down_.z).array() + 2 * (up.array() * dd - down.array() * du) / (du + dd);
+    right.head(p_) -= system_.fit * pull;
+  }
+
+  /// Directions of both sides from that of the residuals: t is free, up.z + down.z stays.
+  void push_fit(const VectorXd& dx, const VectorXd& up, const VectorXd& down) {
+    if (k_ == 0) return;
+    const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array(),
+                         dr = (system_.fit.transpose() * dx.head(p_)).array(),
+                         dt = (up.array() + down.array() + (du - dd) * dr) / (du + dd);
+    up_.ds = dt - dr;
+    down_.ds = dt + dr;
+    up_.dz = up.array() - du * (dt - dr);
+    down_.dz = -up_.dz;
   }
 
   void measure() {
     at_.gap = 0;
     for (size_t c = 0; c < s_.size(); ++c) at_.gap += s_[c].cwiseProduct(at_.z[c]).sum();
-    at_.residual = (gradient_ - pulled_back(at_.z)).norm();
+    at_.gap += up_.s.dot(up_.z) + down_.s.dot(down_.z);
+    VectorXd lagrangian = gradient_ - pulled_back(at_.z);
+    if (k_ > 0) lagrangian.head(p_) += system_.fit * (up_.z - down_.z);
+    at_.residual = lagrangian.norm();
   }
 
   /// The normal matrix' lower triangle.
@@ -206,11 +246,10 @@ class Solver {
     add_barrier();
   }
 
-  /// Curvature (1 - d r / rho) / rho with d the dual; 1 - (r / rho)^2 when it has settled.
+  /// Curvature 4 / (s / z of both sides) of |r| along the central path.
   void add_fit() {
     for (Index i = 0; i < k_; ++i) {
-      const double along = at_.fit_duals[i] * residual_[i] / rho_[i];
-      const double weight = system_.fit_weight * std::max(1 - along, 1e-9) / rho_[i];
+      const double weight = 4 / (up_.s[i] / up_.z[i] + down_.s[i] / down_.z[i]);
       scratch_.col(i) = std::sqrt(weight) * system_.fit.col(i);
     }
     add_gram(scratch_, k_, 0, normal_);
@@ -287,6 +326,11 @@ class Solver {
       for (Index i = 0; i < m_; ++i)
         step = std::min({step, step_to_boundary(s_[c].col(i), ds[c].col(i)),
                          step_to_boundary(at_.z[c].col(i), dz[c].col(i))});
+    for (const Side* side : {&up_, &down_})
+      for (Index i = 0; i < k_; ++i) {
+        if (side->ds[i] < 0) step = std::min(step, -side->s[i] / side->ds[i]);
+        if (side->dz[i] < 0) step = std::min(step, -side->z[i] / side->dz[i]);
+      }
     return step;
   }
 
@@ -297,27 +341,39 @@ class Solver {
       normal_.diagonal().array() += ridge;
       if (!cholesky_.factor(normal_)) return false;
     }
-    const double count = static_cast<double>(m_) * static_cast<double>(s_.size());
+    const double count = static_cast<double>(m_ * static_cast<Index>(s_.size()) + 2 * k_);
     const double mu = at_.gap / std::max(count, 1.0);
-    VectorXd dx = cholesky_.solve(-gradient_);
+    VectorXd up = -up_.z, down = -down_.z, right = -gradient_;
+    add_fit_right(up, down, right);
+    VectorXd dx = cholesky_.solve(right);
     push(dx, ds_);
+    push_fit(dx, up, down);
     dual_step(ds_, nullptr, dz_);
     const double reach = std::min(1.0, longest(ds_, dz_));
     double later = 0;
     for (size_t c = 0; c < s_.size(); ++c)
       later += (s_[c] + reach * ds_[c]).cwiseProduct(at_.z[c] + reach * dz_[c]).sum();
+    for (const Side* side : {&up_, &down_})
+      if (k_ > 0) later += (side->s + reach * side->ds).dot(side->z + reach * side->dz);
     const double center = std::pow(std::clamp(later / at_.gap, 0.0, 1.0), 3);
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i) {
         const Scaling& scaling = scalings_[c][static_cast<size_t>(i)];
         const Cone3 lambda = scaling.apply(at_.z[c].col(i));
-        Cone3 right = -jordan(scaling.undo(ds_[c].col(i)), scaling.apply(dz_[c].col(i)));
-        right[0] += center * mu;
-        dz_[c].col(i) = scaling.undo(divided(lambda, right));
+        Cone3 corrected = -jordan(scaling.undo(ds_[c].col(i)), scaling.apply(dz_[c].col(i)));
+        corrected[0] += center * mu;
+        dz_[c].col(i) = scaling.undo(divided(lambda, corrected));
       }
-    std::vector<Eigen::Matrix3Xd> t = dz_;
-    dx = cholesky_.solve(pulled_back(t) - gradient_);
+    const auto corrected = [&](const Side& side) -> VectorXd {
+      return (center * mu - side.ds.array() * side.dz.array()) / side.s.array() - side.z.array();
+    };
+    if (k_ > 0) up = corrected(up_), down = corrected(down_);
+    const std::vector<Eigen::Matrix3Xd> t = dz_;
+    right = pulled_back(t) - gradient_;
+    add_fit_right(up, down, right);
+    dx = cholesky_.solve(right);
     push(dx, ds_);
+    push_fit(dx, up, down);
     dual_step(ds_, &t, dz_);
     return move(dx, 0.98 * longest(ds_, dz_));
   }
@@ -342,23 +398,12 @@ class Solver {
       take_slacks(at_.x, s_);
       return false;
     }
-    move_fit_duals(x - at_.x, length);
     at_.x = std::move(x);
     s_ = std::move(slacks);
     for (size_t c = 0; c < s_.size(); ++c) at_.z[c] += length * dz_[c];
+    for (Side* side : {&up_, &down_})
+      if (k_ > 0) side->s += length * side->ds, side->z += length * side->dz;
     return true;
-  }
-
-  void move_fit_duals(const VectorXd& moved, double length) {
-    if (k_ == 0) return;
-    const VectorXd dr = system_.fit.transpose() * moved.head(p_);
-    for (Index i = 0; i < k_; ++i) {
-      double& d = at_.fit_duals[i];
-      const double r = residual_[i] / rho_[i];
-      d += (1 - d * r) * dr[i] / rho_[i] + length * (r - d);
-      d = std::clamp(d, -0.999, 0.999);
-    }
-    smoothing_ = std::max(settings_.smoothing, 0.3 * smoothing_);
   }
 
   const ConeSystem& system_;
@@ -366,10 +411,10 @@ class Solver {
   const ConeSettings& settings_;
   Index p_, q_, m_, k_;
   ConeSolution at_;
-  double smoothing_ = 0;
+  Side up_, down_;
   std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
   std::vector<std::vector<Scaling>> scalings_;
-  VectorXd decay_, gradient_, residual_, rho_;
+  VectorXd decay_, gradient_, residual_;
   MatrixXd normal_, scratch_, across_, left_;
   Cholesky cholesky_;
 };

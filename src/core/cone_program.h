@@ -42,10 +42,9 @@ struct ConeTarget {
 };
 
 struct ConeSettings {
-  double gap = 1e-4;        ///< of the energy: the sum of the cones' s'z
-  double residual = 3e-3;   ///< norm of the Lagrangian's gradient
-  double smoothing = 0.01;  ///< |r| is sqrt(r^2 + smoothing^2)
-  double neglected = 0;     ///< samples whose barrier curves less than this are left out of it
+  double gap = 1e-4;       ///< of the energy: the sum of all slacks times their multipliers
+  double residual = 3e-3;  ///< norm of the Lagrangian's gradient
+  double neglected = 0;    ///< samples whose barrier curves less than this are left out of it
   int iterations = 60;
 };
 
@@ -55,8 +54,8 @@ struct ConeSolution {
   Status status = Status::stopped;
   VectorXd x;
   std::vector<Eigen::Matrix3Xd> z;  ///< for each cone 3 x m: (height, w)
-  VectorXd fit_duals;               ///< in (-1, 1)
-  double energy = 0;                ///< of the exact norm, without smoothing
+  VectorXd fit_duals;               ///< in (-1, 1): the signs of the fit's residuals, at the end
+  double energy = 0;
   double gap = 0, residual = 0;
   int iterations = 0;
 };
