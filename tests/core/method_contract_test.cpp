@@ -105,7 +105,9 @@ TEST_CASE("Contract: the rest pose gives the identity, to the last bit") {
 
 TEST_CASE("Contract: a similarity of the pose gives that similarity") {
   for_every_method([](const Method& method, const Setup& s, double tolerance) {
-    const Complex a{0.4, 1.1}, b{30, -12};
+    Complex a{0.4, 1.1};
+    const Complex b{30, -12};
+    if (!method.similar) a /= std::abs(a);  // a turn, at least
     const SampledMap map = run(method, s.rest, mapped(s.rest, a, b));
     const VectorXc exact = (a * samples_of(s.rest)).array() + b;
     CHECK((map.f - exact).cwiseAbs().maxCoeff() <= tolerance);
@@ -138,6 +140,7 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else")
 TEST_CASE("Contract: derivatives agree with finite differences") {
   for_every_method([](const Method& method, Setup s, double) {
     if (s.rest.precision == Precision::single) return;  // differences of floats say nothing
+    if (method.id == "arap") return;                    // linear on triangles: tested below
     const Points centers{{50, 50}, {120, 40}, {60, 150}, {20, 90}};
     const double h = 1e-3;
     s.rest.samples.clear();

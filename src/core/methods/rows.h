@@ -12,6 +12,12 @@ Method cage_method();
 /// targets.
 Method pins_method();
 
+/// `arap`: triangles that keep their shape and size as well as they can.
+Method arap_method();
+
+/// `har_arap`: the same energy among smooth harmonic maps.
+Method har_arap_method();
+
 /// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
 Method bounded_method(const std::vector<Method>& references);
 

@@ -1,0 +1,234 @@
+// Method `arap`: every triangle turns as it likes and would rather not do anything else (Sorkine,
+// Alexa 2007; per triangle as in Liu, Zhang, Xu, Gotsman, Gortler 2008, section 4).
+//
+// With f_z and f_zbar of a triangle the energy is the sum of area (|f_z - R|^2 + |f_zbar|^2),
+// |R| = 1: R = f_z / |f_z|, then one sparse solve for f, and so on.
+#include <Eigen/SparseCholesky>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+#include "core/methods/handles.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kMostIterations = 120, kDraftIterations = 6;
+constexpr double kSettled = 1e-5;  ///< of the size: the largest move of the last iteration
+constexpr double kHold = 1e3;      ///< of handles against the mean diagonal of the energy
+
+class ArapDeformer final : public Deformer {
+ public:
+  explicit ArapDeformer(const Rest& rest) : rest_(rest), mesh_(*rest.mesh), handles_(rest_) {
+    const Index n = static_cast<Index>(mesh_.vertices.size());
+    size_ = box_of(mesh_.vertices).diagonal();
+    std::vector<Eigen::Triplet<double>> rigid;
+    std::vector<Eigen::Triplet<Complex>> angles;
+    double diagonal = 0;
+    for (const Triangle& t : mesh_.triangles)
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          const Complex ea = opposite(t, a), eb = opposite(t, b);
+          const double area = area_of(t);
+          const double weight = dot(ea, eb) / (8 * area);
+          rigid.push_back({t[a], t[b], weight});
+          if (a == b) diagonal += weight;
+          // conj(f_zbar's weight of a) times that of b; a little of the rest makes it definite.
+          constexpr double kLittle = 1e-3;
+          angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kLittle * weight});
+        }
+    hold_ = kHold * diagonal / static_cast<double>(n);
+    for (const Location& at : handles_.locations())
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          const Triangle& t = mesh_.triangles[static_cast<size_t>(at.triangle)];
+          const double weight =
+              hold_ * at.weights[static_cast<size_t>(a)] * at.weights[static_cast<size_t>(b)];
+          rigid.push_back({t[a], t[b], weight});
+          angles.push_back({t[a], t[b], weight});
+        }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(rigid.begin(), rigid.end());
+    rigid_.compute(matrix);
+    Eigen::SparseMatrix<Complex> conformal(n, n);
+    conformal.setFromTriplets(angles.begin(), angles.end());
+    conformal_.compute(conformal);
+    check(rigid_.info() == Eigen::Success && conformal_.info() == Eigen::Success,
+          "arap: the energy is definite");
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    const Points targets = handles_.targets(pose);
+    out = SampledMap{};
+    out.note = handles_.note();
+    turn_.reset();
+    if (const auto rigid = handles_.rigid(targets)) {
+      turn_ = rigid->turn;
+      f_.resize(static_cast<Index>(mesh_.vertices.size()));
+      for (Index i = 0; i < f_.size(); ++i)
+        f_[i] = rigid->turn == Complex(1) && rigid->from == rigid->to
+                    ? mesh_.vertices[static_cast<size_t>(i)]
+                    : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
+    } else {
+      out.iterations = minimise(targets, wanted.draft);
+      if (wanted.draft && out.iterations == kDraftIterations)
+        out.status = SampledMap::Status::iterating;
+    }
+    answer(out, wanted);
+  }
+
+ private:
+  Complex opposite(const Triangle& t, int corner) const {
+    return mesh_.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
+           mesh_.vertices[static_cast<size_t>(t[(corner + 1) % 3])];
+  }
+  double area_of(const Triangle& t) const { return 0.5 * cross(opposite(t, 2), opposite(t, 0)); }
+
+  struct Derivatives {
+    Complex fz, fzbar;
+  };
+  Derivatives derivatives_of(const Triangle& t) const {
+    if (turn_) return {*turn_, 0};
+    Derivatives d{0, 0};
+    for (int a = 0; a < 3; ++a) {
+      const Complex e = opposite(t, a), f = f_[t[a]];
+      d.fz += times(-kI * std::conj(e), f);
+      d.fzbar += times(kI * e, f);
+    }
+    const double over = 1 / (4 * area_of(t));
+    return {d.fz * over, d.fzbar * over};
+  }
+
+  void add_targets(const Points& targets, VectorXc& right) const {
+    for (size_t h = 0; h < targets.size(); ++h) {
+      const Location& at = handles_.locations()[h];
+      for (int a = 0; a < 3; ++a)
+        right[mesh_.triangles[static_cast<size_t>(at.triangle)][a]] +=
+            hold_ * at.weights[static_cast<size_t>(a)] * targets[h];
+    }
+  }
+
+  /// The start: the most conformal map, found at once. While dragging, the last answer.
+  void start(const Points& targets) {
+    VectorXc right = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
+    add_targets(targets, right);
+    f_ = conformal_.solve(right);
+  }
+
+  int minimise(const Points& targets, bool draft) {
+    if (!draft || f_.size() == 0) start(targets);
+    const int most = draft ? kDraftIterations : kMostIterations;
+    int iteration = 0;
+    for (double moved = 1; iteration < most && moved > kSettled * size_; ++iteration) {
+      VectorXc right = VectorXc::Zero(f_.size());
+      for (const Triangle& t : mesh_.triangles) {
+        const Complex fz = derivatives_of(t).fz;
+        const double size = std::abs(fz);
+        const Complex turn = 0.25 * (size > 0 ? fz / size : Complex(1));
+        for (int a = 0; a < 3; ++a) right[t[a]] += times(kI * opposite(t, a), turn);
+      }
+      add_targets(targets, right);
+      VectorXc next(f_.size());
+      next.real() = rigid_.solve(right.real().eval());
+      next.imag() = rigid_.solve(right.imag().eval());
+      moved = (next - f_).cwiseAbs().maxCoeff();
+      f_ = std::move(next);
+    }
+    return iteration;
+  }
+
+  void answer(SampledMap& out, Wanted wanted) const {
+    const Index count = static_cast<Index>(rest_.samples.size());
+    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
+    const bool whole = rest_.samples == mesh_.vertices;
+    if (whole) {
+      out.f = f_;
+      if (!wanted.derivatives) return;
+      average_derivatives(out);
+      return;
+    }
+    out.f.resize(count);
+    out.fz.resize(count);
+    out.fzbar.resize(count);
+    for (Index i = 0; i < count; ++i) {
+      const Complex z = rest_.samples[static_cast<size_t>(i)];
+      const Location at = location_of(z);
+      const Derivatives d = derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)]);
+      out.f[i] = at.in(mesh_, f);
+      out.fz[i] = d.fz;
+      out.fzbar[i] = d.fzbar;
+    }
+  }
+
+  /// The triangle around z; just outside the mesh the nearest vertex' one goes on.
+  Location location_of(Complex z) const {
+    if (const auto at = locate(mesh_, mesh_.vertices, z)) return *at;
+    const auto nearest =
+        std::ranges::min_element(mesh_.vertices, {}, [&](Complex v) { return std::norm(v - z); });
+    const int vertex = static_cast<int>(nearest - mesh_.vertices.begin());
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Triangle& corners = mesh_.triangles[t];
+      if (std::ranges::find(corners, vertex) == corners.end()) continue;
+      const Complex a = mesh_.vertices[static_cast<size_t>(corners[0])] - z,
+                    b = mesh_.vertices[static_cast<size_t>(corners[1])] - z,
+                    c = mesh_.vertices[static_cast<size_t>(corners[2])] - z;
+      const double area = 2 * area_of(corners);
+      return {static_cast<int>(t), {cross(b, c) / area, cross(c, a) / area, cross(a, b) / area}};
+    }
+    return {0, {1, 0, 0}};
+  }
+
+  /// At a vertex the mean over its triangles, by area.
+  void average_derivatives(SampledMap& out) const {
+    const Index n = f_.size();
+    if (turn_) {
+      out.fz = VectorXc::Constant(n, *turn_);
+      out.fzbar = VectorXc::Zero(n);
+      return;
+    }
+    out.fz = VectorXc::Zero(n);
+    out.fzbar = VectorXc::Zero(n);
+    VectorXd areas = VectorXd::Zero(n);
+    for (const Triangle& t : mesh_.triangles) {
+      const Derivatives d = derivatives_of(t);
+      const double area = area_of(t);
+      for (const int v : t) {
+        out.fz[v] += area * d.fz;
+        out.fzbar[v] += area * d.fzbar;
+        areas[v] += area;
+      }
+    }
+    out.fz.array() /= areas.array();
+    out.fzbar.array() /= areas.array();
+  }
+
+  Rest rest_;
+  const Mesh& mesh_;
+  HandlePoints handles_;
+  double size_ = 1, hold_ = 1;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
+  VectorXc f_;
+  std::optional<Complex> turn_;  ///< of the whole picture, when it moves rigidly
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  return std::make_unique<ArapDeformer>(rest);
+}
+
+}  // namespace
+
+Method arap_method() {
+  return {"arap",
+          "As rigid as possible",
+          "Pins hold; everything else keeps its size and shape as well as it can. Without pins the "
+          "cage's points hold.",
+          {},
+          true,
+          false,
+          false,
+          prepare};
+}
+
+}  // namespace holomorph

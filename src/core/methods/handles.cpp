@@ -1,0 +1,69 @@
+// A pin that turns holds three points, so that its angle is one of positions.
+#include "core/methods/handles.h"
+
+#include "core/error.h"
+#include "core/methods/linear.h"
+
+namespace holomorph {
+
+HandlePoints::HandlePoints(const Rest& rest) : rest_(rest) {
+  check(rest.mesh != nullptr, "handle points: a rest with a mesh");
+  const double arm = 0.01 * box_of(rest.mesh->vertices).diagonal();
+  for (size_t i = 0; i < rest.pins.size(); ++i) {
+    const Index pin = static_cast<Index>(i);
+    const size_t before = rest_points_.size();
+    add(rest.pins[i].position, pin, 0);
+    if (rest_points_.size() == before && note_.empty())
+      note_ = "Pin " + std::to_string(i + 1) + " lies outside the cage and holds nothing";
+    if (!rest.pins[i].turns) continue;
+    for (const Complex side : {Complex(arm), arm * kI}) {
+      add(rest.pins[i].position + side, pin, side);
+      add(rest.pins[i].position - side, pin, -side);
+    }
+  }
+  pins_ = !rest_points_.empty();
+  for (Index v = 0; !pins_ && v < rest.cage.size(); ++v) add(rest.cage.vertex(v), v, 0);
+}
+
+void HandlePoints::add(Complex z, Index source, Complex arm) {
+  const auto at = locate(*rest_.mesh, rest_.mesh->vertices, z);
+  if (!at) return;
+  rest_points_.push_back(z);
+  locations_.push_back(*at);
+  sources_.push_back({source, arm});
+}
+
+Points HandlePoints::targets(const Pose& pose) const {
+  check_pose(rest_, pose);
+  Points targets;
+  for (const auto& [handle, arm] : sources_) {
+    if (!pins_) {
+      targets.push_back(pose.cage.vertex(handle));
+      continue;
+    }
+    const PosePin& pin = pose.pins[static_cast<size_t>(handle)];
+    targets.push_back(pin.position + arm * std::polar(pin.scale, pin.angle));
+  }
+  return targets;
+}
+
+std::optional<HandlePoints::Rigid> HandlePoints::rigid(const Points& targets) const {
+  if (targets == rest_points_) return Rigid{1, 0, 0};
+  Rigid rigid{1, 0, 0};
+  const double count = static_cast<double>(targets.size());
+  for (size_t i = 0; i < targets.size(); ++i)
+    rigid.from += rest_points_[i] / count, rigid.to += targets[i] / count;
+  Complex together = 0;
+  double size = 0;
+  for (size_t i = 0; i < targets.size(); ++i) {
+    together += std::conj(rest_points_[i] - rigid.from) * (targets[i] - rigid.to);
+    size = std::max({size, std::abs(rest_points_[i]), std::abs(targets[i])});
+  }
+  if (std::abs(together) > 0) rigid.turn = together / std::abs(together);
+  constexpr double kRounding = 1e-13;
+  for (size_t i = 0; i < targets.size(); ++i)
+    if (std::abs(rigid(rest_points_[i]) - targets[i]) > kRounding * size) return {};
+  return rigid;
+}
+
+}  // namespace holomorph

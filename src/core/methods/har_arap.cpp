@@ -1,0 +1,216 @@
+// Method `har_arap`: the energy of `arap` over the smooth maps f = Phi + conj(Psi), with Phi and
+// Psi in a Cauchy basis (Chen, Weber 2015, section 6.2).
+//
+// A few hundred unknowns and no mesh in the energy: f_z = Phi' and f_zbar = conj(Psi') at samples.
+#include "core/boundary_basis.h"
+#include "core/error.h"
+#include "core/methods/handles.h"
+#include "core/methods/linear.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 3;
+constexpr size_t kInnerSamples = 400;
+constexpr int kMostIterations = 400, kDraftIterations = 30;
+constexpr double kSettled = 1e-9;
+constexpr double kHold = 1e3;       ///< of a handle, against the mean of the energy
+constexpr double kLittle = 1e-3;    ///< of rigidity in the start, which is conformal otherwise
+constexpr double kDefinite = 1e-9;  ///< Phi's and Psi's constants are one too many
+
+class HarArapDeformer final : public Deformer {
+ public:
+  explicit HarArapDeformer(const Rest& rest)
+      : rest_(rest),
+        handles_(rest_),
+        basis_(rest.cage, std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis),
+               kSamplesPerVertex *
+                   std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis)) {
+    size_ = box_of(rest.mesh->vertices).diagonal();
+    take_energy();
+    take_handles();
+    const Cage polygon = polygon_cage(basis_.polygon());
+    values_ = planar_coordinates<double>(polygon, rest_.samples, 0);
+    slopes_ = planar_coordinates<double>(
+        polygon, rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    const Points targets = handles_.targets(pose);
+    out = SampledMap{};
+    out.note = handles_.note();
+    if (const auto rigid = handles_.rigid(targets)) return move_rigidly(*rigid, out, wanted);
+    out.iterations = minimise(targets, wanted.draft);
+    out.f = product(values_, phi_) + product(values_, psi_).conjugate();
+    if (!wanted.derivatives) return;
+    out.fz = product(slopes_, phi_);
+    out.fzbar = product(slopes_, psi_).conjugate();
+  }
+
+ private:
+  static VectorXc product(const PlanarMatrix<double>& matrix, const VectorXc& factors) {
+    PlanarMatrix<double> column(factors.size(), 1), sum(matrix.rows(), 1);
+    column.re = factors.real();
+    column.im = factors.imag();
+    multiply(matrix, column, sum);
+    VectorXc result(matrix.rows());
+    result.real() = sum.re;
+    result.imag() = sum.im;
+    return result;
+  }
+
+  MatrixXc coordinates(const Points& points, int order) const {
+    const PlanarMatrix<double> planar =
+        planar_coordinates<double>(polygon_cage(basis_.polygon()), points, order);
+    MatrixXc c(planar.rows(), planar.cols());
+    c.real() = planar.re;
+    c.imag() = planar.im;
+    return c;
+  }
+
+  /// Samples by area: the mesh's inner vertices, its triangles' shares as weights.
+  void take_energy() {
+    const Mesh& mesh = *rest_.mesh;
+    std::vector<double> areas(mesh.vertices.size(), 0);
+    double total = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const double area =
+          cross(mesh.vertices[static_cast<size_t>(b)] - mesh.vertices[static_cast<size_t>(a)],
+                mesh.vertices[static_cast<size_t>(c)] - mesh.vertices[static_cast<size_t>(a)]);
+      for (const int v : {a, b, c}) areas[static_cast<size_t>(v)] += area;
+      total += 3 * area;
+    }
+    // The share of what is passed over goes to the next sample.
+    const size_t step = std::max<size_t>(1, mesh.vertices.size() / kInnerSamples);
+    Points points;
+    std::vector<double> weights;
+    double share = 0;
+    for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+      share += areas[v] / total;
+      if (v % step != step - 1 && v + 1 < mesh.vertices.size()) continue;
+      points.push_back(mesh.vertices[v]);
+      weights.push_back(std::sqrt(share));
+      share = 0;
+    }
+    gradient_ = coordinates(points, 1);
+    for (size_t i = 0; i < points.size(); ++i) gradient_.row(static_cast<Index>(i)) *= weights[i];
+    weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
+  }
+
+  /// Normal matrices in (Re Phi, Im Phi, Re Psi, Im Psi): f = C Phi + conj(C Psi) at the handles.
+  void take_handles() {
+    held_ = coordinates(handles_.rest(), 0);
+    const Index n = basis_.size(), h = held_.rows();
+    hold_ = kHold / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
+    MatrixXd rows(4 * n, 2 * h);  // columns: Re f, Im f of each handle
+    rows.topLeftCorner(n, h) = held_.real().transpose();
+    rows.block(n, 0, n, h) = -held_.imag().transpose();
+    rows.block(2 * n, 0, n, h) = held_.real().transpose();
+    rows.block(3 * n, 0, n, h) = -held_.imag().transpose();
+    rows.topRightCorner(n, h) = held_.imag().transpose();
+    rows.block(n, h, n, h) = held_.real().transpose();
+    rows.block(2 * n, h, n, h) = -held_.imag().transpose();
+    rows.block(3 * n, h, n, h) = -held_.real().transpose();
+    held_rows_ = rows;
+    MatrixXd shared = kDefinite / (size_ * size_) * MatrixXd::Identity(4 * n, 4 * n);
+    add_gram(std::sqrt(hold_) * rows, 2 * h, 0, shared);
+    const MatrixXc gram = gradient_.adjoint() * gradient_;
+    MatrixXd real(2 * n, 2 * n);
+    real << gram.real(), -gram.imag(), gram.imag(), gram.real();
+    const auto factored = [&](double phi_weight, Cholesky& out) {
+      MatrixXd normal = shared;
+      normal.topLeftCorner(2 * n, 2 * n) += phi_weight * real;
+      normal.bottomRightCorner(2 * n, 2 * n) += real;
+      check(out.factor(normal), "har_arap: the energy is definite");
+    };
+    factored(1, rigid_);
+    factored(kLittle, conformal_);
+  }
+
+  VectorXd handle_right(const Points& targets) const {
+    const Index h = held_.rows();
+    VectorXd wanted(2 * h);
+    for (Index i = 0; i < h; ++i) {
+      wanted[i] = targets[static_cast<size_t>(i)].real();
+      wanted[h + i] = targets[static_cast<size_t>(i)].imag();
+    }
+    return hold_ * (held_rows_ * wanted);
+  }
+
+  void take(const VectorXd& x) {
+    const Index n = basis_.size();
+    phi_.resize(n);
+    psi_.resize(n);
+    phi_.real() = x.segment(0, n);
+    phi_.imag() = x.segment(n, n);
+    psi_.real() = x.segment(2 * n, n);
+    psi_.imag() = x.segment(3 * n, n);
+  }
+
+  int minimise(const Points& targets, bool draft) {
+    const VectorXd handles = handle_right(targets);
+    if (!draft || phi_.size() == 0) take(conformal_.solve(handles));
+    const Index n = basis_.size();
+    const int most = draft ? kDraftIterations : kMostIterations;
+    int iteration = 0;
+    for (double moved = 1; iteration < most && moved > kSettled; ++iteration) {
+      VectorXc turn = gradient_ * phi_;  // already weighted
+      for (Index i = 0; i < turn.size(); ++i) {
+        const double size = std::abs(turn[i]);
+        turn[i] = size > 0 ? weights_[i] * turn[i] / size : Complex(weights_[i]);
+      }
+      const VectorXc pull = gradient_.adjoint() * turn;
+      VectorXd right = handles;
+      right.segment(0, n) += pull.real();
+      right.segment(n, n) += pull.imag();
+      const VectorXc before = phi_;
+      take(rigid_.solve(right));
+      moved = (phi_ - before).cwiseAbs().maxCoeff() / size_;
+    }
+    return iteration;
+  }
+
+  void move_rigidly(const HandlePoints::Rigid& rigid, SampledMap& out, Wanted wanted) {
+    const Index count = static_cast<Index>(rest_.samples.size());
+    out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
+    if (rigid.turn != Complex(1) || rigid.from != rigid.to)
+      for (Complex& z : out.f) z = rigid(z);
+    phi_.resize(0);
+    if (!wanted.derivatives) return;
+    out.fz = VectorXc::Constant(count, rigid.turn);
+    out.fzbar = VectorXc::Zero(count);
+  }
+
+  Rest rest_;
+  HandlePoints handles_;
+  BoundaryBasis basis_;
+  double size_ = 1, hold_ = 1;
+  MatrixXc gradient_, held_;  ///< C' at the energy's samples, weighted; C at the handles
+  MatrixXd held_rows_;
+  VectorXd weights_;
+  PlanarMatrix<double> values_, slopes_;
+  Cholesky rigid_, conformal_;
+  VectorXc phi_, psi_;
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  return std::make_unique<HarArapDeformer>(rest);
+}
+
+}  // namespace
+
+Method har_arap_method() {
+  return {"har_arap",
+          "Rigid and smooth",
+          "As rigid as possible among smooth maps: pins pull no spikes. Without pins the cage's "
+          "points hold.",
+          {},
+          true,
+          true,
+          false,
+          prepare};
+}
+
+}  // namespace holomorph
