@@ -281,6 +281,37 @@ class WindowTest(unittest.TestCase):
                 time.sleep(0.05)
             self.assertTrue(os.path.exists(target))
 
+    def test_a_pin_that_would_fold_the_picture_is_held_back(self):
+        for name in ("octopus.json", "octopus.png"):
+            shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
+        path = os.path.join(self.work, "octopus.json")
+        with Editor(PROGRAM, [path]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 48, "the octopus")
+            pin = load(path)["pins"][4]["pose"]
+            editor.drag(tuple(pin), (330, 620), steps=12)  # an arm through the body
+            editor.wait(lambda s: s["step"] == 1, "a dragged pin")
+            self.screenshot(editor, "bounded")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "saved")
+        moved = load(path)["pins"][4]["pose"]
+        self.assertGreater(abs(complex(*moved) - complex(*pin)), 200)
+
+        def info(scene):
+            return json.loads(subprocess.run([PROGRAM, "info", scene, "--json"], check=True,
+                                             capture_output=True, text=True).stdout)
+        report = info(path)
+        self.assertTrue(report["certified"])
+        self.assertEqual(report["flipped_triangles"], 0)
+        self.assertLessEqual(report["max_k"], 0.7)
+        self.assertGreaterEqual(report["min_sigma"], 0.2)
+        self.assertLessEqual(report["max_sigma"], 5)
+        # The same pins without the bounds fold it: the test asks for something.
+        scene = load(path)
+        scene["method"] = {"id": "pins"}
+        with open(os.path.join(self.work, "free.json"), "w") as file:
+            json.dump(scene, file)
+        self.assertFalse(info(os.path.join(self.work, "free.json"))["locally_injective"])
+
     def test_curves_are_bent_broken_and_cut(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")

@@ -20,6 +20,8 @@ constexpr size_t kInnerSamples = 300;
 /// The references' derivatives are rough on the boundary; they are looked at this far inside, in
 /// samples' distances.
 constexpr double kInset = 1.0;
+/// The distance is measured at every so many samples; the bounds hold at all of them.
+constexpr size_t kFitStride = 2;
 
 /// f_z = e^l and f_zbar = conj(nu e^l) over a polygon.
 class BoundedPointMap final : public PointMap {
@@ -97,7 +99,8 @@ class BoundedDeformer final : public Deformer {
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
     tree_ = std::make_unique<MeshTree>(*rest.mesh);
     take_inner_samples();
-    points_.boundary = basis_->inset(kInset);
+    const Points inset = basis_->inset(kInset);
+    for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
     space_ = std::make_unique<BoundedSpace>(basis_, points_, BoundedSettings{bounds_});
     prepare_reference();
     values_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 0);
@@ -195,7 +198,7 @@ class BoundedDeformer final : public Deformer {
 
   /// ln f_z along the boundary and nu everywhere (algorithm 4).
   BoundedReference target_of(const SampledMap& g, Points& zeros) const {
-    const Index m = static_cast<Index>(basis_->samples().size()),
+    const Index m = static_cast<Index>(points_.boundary.size()),
                 inner = static_cast<Index>(points_.inner.size());
     const VectorXc fz = g.fz.head(m);
     // The nearest holomorphic function tells the turns and the zeros.
@@ -260,7 +263,7 @@ class BoundedDeformer final : public Deformer {
         }
     if (from.size() < 2) {
       from.clear(), to.clear();
-      const Index m = static_cast<Index>(basis_->samples().size());
+      const Index m = static_cast<Index>(points_.boundary.size());
       for (size_t i = 0; i < points_.inner.size(); ++i) {
         from.push_back(f_[inner_vertices_[i]]);
         to.push_back(reference.f[m + static_cast<Index>(i)]);
