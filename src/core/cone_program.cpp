@@ -78,6 +78,10 @@ struct Scaling {
   }
 };
 
+/// After a step shorter than this, which a slack that is curved and nearly used up allows, the next
+/// one goes back towards the central path.
+constexpr double kShort = 0.3, kRecentre = 0.5;
+
 class Solver {
  public:
   Solver(const ConeSystem& system, const ConeTarget& target, const ConeSettings& settings,
@@ -355,7 +359,8 @@ class Solver {
       later += (s_[c] + reach * ds_[c]).cwiseProduct(at_.z[c] + reach * dz_[c]).sum();
     for (const Side* side : {&up_, &down_})
       if (k_ > 0) later += (side->s + reach * side->ds).dot(side->z + reach * side->dz);
-    const double center = std::pow(std::clamp(later / at_.gap, 0.0, 1.0), 3);
+    double center = std::pow(std::clamp(later / at_.gap, 0.0, 1.0), 3);
+    if (length_ < kShort) center = std::max(center, kRecentre);
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i) {
         const Scaling& scaling = scalings_[c][static_cast<size_t>(i)];
@@ -398,6 +403,7 @@ class Solver {
       take_slacks(at_.x, s_);
       return false;
     }
+    length_ = length;
     at_.x = std::move(x);
     s_ = std::move(slacks);
     for (size_t c = 0; c < s_.size(); ++c) at_.z[c] += length * dz_[c];
@@ -412,6 +418,7 @@ class Solver {
   Index p_, q_, m_, k_;
   ConeSolution at_;
   Side up_, down_;
+  double length_ = 1;  ///< of the last step
   std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
   std::vector<std::vector<Scaling>> scalings_;
   VectorXd decay_, gradient_, residual_;
