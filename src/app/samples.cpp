@@ -13,13 +13,13 @@ namespace {
 struct Row {
   const char *name, *title, *text;
 };
-constexpr Row kRows[] = {{"giraffe", "Giraffe",
-                          "A cage around the whole animal; its neck is bent by a few cage points."},
-                         {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
-                         {"fish", "Fish", "A curved cage with few points: bend its tangents."},
-                         {"octopus", "Octopus",
-                          "Nothing folds, however you pull its pins: try to break it."},
-                         {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
+constexpr Row kRows[] = {
+    {"giraffe", "Giraffe",
+     "A cage around the whole animal; its neck is bent by a few cage points."},
+    {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
+    {"fish", "Fish", "A curved cage with few points: bend its tangents."},
+    {"octopus", "Octopus", "Nothing folds, however you pull its pins: try to break it."},
+    {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
 constexpr double kThumbnail = 320;  ///< pixels of the longer side
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/antiderivative.h"
 #include "core/argument.h"
 #include "core/bounded_space.h"
+#include "core/deformer.h"
 #include "core/error.h"
 #include "core/mesh.h"
 #include "support/shapes.h"
@@ -299,4 +300,141 @@ TEST_CASE("The tree integrates along a mesh to the order of its rule") {
     if (last > 0) CHECK(error < last / 30);  // fourth order: 16 times as many, a quarter as long
     last = error;
   }
+}
+
+namespace {
+
+/// A rest of method `bounded` over a polygon, with pins.
+struct Setting {
+  Rest rest;
+  Pose pose;
+  std::unique_ptr<Deformer> deformer;
+
+  explicit Setting(const Points& polygon, const Points& pins, const Parameters& parameters = {}) {
+    rest.cage = polygon_cage(polygon);
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {1500}));
+    rest.samples = rest.mesh->vertices;
+    rest.parameters = parameters;
+    pose.cage = rest.cage;
+    for (const Complex z : pins) {
+      rest.pins.push_back({z, false});
+      pose.pins.push_back({z, 0, 1});
+    }
+    deformer = method_named("bounded").prepare(rest, nullptr);
+  }
+
+  SampledMap map(Wanted wanted = {true, false}) {
+    SampledMap map;
+    deformer->deform(pose, map, wanted);
+    return map;
+  }
+
+  int flips(const SampledMap& map) const {
+    int count = 0;
+    for (const auto& [i, j, k] : rest.mesh->triangles)
+      count += cross(map.f[j] - map.f[i], map.f[k] - map.f[i]) <= 0;
+    return count;
+  }
+};
+
+Points long_bar() {
+  return {{0, 0}, {200, 0}, {400, 0}, {600, 0}, {600, 100}, {400, 100}, {200, 100}, {0, 100}};
+}
+
+}  // namespace
+
+TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified and nothing flips") {
+  for (const char* reference : {"pins", "har_arap", "arap"}) {
+    Parameters parameters;
+    const auto& options = method_named("bounded").parameters[0].options;
+    for (size_t i = 0; i < options.size(); ++i)
+      if (options[i].id == reference) parameters["reference"] = static_cast<double>(i);
+    Setting bar(long_bar(), {{30, 50}, {300, 50}, {570, 50}}, parameters);
+    for (int frame = 0; frame < 40; ++frame) {
+      const double t = frame / 40.0;
+      bar.pose.pins[2].position = Complex(300, 50) + (270 - 240 * t) * std::polar(1.0, 6 * t);
+      const bool draft = frame % 10 != 9;
+      const SampledMap map = bar.map({true, draft});
+      INFO(reference << ", frame " << frame << ": " << map.note);
+      CHECK(map.status == SampledMap::Status::certified);
+      CHECK(bar.flips(map) == 0);
+      for (Index i = 0; i < map.f.size(); ++i) {
+        const double fz = std::abs(map.fz[i]), fzbar = std::abs(map.fzbar[i]);
+        REQUIRE(fz - fzbar >= 0.2);
+        REQUIRE(fz + fzbar <= 5);
+        REQUIRE(fzbar <= 0.7 * fz);
+      }
+    }
+  }
+}
+
+TEST_CASE("Bounded method: a final frame depends on rest and pose alone") {
+  Setting bar(long_bar(), {{30, 50}, {300, 50}, {570, 50}});
+  bar.pose.pins[2].position = {350, 180};
+  const SampledMap first = bar.map();
+  bar.pose.pins[2].position = {100, 300};
+  bar.map({false, true});
+  bar.pose.pins[2].position = {350, 180};
+  bar.map({false, true});
+  CHECK(bar.map().f == first.f);
+  CHECK(bar.map().fzbar == first.fzbar);
+}
+
+TEST_CASE("Bounded method: the map at single points is the map at the mesh, with nu") {
+  Setting bar(long_bar(), {{30, 50}, {300, 50}, {570, 50}}, {{"reference", 3}});
+  bar.pose.pins[2].position = {350, 220};
+  const SampledMap map = bar.map();
+  REQUIRE(map.fzbar.cwiseAbs().maxCoeff() > 0.03);
+  const auto points = bar.deformer->point_map(bar.pose);
+  const double h = 1e-4;
+  for (const Complex z : {Complex(90, 40), Complex(310, 71), Complex(555, 12)}) {
+    const auto at = points->at(z);
+    const Complex fx = (points->at(z + h).f - points->at(z - h).f) / (2 * h),
+                  fy = (points->at(z + h * kI).f - points->at(z - h * kI).f) / (2 * h);
+    CHECK(std::abs((fx - kI * fy) / 2.0 - at.fz) <= 1e-7);
+    CHECK(std::abs((fx + kI * fy) / 2.0 - at.fzbar) <= 1e-7);
+  }
+  for (size_t v = 0; v < bar.rest.mesh->vertices.size(); v += 40) {
+    const auto at = points->at(bar.rest.mesh->vertices[v]);
+    const Index i = static_cast<Index>(v);
+    CHECK(std::abs(at.f - map.f[i]) <= 1e-9);
+    CHECK(std::abs(at.fz - map.fz[i]) <= 1e-9);
+    CHECK(std::abs(at.fzbar - map.fzbar[i]) <= 1e-9);
+  }
+}
+
+TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
+  const auto ends_well = [](const char* what, Setting& setting) {
+    INFO(what);
+    try {
+      const SampledMap map = setting.map();
+      CHECK(map.f.allFinite());
+      CHECK(map.iterations <= 60);
+      // The bar of one pixel bends within its triangles: the map is proved, its picture is not.
+      CHECK(setting.flips(map) <= (what == std::string("thin") ? 5 : 0));
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).size() > 10);
+    }
+  };
+  Setting triangle({{0, 0}, {300, 0}, {100, 200}}, {{80, 40}, {200, 40}});
+  triangle.pose.pins[1].position = {90, 150};
+  ends_well("triangle", triangle);
+  Setting collapsed(long_bar(), {{30, 50}, {300, 50}, {570, 50}});
+  for (PosePin& pin : collapsed.pose.pins) pin.position = {300, 50};
+  ends_well("collapsed", collapsed);
+  for (Points& segment : collapsed.pose.cage.segments) segment[0] = {300, 50};
+  ends_well("collapsed", collapsed);
+  Setting far(long_bar(), {{30, 50}, {300, 50}, {570, 50}});
+  far.pose.pins[2].position = {1e7, -1e7};
+  ends_well("far", far);
+  Setting outside(long_bar(), {{30, 50}, {900, 900}});
+  outside.pose.pins[1].position = {0, 0};
+  ends_well("outside", outside);
+  Setting thin({{0, 0}, {600, 0}, {600, 1}, {0, 1}}, {{30, 0.5}, {570, 0.5}});
+  thin.pose.pins[1].position = {30, 500};
+  ends_well("thin", thin);
+  Setting mirrored(long_bar(), {});
+  for (Points& segment : mirrored.pose.cage.segments)
+    for (Complex& z : segment) z = std::conj(z);
+  ends_well("mirrored", mirrored);
 }
