@@ -17,9 +17,10 @@ struct Zero {
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 
 /// The argument along a closed boundary, from increments between neighbouring samples, less 2 pi
-/// per zero at the sample nearest to it: so it is a function again, the sum of all increments is 0.
-/// Zeros that are missing in the list (or too many in it) are made up for where |value| is least.
-/// Throws Error when a value is 0 or not finite. Cost: samples times zeros.
+/// per zero at the sample nearest to it, or across the domain from there when that turns the
+/// boundary clearly less: so it is a function again, the sum of all increments is 0. Zeros that are
+/// missing in the list (or too many in it) are made up for where |value| is least. Throws Error
+/// when a value is 0 or not finite. Cost: samples times zeros, times up to 64 choices of sides.
 VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& values,
                            const std::vector<Zero>& zeros);
 

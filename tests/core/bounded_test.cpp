@@ -283,6 +283,23 @@ TEST_CASE("The argument along a boundary is continuous and closes, zeros or not"
   CHECK_THROWS_AS(boundary_argument(samples, VectorXc::Zero(200), {}), Error);
 }
 
+TEST_CASE("The argument turns a part of the domain the shorter way around a zero") {
+  // From the bar's left to its right the argument grows by 100 degrees below the zero and falls by
+  // 260 above it; the zero is nearer to the lower side.
+  const double bend = 80 * kPi / 180;
+  const auto g = [&](Complex z) { return (z - Complex(3, -0.2)) * std::exp(-kI * bend * z / 6.0); };
+  const BoundaryBasis basis(polygon_cage(bar()), 50, 300);
+  const Points& samples = basis.samples();
+  const VectorXd theta = boundary_argument(samples, values(g, samples), {{Complex(3, -0.2), 1}});
+  CHECK(theta.maxCoeff() - theta.minCoeff() < 200 * kPi / 180);
+  double left = 0, right = 0, lefts = 0, rights = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].real() < 0.5) left += theta[static_cast<Index>(i)], ++lefts;
+    if (samples[i].real() > 5.5) right += theta[static_cast<Index>(i)], ++rights;
+  }
+  CHECK(right / rights - left / lefts == Approx(100 * kPi / 180).margin(0.2));
+}
+
 TEST_CASE("The tree integrates along a mesh to the order of its rule") {
   const auto f = [](Complex z) { return std::sin(2.0 * z) + z * z; };
   const auto f1 = [](Complex z) { return 2.0 * std::cos(2.0 * z) + 2.0 * z; };

@@ -213,6 +213,10 @@ class BoundedDeformer final : public Deformer {
     }
     if (std::lround(turns / (2 * kPi)) != 0) {
       found = zeros_of(*rest_.mesh, product(values_, basis_->coefficients(unknowns)));
+      // The loop of samples does not turn around those between it and the boundary.
+      std::erase_if(found, [&](const Zero& zero) {
+        return winding_number(points_.boundary, zero.place) == 0;
+      });
       for (const Zero& zero : found) zeros.push_back(zero.place);
     }
     const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
