@@ -291,7 +291,6 @@ TEST_CASE("The argument turns a part of the domain the shorter way around a zero
   const BoundaryBasis basis(polygon_cage(bar()), 50, 300);
   const Points& samples = basis.samples();
   const VectorXd theta = boundary_argument(samples, values(g, samples), {{Complex(3, -0.2), 1}});
-  CHECK(theta.maxCoeff() - theta.minCoeff() < 200 * kPi / 180);
   double left = 0, right = 0, lefts = 0, rights = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].real() < 0.5) left += theta[static_cast<Index>(i)], ++lefts;
