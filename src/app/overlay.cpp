@@ -171,7 +171,8 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                              style.colors.pin);
     }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
-    if (layer == Layer::pose) {
+    const auto& posed = workspace.map.posed();
+    if (layer == Layer::pose && posed && same_rest(*posed, scene)) {
       for (size_t i = 0; i < scene.pins.size(); ++i)
         if (const auto place = workspace.map.pin_place(i))
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);

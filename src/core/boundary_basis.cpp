@@ -21,8 +21,12 @@ Points mitred(const Points& polygon, double distance) {
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
     Complex mitre = u + v;
     const double size = std::norm(mitre);
-    mitre = size > 4 / (kLongest * kLongest) ? mitre * (2 / size)
-                                             : kLongest * before / std::abs(before);
+    // At a spike the mitre would be long; in a notch it must be, or the sides meet before it ends.
+    const bool spike = cross(before, after) >= 0;
+    if (spike && size < 4 / (kLongest * kLongest))
+      mitre = kLongest * before / std::abs(before);
+    else
+      mitre *= 2 / std::max(size, 1e-12);
     outer.push_back(polygon[i] + distance * mitre);
   }
   return outer;
@@ -38,7 +42,7 @@ std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
   return parts;
 }
 
-/// The boundary's length from segment to segment, and the domain as a fine polygon.
+/// The segments' lengths.
 std::vector<double> lengths_of(const Cage& domain) {
   std::vector<double> lengths;
   for (Index e = 0; e < domain.size(); ++e) {
@@ -70,16 +74,30 @@ Points starts_of(const std::vector<BoundaryPiece>& pieces) {
   return starts;
 }
 
+bool crosses(Complex a, Complex b, Complex c, Complex d) {
+  return cross(b - a, c - a) * cross(b - a, d - a) <= 0 &&
+         cross(d - c, a - c) * cross(d - c, b - c) <= 0;
+}
+
+/// Whether a polygon is simple and lies around another one, nowhere nearer than `distance`.
 bool is_around(const Points& polygon, const Points& inner, double distance) {
   if (self_crossing(polygon)) return false;
-  return std::ranges::all_of(inner, [&](Complex z) {
-    return winding_number(polygon, z) == 1 && nearest_on_polygon(polygon, z).distance > distance;
-  });
+  for (const Complex& z : inner)
+    if (winding_number(polygon, z) != 1 || nearest_on_polygon(polygon, z).distance <= distance)
+      return false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    if (winding_number(inner, a) != 0 || nearest_on_polygon(inner, a).distance <= distance)
+      return false;
+    for (size_t k = 0; k < inner.size(); ++k)
+      if (crosses(a, b, inner[k], inner[(k + 1) % inner.size()])) return false;
+  }
+  return true;
 }
 
 Points polygon_around(const Cage& domain, int wanted, double distance) {
   const Points fine = flattened(domain).points;
-  for (int vertices = wanted; vertices <= 16 * wanted; vertices *= 2) {
+  for (int vertices = wanted; vertices <= 4 * wanted; vertices *= 2) {
     const std::vector<BoundaryPiece> pieces = cut(domain, vertices);
     double sagitta = 0;  // chords of curves leave parts of the domain outside
     for (const BoundaryPiece& piece : pieces) sagitta = std::max(sagitta, piece.bend / 8);
@@ -90,9 +108,10 @@ Points polygon_around(const Cage& domain, int wanted, double distance) {
       if (is_around(outer, fine, 0.3 * off)) return outer;
     }
   }
-  throw Error(ErrorKind::bad_input,
-              "no smooth boundary fits around the cage: parts of it nearly touch each other; move "
-              "them apart");
+  throw Error(
+      ErrorKind::bad_input,
+      "no smooth boundary fits around the cage for this method: parts of it nearly touch each "
+      "other; move them apart");
 }
 
 }  // namespace
@@ -124,12 +143,13 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
     : domain_(signed_area(outline_of(domain)) < 0 ? reversed(domain) : domain) {
   check_rest_cage(domain);
-  pieces_ = cut(domain_, samples);
-  samples_ = starts_of(pieces_);
   const double around = perimeter(flattened(domain_).points);
   const int vertices = std::max(basis, 25);
   constexpr double kOffset = 0.05;  // of the mean edge: 0.1 % of the perimeter for 50 vertices
   polygon_ = polygon_around(domain_, vertices, kOffset * around / vertices);
+  const double finer = std::max(1.0, static_cast<double>(polygon_.size()) / vertices);
+  pieces_ = cut(domain_, static_cast<int>(std::max(samples, 2 * vertices) * finer));
+  samples_ = starts_of(pieces_);
   const MatrixXc c = values(samples_);
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
   const Eigen::HouseholderQR<MatrixXc> qr(c);
@@ -142,6 +162,7 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
 }
 
 Points BoundaryBasis::inset(double share) const {
+  const Points fine = flattened(domain_).points;
   Points inner = samples_;
   const size_t n = inner.size();
   for (size_t i = 0; i < n; ++i) {
@@ -149,8 +170,14 @@ Points BoundaryBasis::inset(double share) const {
                   out = samples_[(i + 1) % n] - samples_[i];
     double angle = std::atan2(cross(out, in), dot(out, in));
     if (angle <= 0) angle += 2 * kPi;
-    inner[i] += share * std::min(std::abs(in), std::abs(out)) *
-                std::polar(1.0, std::arg(out) + 0.5 * angle);
+    Complex step = share * std::min(std::abs(in), std::abs(out)) *
+                   std::polar(1.0, std::arg(out) + 0.5 * angle);
+    // Not beyond the middle of a thin part.
+    for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
+                                           winding_number(fine, samples_[i] + 2.0 * step) != 1);
+         ++halving)
+      step *= 0.5;
+    inner[i] += step;
   }
   return inner;
 }

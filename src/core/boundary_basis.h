@@ -26,20 +26,22 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 class BoundaryBasis {
  public:
   /// For a domain of either orientation, with about `basis` >= 25 polygon vertices (at least one
-  /// for each of the cage's) and about `samples` samples, all cage vertices among them. The polygon
-  /// lies a twentieth of its mean edge outside, nearer where the domain nearly touches itself.
-  /// Throws Error for what check_rest_cage refuses. Cost: the product of the two numbers, and a QR
-  /// factorisation of that size.
+  /// for each of the cage's, up to four times as many around curves that nearly touch) and about
+  /// `samples` samples, all cage vertices among them; more when there are more vertices. The
+  /// polygon lies a twentieth of its mean edge outside, nearer where the domain nearly touches
+  /// itself. Throws Error for what check_rest_cage refuses. Cost: the product of the two numbers,
+  /// and a QR factorisation of that size.
   BoundaryBasis(const Cage& domain, int basis, int samples);
 
   const Cage& domain() const { return domain_; }      ///< counter-clockwise
-  const Points& polygon() const { return polygon_; }  ///< counter-clockwise, simple
+  const Points& polygon() const { return polygon_; }  ///< counter-clockwise, simple, around it
   const Points& samples() const { return samples_; }
   /// Piece i runs from sample i to the next one.
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   Index size() const { return static_cast<Index>(polygon_.size()); }
 
-  /// The samples moved inwards by a share of the distance to their nearer neighbour.
+  /// The samples moved inwards by a share of the distance to their nearer neighbour, and no farther
+  /// than to the middle of a thin part.
   Points inset(double share) const;
 
   /// C at points of the domain: one row each.

@@ -136,7 +136,10 @@ ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
   start.x = centre_;
   if (warm && warm->solution.x.size() == centre_.size()) {
     const VectorXd x = 0.98 * warm->solution.x + 0.02 * centre_;
-    if (is_feasible(system_, x)) start.x = x;
+    if (is_feasible(system_, x)) {
+      start.x = x;
+      start.fit_duals = warm->solution.fit_duals;
+    }
   }
   return start;
 }

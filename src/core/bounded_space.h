@@ -49,8 +49,9 @@ class BoundedSpace {
                const BoundedSettings& settings);
 
   /// Projects. With `warm`, a solution of this space, the work starts from there and is less
-  /// exact: for dragging; without, the result depends on the reference alone. The result is always
-  /// certified: what cannot be proved is cut off by added samples, then moved towards the centre.
+  /// exact: for dragging; without, the result depends on the reference alone. What cannot
+  /// be proved is cut off by added samples, then moved towards the centre of the bounds, as far as
+  /// that itself if need be: so the result is certified.
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
   /// The holomorphic function nearest to values at the reference's boundary points: whitened

@@ -120,8 +120,9 @@ class Deformer {
   /// such cage.
   virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
-  /// The pose's map at any point, to rounding when the rest is in full precision. Null when the
-  /// method knows its map at samples only.
+  /// The pose's map at any point, to rounding when the rest is in full precision (methods that
+  /// integrate along the mesh: to the error of that). Null when the method knows its map at samples
+  /// only.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 

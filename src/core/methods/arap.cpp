@@ -71,7 +71,7 @@ class ArapDeformer final : public Deformer {
                     : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
     } else {
       out.iterations = minimise(targets, wanted.draft);
-      if (wanted.draft && out.iterations == kDraftIterations)
+      if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
         out.status = SampledMap::Status::iterating;
     }
     answer(out, wanted);

@@ -111,7 +111,9 @@ class BoundedDeformer final : public Deformer {
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
     SampledMap reference;
-    reference_->deform(pose, reference, {true, wanted.draft});
+    Pose followed = pose;
+    if (!reference_method_->uses_pins) followed.pins.clear();
+    reference_->deform(followed, reference, {true, wanted.draft});
     if (is_identity(reference)) return take_identity(out, wanted);
     if (!reference.f.allFinite())
       throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
@@ -120,8 +122,9 @@ class BoundedDeformer final : public Deformer {
     solved_ = true;
     integrate(pose, reference);
     answer(out, wanted);
-    out.status = solution_.certificate.holds ? SampledMap::Status::certified
-                                             : SampledMap::Status::infeasible;
+    turned_ = turned_triangles();
+    out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
+                                                             : SampledMap::Status::infeasible;
     out.iterations = solution_.solution.iterations;
     out.note = note(pose);
   }
@@ -317,9 +320,17 @@ class BoundedDeformer final : public Deformer {
 
   std::string bounds_text() const {
     char text[120];
-    std::snprintf(text, sizeof text, "Locally injective: k <= %.2f, %.2f <= sigma <= %.2f",
+    std::snprintf(text, sizeof text, "Locally injective: k <= %.4g, %.4g <= sigma <= %.4g",
                   bounds_.k, bounds_.sigma, bounds_.Sigma);
     return text;
+  }
+
+  /// Triangles that the mesh turns over although the map does not: it is too coarse there.
+  int turned_triangles() const {
+    int count = 0;
+    for (const auto& [i, j, k] : rest_.mesh->triangles)
+      count += cross(f_[j] - f_[i], f_[k] - f_[i]) <= 0;
+    return count;
   }
 
   /// What the proof says, and the pin that is farthest from its place.
@@ -330,6 +341,9 @@ class BoundedDeformer final : public Deformer {
              kNames[static_cast<int>(solution_.certificate.failed)] + " near " +
              point_text(solution_.certificate.where);
     std::string text = bounds_text();
+    if (turned_ > 0)
+      return "Proved, but too fine for the mesh: " + std::to_string(turned_) +
+             " of its triangles turn over";
     if (!reference_method_->uses_pins) return text;
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     double farthest = 0;
@@ -361,6 +375,7 @@ class BoundedDeformer final : public Deformer {
 
   BoundedMap solution_;
   bool solved_ = false;
+  int turned_ = 0;
   Pose posed_;
   VectorXc f_, fz_, psi_;
 };

@@ -42,6 +42,8 @@ class HarArapDeformer final : public Deformer {
     out.note = handles_.note();
     if (const auto rigid = handles_.rigid(targets)) return move_rigidly(*rigid, out, wanted);
     out.iterations = minimise(targets, wanted.draft);
+    if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
+      out.status = SampledMap::Status::iterating;
     out.f = product(values_, phi_) + product(values_, psi_).conjugate();
     if (!wanted.derivatives) return;
     out.fz = product(slopes_, phi_);
