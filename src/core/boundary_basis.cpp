@@ -182,8 +182,9 @@ Points BoundaryBasis::inset(double share) const {
   return inner;
 }
 
-MatrixXc BoundaryBasis::values(std::span<const Complex> points) const {
-  const PlanarMatrix<double> planar = planar_coordinates<double>(polygon_cage(polygon_), points, 0);
+MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {
+  const PlanarMatrix<double> planar =
+      planar_coordinates<double>(polygon_cage(polygon_), points, order);
   MatrixXc c(planar.rows(), planar.cols());
   c.real() = planar.re;
   c.imag() = planar.im;

@@ -44,8 +44,8 @@ class BoundaryBasis {
   /// than to the middle of a thin part.
   Points inset(double share) const;
 
-  /// C at points of the domain: one row each.
-  MatrixXc values(std::span<const Complex> points) const;
+  /// C at points of the domain, or C' with order 1: one row each.
+  MatrixXc values(std::span<const Complex> points, int order = 0) const;
   /// The whitened basis at points whose C these are: F = row . unknowns.
   MatrixXc whitened(const MatrixXc& values) const { return values * coefficients_; }
   const MatrixXc& at_samples() const { return at_samples_; }  ///< whitened

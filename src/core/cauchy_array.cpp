@@ -274,6 +274,21 @@ void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, Pla
   }
 }
 
+template <class T>
+VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& factors) {
+  if (matrix.rows() == 0) return {};
+  PlanarMatrix<T> column(factors.size(), 1), sum(matrix.rows(), 1);
+  column.re = factors.real().template cast<T>();
+  column.im = factors.imag().template cast<T>();
+  multiply(matrix, column, sum);
+  VectorXc result(matrix.rows());
+  result.real() = sum.re.template cast<double>();
+  result.imag() = sum.im.template cast<double>();
+  return result;
+}
+
+template VectorXc product<float>(const PlanarMatrix<float>&, const VectorXc&);
+template VectorXc product<double>(const PlanarMatrix<double>&, const VectorXc&);
 template PlanarMatrix<float> planar_coordinates<float>(const Cage&, std::span<const Complex>, int,
                                                        Kernel);
 template PlanarMatrix<double> planar_coordinates<double>(const Cage&, std::span<const Complex>, int,

@@ -55,4 +55,8 @@ template <class T>
 void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, PlanarMatrix<T>& out,
               Kernel kernel = Kernel::automatic);
 
+/// matrix * factors for one column of factors, rounded to the matrix's precision.
+template <class T>
+VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& factors);
+
 }  // namespace holomorph

@@ -2,7 +2,6 @@
 #include "core/certificate.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
@@ -100,73 +99,96 @@ Certifier::Values Certifier::at(Complex z, const Function& l, const Function& nu
   return {times(sum_l, factor), times(sum_nu, factor)};
 }
 
-bool Certifier::prove(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      double second_l, double second_nu, const Bounds& bounds,
-                      Certificate::Bound& failed) const {
-  // |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8.
-  const auto off = [&](double most, Complex from, Complex to) {
-    double sum = most * piece.length * piece.length;
-    // |F'| from the chord's slope, which F' equals on average.
-    if (piece.bend > 0)
-      sum += piece.bend *
-             (std::abs(to - from) / std::abs(piece.end - piece.start) + 2 * most * reach_of(piece));
-    return sum / 8;
-  };
-  const double dl = off(second_l, start.l, end.l), dnu = off(second_nu, start.nu, end.nu);
-  for (const Values& at : {start, end}) {
-    const double u = at.l.real(), w = std::abs(at.nu) + dnu;
-    if (!(w <= bounds.k)) return failed = Certificate::Bound::k, false;
-    if (!(u + dl + w <= std::log(bounds.Sigma))) return failed = Certificate::Bound::Sigma, false;
-    if (!(w <= 1 - bounds.sigma * std::exp(dl - u)))
-      return failed = Certificate::Bound::sigma, false;
-  }
-  return true;
-}
+/// One proof in progress.
+class Certifier::Proof {
+ public:
+  Proof(const Certifier& certifier, const LogMap& map, const Bounds& bounds)
+      : l(certifier.function_of(map.l)),
+        nu(certifier.function_of(map.nu)),
+        certifier_(certifier),
+        bounds_(bounds) {}
 
-void Certifier::halve(const BoundaryPiece& piece, const Values& start, const Values& end,
-                      const Function& l, const Function& nu, double second_l, double second_nu,
-                      const Bounds& bounds, int depth, Certificate& result) const {
-  if (depth == 0) {
-    if (result.open.empty()) result.where = 0.5 * (piece.start + piece.end);
-    result.open.push_back(0.5 * (piece.start + piece.end));
-    return;
+  /// A piece with the functions' values at its ends and bounds of |l''| and |nu''| on it.
+  struct Leaf {
+    BoundaryPiece piece;
+    Values start, end;
+    double second_l = 0, second_nu = 0;
+  };
+
+  /// Proves the bounds on a leaf, halving it up to `depth` times; notes where that fails.
+  void prove(const Leaf& leaf, int depth) {
+    const auto failed = open_bound(leaf);
+    if (!failed) return;
+    const BoundaryPiece& piece = leaf.piece;
+    if (result.open.empty()) result.failed = *failed;
+    if (depth == 0) {
+      const Complex middle = 0.5 * (piece.start + piece.end);
+      if (result.open.empty()) result.where = middle;
+      result.open.push_back(middle);
+      return;
+    }
+    // What bounds |F''| on a piece bounds it on its halves.
+    const Cage& domain = certifier_.basis_.domain();
+    const double middle = 0.5 * (piece.from + piece.to);
+    Leaf first = leaf, second = leaf;
+    first.piece = piece_of(domain, piece.segment, piece.from, middle);
+    second.piece = piece_of(domain, piece.segment, middle, piece.to);
+    first.end = second.start = certifier_.at(first.piece.end, l, nu);
+    prove(first, depth - 1);
+    prove(second, depth - 1);
   }
-  const double middle = 0.5 * (piece.from + piece.to);
-  const BoundaryPiece first = piece_of(basis_.domain(), piece.segment, piece.from, middle),
-                      second = piece_of(basis_.domain(), piece.segment, middle, piece.to);
-  const Values at_middle = at(first.end, l, nu);
-  for (const auto& [half, from, to] :
-       {std::tie(first, start, at_middle), std::tie(second, at_middle, end)}) {
-    Certificate::Bound failed{};
-    if (prove(half, from, to, second_l, second_nu, bounds, failed)) continue;
-    if (result.open.empty()) result.failed = failed;
-    halve(half, from, to, l, nu, second_l, second_nu, bounds, depth - 1, result);
+
+  Function l, nu;
+  Certificate result;
+
+ private:
+  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8, with |F'| from the chord's slope, which F'
+  /// equals on average.
+  static double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
+    double sum = second * piece.length * piece.length;
+    if (piece.bend > 0)
+      sum += piece.bend * (std::abs(to - from) / std::abs(piece.end - piece.start) +
+                           2 * second * reach_of(piece));
+    return sum / 8;
   }
-}
+
+  /// A bound that the leaf's ends and second derivatives do not prove.
+  std::optional<Certificate::Bound> open_bound(const Leaf& leaf) const {
+    const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
+                 dnu = off_chord(leaf.piece, leaf.second_nu, leaf.start.nu, leaf.end.nu);
+    for (const Values& at : {leaf.start, leaf.end}) {
+      const double u = at.l.real(), w = std::abs(at.nu) + dnu;
+      if (!(w <= bounds_.k)) return Certificate::Bound::k;
+      if (!(u + dl + w <= std::log(bounds_.Sigma))) return Certificate::Bound::Sigma;
+      if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Certificate::Bound::sigma;
+    }
+    return {};
+  }
+
+  const Certifier& certifier_;
+  const Bounds& bounds_;
+};
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
-  const Function fl = function_of(map.l), fnu = function_of(map.nu);
-  const VectorXc l = values_ * map.l, nu = values_ * map.nu, l2 = second_ * fl.jumps,
-                 nu2 = second_ * fnu.jumps;
-  const VectorXd l3 = nearer_ * fl.moduli, nu3 = nearer_ * fnu.moduli, lb = near_ * fl.moduli,
-                 nub = near_ * fnu.moduli;
-  Certificate result;
+  Proof proof(*this, map, bounds);
+  const VectorXc l = values_ * map.l, nu = values_ * map.nu, l2 = second_ * proof.l.jumps,
+                 nu2 = second_ * proof.nu.jumps;
+  const VectorXd l3 = nearer_ * proof.l.moduli, nu3 = nearer_ * proof.nu.moduli,
+                 lb = near_ * proof.l.moduli, nub = near_ * proof.nu.moduli;
   const Index count = l.size();
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
     const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
-    const Values start{l[i], nu[i]}, end{l[next], nu[next]};
-    Certificate::Bound failed{};
-    // What bounds |F''| on a piece bounds it on its halves.
-    const double reach = reach_of(piece),
-                 second_l = std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
-                 second_nu = std::min(std::abs(nu2[i]) + nu3[i] * reach, nub[i]);
-    if (prove(piece, start, end, second_l, second_nu, bounds, failed)) continue;
-    if (result.open.empty()) result.failed = failed;
-    halve(piece, start, end, fl, fnu, second_l, second_nu, bounds, depth, result);
+    const double reach = reach_of(piece);
+    proof.prove({piece,
+                 {l[i], nu[i]},
+                 {l[next], nu[next]},
+                 std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
+                 std::min(std::abs(nu2[i]) + nu3[i] * reach, nub[i])},
+                depth);
   }
-  result.holds = result.open.empty();
-  return result;
+  proof.result.holds = proof.result.open.empty();
+  return std::move(proof.result);
 }
 
 }  // namespace holomorph

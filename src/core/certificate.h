@@ -57,14 +57,9 @@ class Certifier {
     VectorXc values, slopes, jumps;
     VectorXd moduli;
   };
+  class Proof;
   Function function_of(const VectorXc& coefficients) const;
   Values at(Complex z, const Function& l, const Function& nu) const;
-  /// With bounds of |l''| and |nu''| on the piece.
-  bool prove(const BoundaryPiece& piece, const Values& start, const Values& end, double second_l,
-             double second_nu, const Bounds& bounds, Certificate::Bound& failed) const;
-  void halve(const BoundaryPiece& piece, const Values& start, const Values& end, const Function& l,
-             const Function& nu, double second_l, double second_nu, const Bounds& bounds, int depth,
-             Certificate& result) const;
 
   const BoundaryBasis& basis_;
   MatrixXc values_;         ///< C at samples

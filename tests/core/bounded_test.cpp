@@ -216,12 +216,11 @@ TEST_CASE("Bounded: a certificate is refused where a bound breaks between the sa
   const Points samples = basis->samples();
   const VectorXc nu = basis->values(samples) * map.nu;
   const double seen = nu.cwiseAbs().maxCoeff();
-  double peak = 0;
+  Points dense;
   for (const BoundaryPiece& piece : basis->pieces())
-    for (int k = 0; k < 200; ++k) {
-      const Complex z = piece.start + k / 200.0 * (piece.end - piece.start);
-      peak = std::max(peak, std::abs((basis->values(std::span(&z, 1)) * map.nu)(0)));
-    }
+    for (int k = 0; k < 200; ++k)
+      dense.push_back(piece.start + k / 200.0 * (piece.end - piece.start));
+  const double peak = (basis->values(dense) * map.nu).cwiseAbs().maxCoeff();
   REQUIRE(peak > seen);
   const Certificate between = certifier.certify(map, {0.5 * (seen + peak), 0.01, 20});
   CHECK_FALSE(between.holds);
@@ -332,7 +331,7 @@ struct Setting {
 
   explicit Setting(const Cage& cage, const Points& pins, const Parameters& parameters = {}) {
     rest.cage = cage;
-    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {1500}));
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {800}));
     rest.samples = rest.mesh->vertices;
     rest.parameters = parameters;
     pose.cage = rest.cage;
@@ -370,10 +369,10 @@ TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified a
     for (size_t i = 0; i < options.size(); ++i)
       if (options[i].id == reference) parameters["reference"] = static_cast<double>(i);
     Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}}, parameters);
-    for (int frame = 0; frame < 40; ++frame) {
-      const double t = frame / 40.0;
+    for (int frame = 0; frame < 20; ++frame) {
+      const double t = frame / 20.0;
       bar.pose.pins[2].position = Complex(300, 50) + (270 - 240 * t) * std::polar(1.0, 6 * t);
-      const bool draft = frame % 10 != 9;
+      const bool draft = frame % 5 != 4;
       const SampledMap map = bar.map({true, draft});
       INFO(reference << ", frame " << frame << ": " << map.note);
       CHECK(map.status == SampledMap::Status::certified);
@@ -464,7 +463,7 @@ TEST_CASE("Bounded method: the map at single points is the map at the mesh, with
   Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}}, {{"reference", 3}});
   bar.pose.pins[2].position = {350, 220};
   const SampledMap map = bar.map();
-  REQUIRE(map.fzbar.cwiseAbs().maxCoeff() > 0.03);
+  REQUIRE(map.fzbar.cwiseAbs().maxCoeff() > 0.02);
   const auto points = bar.deformer->point_map(bar.pose);
   const double h = 1e-4;
   for (const Complex z : {Complex(90, 40), Complex(310, 71), Complex(555, 12)}) {
@@ -474,7 +473,7 @@ TEST_CASE("Bounded method: the map at single points is the map at the mesh, with
     CHECK(std::abs((fx - kI * fy) / 2.0 - at.fz) <= 1e-7);
     CHECK(std::abs((fx + kI * fy) / 2.0 - at.fzbar) <= 1e-7);
   }
-  for (size_t v = 0; v < bar.rest.mesh->vertices.size(); v += 40) {
+  for (size_t v = 0; v < bar.rest.mesh->vertices.size(); v += 20) {
     const auto at = points->at(bar.rest.mesh->vertices[v]);
     const Index i = static_cast<Index>(v);
     CHECK(std::abs(at.f - map.f[i]) <= 1e-9);
@@ -490,8 +489,8 @@ TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
       const SampledMap map = setting.map();
       CHECK(map.f.allFinite());
       CHECK(map.iterations <= 60);
-      // The bar of one pixel bends within its triangles: the map is proved, its picture is not.
-      CHECK(setting.flips(map) <= (what == std::string("thin") ? 5 : 0));
+      // Where the mesh is too coarse for the map it says so.
+      CHECK((setting.flips(map) == 0) == (map.status == SampledMap::Status::certified));
     } catch (const Error& error) {
       CHECK(std::string(error.what()).size() > 10);
     }

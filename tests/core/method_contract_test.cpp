@@ -71,11 +71,18 @@ double tolerance(Precision precision) {
   return precision == Precision::full ? 1e-9 : 5e-4;
 }
 
+bool is_linear(const Method& method) {
+  return method.id == "cage" || method.id == "pins";
+}
+
 template <class Check>
 void for_every_method(Check check) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
       for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
+        // Methods without an operator compute in double anyway.
+        if (precision == Precision::single && shape != Shape::straight && !is_linear(method))
+          continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
                        << static_cast<int>(shape));
         check(method, setup(method, precision, shape), tolerance(precision));

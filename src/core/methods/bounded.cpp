@@ -233,17 +233,6 @@ class BoundedDeformer final : public Deformer {
     return target;
   }
 
-  static VectorXc product(const PlanarMatrix<double>& matrix, const VectorXc& factors) {
-    PlanarMatrix<double> column(factors.size(), 1), sum(matrix.rows(), 1);
-    column.re = factors.real();
-    column.im = factors.imag();
-    multiply(matrix, column, sum);
-    VectorXc result(matrix.rows());
-    result.real() = sum.re;
-    result.imag() = sum.im;
-    return result;
-  }
-
   /// Phi and Psi along the mesh, and the place from the pins or, without any, from the reference.
   void integrate(const Pose& pose, const SampledMap& reference) {
     const VectorXc l = product(values_, solution_.map.l), nu = product(values_, solution_.map.nu),

@@ -51,26 +51,6 @@ class HarArapDeformer final : public Deformer {
   }
 
  private:
-  static VectorXc product(const PlanarMatrix<double>& matrix, const VectorXc& factors) {
-    PlanarMatrix<double> column(factors.size(), 1), sum(matrix.rows(), 1);
-    column.re = factors.real();
-    column.im = factors.imag();
-    multiply(matrix, column, sum);
-    VectorXc result(matrix.rows());
-    result.real() = sum.re;
-    result.imag() = sum.im;
-    return result;
-  }
-
-  MatrixXc coordinates(const Points& points, int order) const {
-    const PlanarMatrix<double> planar =
-        planar_coordinates<double>(polygon_cage(basis_.polygon()), points, order);
-    MatrixXc c(planar.rows(), planar.cols());
-    c.real() = planar.re;
-    c.imag() = planar.im;
-    return c;
-  }
-
   /// Samples by area: the mesh's inner vertices, its triangles' shares as weights.
   void take_energy() {
     const Mesh& mesh = *rest_.mesh;
@@ -95,14 +75,14 @@ class HarArapDeformer final : public Deformer {
       weights.push_back(std::sqrt(share));
       share = 0;
     }
-    gradient_ = coordinates(points, 1);
+    gradient_ = basis_.values(points, 1);
     for (size_t i = 0; i < points.size(); ++i) gradient_.row(static_cast<Index>(i)) *= weights[i];
     weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
   }
 
   /// Normal matrices in (Re Phi, Im Phi, Re Psi, Im Psi): f = C Phi + conj(C Psi) at the handles.
   void take_handles() {
-    held_ = coordinates(handles_.rest(), 0);
+    held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
     hold_ = kHold / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
     MatrixXd rows(4 * n, 2 * h);  // columns: Re f, Im f of each handle

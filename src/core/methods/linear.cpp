@@ -5,23 +5,6 @@
 #include "core/error.h"
 
 namespace holomorph {
-namespace {
-
-template <class T>
-VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& controls) {
-  if (matrix.rows() == 0) return {};
-  PlanarMatrix<T> factors(controls.size(), 1), sum(matrix.rows(), 1);
-  factors.re = controls.real().template cast<T>();
-  factors.im = controls.imag().template cast<T>();
-  multiply(matrix, factors, sum);
-  VectorXc result(matrix.rows());
-  result.real() = sum.re.template cast<double>();
-  result.imag() = sum.im.template cast<double>();
-  return result;
-}
-
-}  // namespace
-
 template <class T>
 LinearDeformer<T>::LinearDeformer(const Rest& rest) : rest_(rest) {}
 
