@@ -104,3 +104,22 @@ TEST_CASE(
     CHECK(again.f == final_map.f);  // whatever was dragged before
   }
 }
+
+TEST_CASE("As rigid as possible: without pins the cage's vertices hold, curved or clockwise") {
+  for (const Cage& cage : {polygon_cage(shapes::l_shape()), shapes::curved_star(7, 3, 0.2, 2),
+                           reversed(polygon_cage(shapes::l_shape()))})
+    for (const char* id : {"arap", "har_arap"}) {
+      Rest rest;
+      rest.cage = cage;
+      rest.mesh = std::make_shared<const Mesh>(domain_mesh(cage, {600}));
+      rest.samples = rest.mesh->vertices;
+      Pose pose{cage, {}};
+      pose.cage.segments[1][0] += Complex(8, -14);
+      SampledMap map;
+      method_named(id).prepare(rest, nullptr)->deform(pose, map, {});
+      INFO(id << ", " << cage.size() << " segments");
+      for (Index v = 0; v < cage.size(); ++v)
+        CHECK(std::abs(map.f[rest.mesh->cage_vertices[static_cast<size_t>(v)]] -
+                       pose.cage.vertex(v)) < 1.5);  // of a vertex moved by 16
+    }
+}

@@ -63,10 +63,10 @@ class ArapDeformer final : public Deformer {
     out.note = handles_.note();
     turn_.reset();
     if (const auto rigid = handles_.rigid(targets)) {
-      turn_ = rigid->turn;
+      turn_ = rigid->factor;
       f_.resize(static_cast<Index>(mesh_.vertices.size()));
       for (Index i = 0; i < f_.size(); ++i)
-        f_[i] = rigid->turn == Complex(1) && rigid->from == rigid->to
+        f_[i] = rigid->factor == Complex(1) && rigid->from == rigid->to
                     ? mesh_.vertices[static_cast<size_t>(i)]
                     : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
     } else {

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/methods/rows.h"
 #include "core/quadrature.h"
+#include "core/similarity.h"
 
 namespace holomorph {
 namespace {
@@ -59,28 +60,6 @@ class BoundedPointMap final : public PointMap {
   LogMap map_;
   VectorXc f_;
 };
-
-/// w -> factor (w - from) + to.
-struct Similarity {
-  Complex factor, from, to;
-};
-
-/// The similarity that takes points nearest to others, in the sense of least squares; a
-/// translation where they have no extent.
-Similarity similarity_between(const Points& from, const Points& to) {
-  Similarity s{1, 0, 0};
-  for (size_t i = 0; i < from.size(); ++i) s.from += from[i], s.to += to[i];
-  s.from /= static_cast<double>(from.size());
-  s.to /= static_cast<double>(from.size());
-  Complex together = 0;
-  double extent = 0;
-  for (size_t i = 0; i < from.size(); ++i) {
-    together += std::conj(from[i] - s.from) * (to[i] - s.to);
-    extent += std::norm(from[i] - s.from);
-  }
-  if (std::abs(together) > 1e-12 * extent) s.factor = together / extent;
-  return s;
-}
 
 Bounds bounds_of(const Method& method, const Parameters& values) {
   return {parameter(method, values, "k"), parameter(method, values, "sigma"),
@@ -280,7 +259,7 @@ class BoundedDeformer final : public Deformer {
     }
     solution_.map = std::move(scaled);
     fz_ *= factor;
-    f_ = (factor * (f_.array() - nearest.from) + nearest.to).matrix();
+    for (Complex& w : f_) w = Similarity{factor, nearest.from, nearest.to}(w);
     psi_ *= std::conj(factor);  // conj(Psi) turns along
   }
 

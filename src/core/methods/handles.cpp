@@ -47,19 +47,13 @@ Points HandlePoints::targets(const Pose& pose) const {
   return targets;
 }
 
-std::optional<HandlePoints::Rigid> HandlePoints::rigid(const Points& targets) const {
-  if (targets == rest_points_) return Rigid{1, 0, 0};
-  Rigid rigid{1, 0, 0};
-  const double count = static_cast<double>(targets.size());
-  for (size_t i = 0; i < targets.size(); ++i)
-    rigid.from += rest_points_[i] / count, rigid.to += targets[i] / count;
-  Complex together = 0;
+std::optional<Similarity> HandlePoints::rigid(const Points& targets) const {
+  if (targets == rest_points_) return Similarity{1, 0, 0};
+  Similarity rigid = similarity_between(rest_points_, targets);
+  rigid.factor /= std::abs(rigid.factor);
   double size = 0;
-  for (size_t i = 0; i < targets.size(); ++i) {
-    together += std::conj(rest_points_[i] - rigid.from) * (targets[i] - rigid.to);
+  for (size_t i = 0; i < targets.size(); ++i)
     size = std::max({size, std::abs(rest_points_[i]), std::abs(targets[i])});
-  }
-  if (std::abs(together) > 0) rigid.turn = together / std::abs(together);
   constexpr double kRounding = 1e-13;
   for (size_t i = 0; i < targets.size(); ++i)
     if (std::abs(rigid(rest_points_[i]) - targets[i]) > kRounding * size) return {};

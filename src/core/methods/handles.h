@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/deformer.h"
+#include "core/similarity.h"
 
 namespace holomorph {
 
@@ -17,13 +18,9 @@ class HandlePoints {
   const std::vector<Location>& locations() const { return locations_; }
   /// Where a pose wants them. Throws Error as check_pose does.
   Points targets(const Pose& pose) const;
-  /// The turn that takes all handles to their places at once, if there is one; moves are exact to
-  /// rounding. The identity is found to the last bit.
-  struct Rigid {
-    Complex turn, from, to;
-    Complex operator()(Complex z) const { return turn * (z - from) + to; }
-  };
-  std::optional<Rigid> rigid(const Points& targets) const;
+  /// The turn and move that takes all handles to their places at once, if there is one, to
+  /// rounding; at rest the identity to the last bit.
+  std::optional<Similarity> rigid(const Points& targets) const;
   /// "Pin 3 lies outside the cage and holds nothing", or nothing.
   const std::string& note() const { return note_; }
 

@@ -153,14 +153,14 @@ class HarArapDeformer final : public Deformer {
     return iteration;
   }
 
-  void move_rigidly(const HandlePoints::Rigid& rigid, SampledMap& out, Wanted wanted) {
+  void move_rigidly(const Similarity& rigid, SampledMap& out, Wanted wanted) {
     const Index count = static_cast<Index>(rest_.samples.size());
     out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
-    if (rigid.turn != Complex(1) || rigid.from != rigid.to)
+    if (rigid.factor != Complex(1) || rigid.from != rigid.to)
       for (Complex& z : out.f) z = rigid(z);
     phi_.resize(0);
     if (!wanted.derivatives) return;
-    out.fz = VectorXc::Constant(count, rigid.turn);
+    out.fz = VectorXc::Constant(count, rigid.factor);
     out.fzbar = VectorXc::Zero(count);
   }
 
