@@ -9,8 +9,8 @@
 #include "core/argument.h"
 #include "core/bounded_space.h"
 #include "core/error.h"
+#include "core/methods/bounded_points.h"
 #include "core/methods/rows.h"
-#include "core/quadrature.h"
 #include "core/similarity.h"
 
 namespace holomorph {
@@ -23,43 +23,6 @@ constexpr size_t kInnerSamples = 300;
 constexpr double kInset = 1.0;
 /// The distance is measured at every so many samples; the bounds hold at all of them.
 constexpr size_t kFitStride = 2;
-
-/// f_z = e^l and f_zbar = conj(nu e^l) over a polygon.
-class BoundedPointMap final : public PointMap {
- public:
-  BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
-                  LogMap map, VectorXc f)
-      : basis_(std::move(basis)), mesh_(std::move(mesh)), map_(std::move(map)), f_(std::move(f)) {}
-
-  /// From the nearest vertex by Gauss-Legendre quadrature of both derivatives.
-  Value at(Complex z) const override {
-    const auto nearest =
-        std::ranges::min_element(mesh_->vertices, {}, [&](Complex v) { return std::norm(v - z); });
-    const Complex from = *nearest, h = z - from;
-    Points places;
-    const GaussRule& rule = gauss_rule(8);
-    for (const double t : rule.nodes) places.push_back(from + t * h);
-    places.push_back(z);
-    const MatrixXc c = basis_->values(places);
-    const VectorXc l = c * map_.l, nu = c * map_.nu;
-    Complex phi = 0, psi = 0;
-    for (size_t g = 0; g < rule.nodes.size(); ++g) {
-      const Complex slope = rule.weights[g] * h * std::exp(l[static_cast<Index>(g)]);
-      phi += slope;
-      psi += nu[static_cast<Index>(g)] * slope;
-    }
-    const Index last = l.size() - 1;
-    const Complex fz = std::exp(l[last]);
-    return {f_[nearest - mesh_->vertices.begin()] + phi + std::conj(psi), fz,
-            std::conj(nu[last] * fz)};
-  }
-
- private:
-  std::shared_ptr<const BoundaryBasis> basis_;
-  std::shared_ptr<const Mesh> mesh_;
-  LogMap map_;
-  VectorXc f_;
-};
 
 Bounds bounds_of(const Method& method, const Parameters& values) {
   return {parameter(method, values, "k"), parameter(method, values, "sigma"),
@@ -273,16 +236,22 @@ class BoundedDeformer final : public Deformer {
       out.fzbar = psi_.conjugate();
       return;
     }
-    const auto map = current();
-    const Index count = static_cast<Index>(rest_.samples.size());
-    out.f.resize(count);
-    out.fz.resize(count);
-    out.fzbar.resize(count);
-    for (Index i = 0; i < count; ++i) {
-      const PointMap::Value value = map->at(rest_.samples[static_cast<size_t>(i)]);
-      out.f[i] = value.f;
-      out.fz[i] = value.fz;
-      out.fzbar[i] = value.fzbar;
+    const BoundedPointMap map(basis_, rest_.mesh, solution_.map, f_);
+    const size_t count = rest_.samples.size();
+    out.f.resize(static_cast<Index>(count));
+    out.fz.resize(static_cast<Index>(count));
+    out.fzbar.resize(static_cast<Index>(count));
+    constexpr size_t kAtOnce = 256;  // the coordinates of more would fill the memory
+    for (size_t first = 0; first < count; first += kAtOnce) {
+      const std::span<const Complex> some =
+          std::span(rest_.samples).subspan(first, std::min(kAtOnce, count - first));
+      const std::vector<PointMap::Value> values = map.at(some);
+      for (size_t k = 0; k < values.size(); ++k) {
+        const Index i = static_cast<Index>(first + k);
+        out.f[i] = values[k].f;
+        out.fz[i] = values[k].fz;
+        out.fzbar[i] = values[k].fzbar;
+      }
     }
   }
 
