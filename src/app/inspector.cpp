@@ -23,7 +23,7 @@ void edit_number(const char* label, double value, const char* format, float spee
 
 void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec& spec,
                   size_t chosen) {
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.72f);
   if (!ImGui::BeginCombo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
   for (size_t i = 0; i < spec.options.size(); ++i)
     if (ImGui::Selectable(spec.options[i].label.c_str(), i == chosen)) {
@@ -88,7 +88,7 @@ void method_section(Workspace& workspace) {
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
       if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),
-                             static_cast<float>(spec.highest), "%.2g",
+                             static_cast<float>(spec.highest), "%.3g",
                              ImGuiSliderFlags_AlwaysClamp |
                                  (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
         Scene after = workspace.document.scene();
@@ -196,8 +196,8 @@ void selection_section(Workspace& workspace) {
 void cage_section(Workspace& workspace) {
   const Scene& scene = workspace.scene();
   if (scene.has_cage())
-    ImGui::Text("%d cage points, %d pins%s", static_cast<int>(scene.rest.size()),
-                static_cast<int>(scene.pins.size()),
+    ImGui::Text("%d cage points, %d %s%s", static_cast<int>(scene.rest.size()),
+                static_cast<int>(scene.pins.size()), scene.pins.size() == 1 ? "pin" : "pins",
                 scene.pins.empty() || method_named(scene.method).uses_pins ? "" : " (at rest)");
   else
     ImGui::TextDisabled("No cage yet.");

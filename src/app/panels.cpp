@@ -147,7 +147,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   ImGui::Begin("Status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
   const LiveMap& map = workspace.map;
-  std::string hint;
+  std::string hint, note;
+  ImVec4 note_color;
   if (map.error()) {
     ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.error()->what());
     if (const auto where = map.error()->where()) {
@@ -158,11 +159,11 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     hint = status.hint;
     const auto state = map.map().status;
     if (map.has_map() && state == SampledMap::Status::certified) {
-      ImGui::TextColored(proved_color(), "\uf00c %s", map.map().note.c_str());
-      ImGui::SameLine();
+      note = "\uf00c " + map.map().note;
+      note_color = proved_color();
     } else if (map.has_map() && state == SampledMap::Status::infeasible) {
-      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.map().note.c_str());
-      ImGui::SameLine();
+      note = map.map().note;
+      note_color = {1.0f, 0.45f, 0.4f, 1};
     } else if (const auto fold = map.fold()) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
       ImGui::SameLine();
@@ -193,12 +194,15 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   }
   if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
   const float width = ImGui::CalcTextSize(right).x;
-  if (!hint.empty()) {  // cut off before it reaches the figures
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
-    ImGui::TextUnformatted(hint.c_str());
-    ImGui::PopClipRect();
+  // Cut off before it reaches the figures.
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
+  if (!note.empty()) {
+    ImGui::TextColored(note_color, "%s", note.c_str());
+    ImGui::SameLine();
   }
+  ImGui::TextUnformatted(hint.c_str());
+  ImGui::PopClipRect();
   ImGui::SameLine(display.x - width - 14 * s);
   ImGui::TextDisabled("%s", right);
   ImGui::End();
