@@ -80,7 +80,8 @@ void for_every_method(Check check) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
       for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
-        // Methods without an operator compute in double anyway.
+        // Methods without an operator compute in double anyway, and with the polygon of raised
+        // edges.
         if (precision == Precision::single && shape != Shape::straight && !is_linear(method))
           continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
