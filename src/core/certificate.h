@@ -3,7 +3,7 @@
 // ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
 // superharmonic: bounds that hold on the boundary hold inside. Between two samples l and nu leave
 // the chord of their values by at most an eighth of the largest second derivative, and the bounds
-// are convex in (Re l, |nu|). Levi, Weber 2016, section 5, with second derivatives in closed form.
+// are convex in (Re l, |nu|). After Levi, Weber 2016, with second derivatives in closed form.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // The second-order cone in three dimensions: |w| <= height, and its Jordan algebra.
 //
-// Nesterov-Todd scaling as in Vandenberghe 2010, "The CVXOPT linear and quadratic cone program
-// solvers", section 4.2.
+// The scaling is that of Nesterov and Todd.
 #pragma once
 
 #include <cmath>

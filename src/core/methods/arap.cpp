@@ -1,5 +1,5 @@
-// Method `arap`: every triangle turns as it likes and would rather not do anything else (Sorkine,
-// Alexa 2007; per triangle as in Liu, Zhang, Xu, Gotsman, Gortler 2008, section 4).
+// Method `arap`: every triangle turns as it likes and would rather not do anything else (after
+// Sorkine, Alexa 2007, with one turn per triangle).
 //
 // With f_z and f_zbar of a triangle the energy is the sum of area (|f_z - R|^2 + |f_zbar|^2),
 // |R| = 1: R = f_z / |f_z|, then one sparse solve for f, and so on.

@@ -1,5 +1,5 @@
 // Method `har_arap`: the energy of `arap` over the smooth maps f = Phi + conj(Psi), with Phi and
-// Psi in a Cauchy basis (Chen, Weber 2015, section 6.2).
+// Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
 //
 // A few hundred unknowns and no mesh in the energy: f_z = Phi' and f_zbar = conj(Psi') at samples.
 #include "core/boundary_basis.h"

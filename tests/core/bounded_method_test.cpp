@@ -1,0 +1,206 @@
+// The method `bounded`: drags, shapes of cages, every reference, degenerate input.
+#include <catch2/catch.hpp>
+
+#include "core/boundary_basis.h"
+#include "core/deformer.h"
+#include "core/error.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// A rest of method `bounded` over a polygon, with pins.
+struct Setting {
+  Rest rest;
+  Pose pose;
+  std::unique_ptr<Deformer> deformer;
+
+  explicit Setting(const Cage& cage, const Points& pins, const Parameters& parameters = {}) {
+    rest.cage = cage;
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {800}));
+    rest.samples = rest.mesh->vertices;
+    rest.parameters = parameters;
+    pose.cage = rest.cage;
+    for (const Complex z : pins) {
+      rest.pins.push_back({z, false});
+      pose.pins.push_back({z, 0, 1});
+    }
+    deformer = method_named("bounded").prepare(rest, nullptr);
+  }
+
+  SampledMap map(Wanted wanted = {true, false}) {
+    SampledMap map;
+    deformer->deform(pose, map, wanted);
+    return map;
+  }
+
+  int flips(const SampledMap& map) const {
+    int count = 0;
+    for (const auto& [i, j, k] : rest.mesh->triangles)
+      count += cross(map.f[j] - map.f[i], map.f[k] - map.f[i]) <= 0;
+    return count;
+  }
+};
+
+Points long_bar() {
+  return {{0, 0}, {200, 0}, {400, 0}, {600, 0}, {600, 100}, {400, 100}, {200, 100}, {0, 100}};
+}
+
+}  // namespace
+
+TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified and nothing flips") {
+  for (const char* reference : {"pins", "har_arap", "arap"}) {
+    Parameters parameters;
+    const auto& options = method_named("bounded").parameters[0].options;
+    for (size_t i = 0; i < options.size(); ++i)
+      if (options[i].id == reference) parameters["reference"] = static_cast<double>(i);
+    Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}}, parameters);
+    for (int frame = 0; frame < 20; ++frame) {
+      const double t = frame / 20.0;
+      bar.pose.pins[2].position = Complex(300, 50) + (270 - 240 * t) * std::polar(1.0, 6 * t);
+      const bool draft = frame % 5 != 4;
+      const SampledMap map = bar.map({true, draft});
+      INFO(reference << ", frame " << frame << ": " << map.note);
+      CHECK(map.status == SampledMap::Status::certified);
+      CHECK(bar.flips(map) == 0);
+      for (Index i = 0; i < map.f.size(); ++i) {
+        const double fz = std::abs(map.fz[i]), fzbar = std::abs(map.fzbar[i]);
+        REQUIRE(fz - fzbar >= 0.2);
+        REQUIRE(fz + fzbar <= 5);
+        REQUIRE(fzbar <= 0.7 * fz);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A square with a notch of this many degrees.
+Points notched(double degrees) {
+  const double half = 700 * std::tan(0.5 * degrees * kPi / 180);
+  return {{0, 0},     {1000, 0},          {1000, 1000}, {500 + half, 1000},
+          {500, 300}, {500 - half, 1000}, {0, 1000}};
+}
+
+}  // namespace
+
+TEST_CASE("A boundary basis surrounds notches, spikes and slots, and its inset stays inside") {
+  std::vector<Cage> cages{polygon_cage(Points{{0, 0}, {600, 0}, {600, 3}, {0, 3}}),
+                          polygon_cage(Points{{0, 0}, {400, -4}, {0, 300}}),
+                          shapes::curved_star(11, 4, 0.3, 8)};
+  for (const double degrees : {2.0, 4.9, 8.0, 9.8, 30.0})
+    cages.push_back(polygon_cage(notched(degrees)));
+  for (const Cage& cage : cages) {
+    const BoundaryBasis basis(cage, 50, 300);
+    CHECK_FALSE(self_crossing(basis.polygon()));
+    const Points fine = flattened(cage).points;
+    for (const BoundaryPiece& piece : basis.pieces())
+      for (const double t : {0.25, 0.5, 0.75}) {
+        const Complex z = piece.start + t * (piece.end - piece.start);
+        CHECK(winding_number(basis.polygon(), z) == 1);
+      }
+    for (const Complex& z : basis.polygon()) CHECK(winding_number(fine, z) == 0);
+    for (const Complex& z : basis.inset(1)) CHECK(winding_number(fine, z) == 1);
+  }
+}
+
+TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and do not flip") {
+  std::vector<Cage> cages{shapes::curved_star(8, 3, 0.25, 3), polygon_cage(notched(8)),
+                          polygon_cage(notched(4.9)), polygon_cage(shapes::comb(4)),
+                          reversed(polygon_cage(shapes::l_shape()))};
+  const auto& options = method_named("bounded").parameters[0].options;
+  for (const Cage& cage : cages)
+    for (size_t reference = 0; reference < options.size(); ++reference) {
+      const Box box = box_of(controls_of(cage));
+      Setting setting(cage, {}, {{"reference", static_cast<double>(reference)}});
+      for (Points& segment : setting.pose.cage.segments)
+        for (Complex& z : segment)
+          z += 0.1 * box.width() * std::sin(4 * (z.imag() - box.bottom) / box.height());
+      const SampledMap map = setting.map();
+      INFO(options[reference].id << ", " << cage.size() << " segments: " << map.note);
+      CHECK(map.status == SampledMap::Status::certified);
+      CHECK(setting.flips(map) == 0);
+    }
+}
+
+TEST_CASE("Bounded method: a reference that knows no pins is followed in spite of them") {
+  const auto& options = method_named("bounded").parameters[0].options;
+  for (size_t reference = 0; reference < options.size(); ++reference) {
+    Setting bar(polygon_cage(long_bar()), {{30, 50}, {570, 50}},
+                {{"reference", static_cast<double>(reference)}});
+    bar.pose.pins[1].position += Complex(-20, 60);
+    CHECK(bar.map().status == SampledMap::Status::certified);
+  }
+}
+
+TEST_CASE("Bounded method: a final frame depends on rest and pose alone") {
+  Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}});
+  bar.pose.pins[2].position = {350, 180};
+  const SampledMap first = bar.map();
+  bar.pose.pins[2].position = {100, 300};
+  bar.map({false, true});
+  bar.pose.pins[2].position = {350, 180};
+  bar.map({false, true});
+  CHECK(bar.map().f == first.f);
+  CHECK(bar.map().fzbar == first.fzbar);
+}
+
+TEST_CASE("Bounded method: the map at single points is the map at the mesh, with nu") {
+  Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}}, {{"reference", 3}});
+  bar.pose.pins[2].position = {350, 220};
+  const SampledMap map = bar.map();
+  REQUIRE(map.fzbar.cwiseAbs().maxCoeff() > 0.02);
+  const auto points = bar.deformer->point_map(bar.pose);
+  const double h = 1e-4;
+  for (const Complex z : {Complex(90, 40), Complex(310, 71), Complex(555, 12)}) {
+    const auto at = points->at(z);
+    const Complex fx = (points->at(z + h).f - points->at(z - h).f) / (2 * h),
+                  fy = (points->at(z + h * kI).f - points->at(z - h * kI).f) / (2 * h);
+    CHECK(std::abs((fx - kI * fy) / 2.0 - at.fz) <= 1e-7);
+    CHECK(std::abs((fx + kI * fy) / 2.0 - at.fzbar) <= 1e-7);
+  }
+  for (size_t v = 0; v < bar.rest.mesh->vertices.size(); v += 20) {
+    const auto at = points->at(bar.rest.mesh->vertices[v]);
+    const Index i = static_cast<Index>(v);
+    CHECK(std::abs(at.f - map.f[i]) <= 1e-9);
+    CHECK(std::abs(at.fz - map.fz[i]) <= 1e-9);
+    CHECK(std::abs(at.fzbar - map.fzbar[i]) <= 1e-9);
+  }
+}
+
+TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
+  const auto ends_well = [](const char* what, Setting& setting) {
+    INFO(what);
+    try {
+      const SampledMap map = setting.map();
+      CHECK(map.f.allFinite());
+      CHECK(map.iterations <= 60);
+      // Where the mesh is too coarse for the map it says so.
+      CHECK((setting.flips(map) == 0) == (map.status == SampledMap::Status::certified));
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).size() > 10);
+    }
+  };
+  Setting triangle(polygon_cage(Points{{0, 0}, {300, 0}, {100, 200}}), {{80, 40}, {200, 40}});
+  triangle.pose.pins[1].position = {90, 150};
+  ends_well("triangle", triangle);
+  Setting collapsed(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}});
+  for (PosePin& pin : collapsed.pose.pins) pin.position = {300, 50};
+  ends_well("collapsed", collapsed);
+  for (Points& segment : collapsed.pose.cage.segments) segment[0] = {300, 50};
+  ends_well("collapsed", collapsed);
+  Setting far(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}});
+  far.pose.pins[2].position = {1e7, -1e7};
+  ends_well("far", far);
+  Setting outside(polygon_cage(long_bar()), {{30, 50}, {900, 900}});
+  outside.pose.pins[1].position = {0, 0};
+  ends_well("outside", outside);
+  Setting thin(polygon_cage(Points{{0, 0}, {600, 0}, {600, 1}, {0, 1}}), {{30, 0.5}, {570, 0.5}});
+  thin.pose.pins[1].position = {30, 500};
+  ends_well("thin", thin);
+  Setting mirrored(polygon_cage(long_bar()), {});
+  for (Points& segment : mirrored.pose.cage.segments)
+    for (Complex& z : segment) z = std::conj(z);
+  ends_well("mirrored", mirrored);
+}
