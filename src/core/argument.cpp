@@ -22,6 +22,13 @@ double edge_increment(const VectorXc& values, int from, int to) {
 
 }  // namespace
 
+int turns_of(const VectorXc& values) {
+  double turn = 0;
+  for (Index i = 0; i < values.size(); ++i)
+    turn += increment(values[i], values[(i + 1) % values.size()]);
+  return static_cast<int>(std::lround(turn / (2 * kPi)));
+}
+
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
   std::vector<Zero> zeros;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -76,7 +83,7 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
                   samples[static_cast<size_t>(i)]);
     steps[i] = increment(values[i], values[(i + 1) % m]);
   }
-  int turns = static_cast<int>(std::lround(steps.sum() / (2 * kPi)));
+  int turns = turns_of(values);
   std::vector<std::vector<Index>> places;
   for (const Zero& zero : zeros) {
     places.push_back(jump_places(samples, zero.place));

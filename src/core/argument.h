@@ -16,6 +16,9 @@ struct Zero {
 /// its triangles: each edge's increment is found once. Cost: linear.
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 
+/// How often values along a closed loop turn around 0.
+int turns_of(const VectorXc& values);
+
 /// The argument along a closed boundary, from increments between neighbouring samples, less 2 pi
 /// per zero at the sample nearest to it, or across the domain from there when that turns the
 /// boundary clearly less: so it is a function again, the sum of all increments is 0. Zeros that are

@@ -70,9 +70,7 @@ class Solver {
       const Cone& cone = system_.cones[c];
       s[c].resize(3, m_);
       for (Index i = 0; i < m_; ++i) {
-        s[c].col(i) << cone.offset_at(i) + cone.slope * u[i] -
-                           (cone.decay > 0 ? cone.decay * decay_[i] : 0),
-            re[i], im[i];
+        s[c].col(i) << cone.height(i, u[i], decay_[i]), re[i], im[i];
         inside = inside && is_inside(s[c].col(i));
       }
     }
@@ -368,7 +366,7 @@ bool is_feasible(const ConeSystem& system, const VectorXd& x) {
     const double w =
         q > 0 ? std::hypot(system.re.col(i).dot(x.tail(q)), system.im.col(i).dot(x.tail(q))) : 0;
     for (const Cone& cone : system.cones)
-      if (!(cone.offset_at(i) + cone.slope * u - cone.decay * std::exp(-u) > w)) return false;
+      if (!(cone.height(i, u, std::exp(-u)) > w)) return false;
   }
   return true;
 }

@@ -18,7 +18,12 @@ struct Cone {
   VectorXd offset;  ///< one for all samples, or one each
   double slope = 0, decay = 0;
 
-  double offset_at(Index sample) const { return offset[offset.size() == 1 ? 0 : sample]; }
+  /// At a sample whose e^-u is given, too.
+  double height(Index sample, double u, double exp_minus_u) const {
+    const double bend =
+        decay > 0 ? decay * exp_minus_u : 0;  // e^-u may overflow where it is unused
+    return offset[offset.size() == 1 ? 0 : sample] + slope * u - bend;
+  }
 };
 
 /// What stays while targets move. p unknowns a, q unknowns b, m samples, k rows of the fit.

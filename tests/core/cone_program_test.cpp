@@ -103,8 +103,7 @@ class Program final : public Ipopt::TNLP {
     for (const Cone& cone : s_.cones)
       for (int i = 0; i < m_; ++i) {
         const auto [u, re, im] = values(x, i);
-        g[at++] = cone.offset_at(i) + cone.slope * u - cone.decay * std::exp(-u) -
-                  std::sqrt(re * re + im * im + kRound);
+        g[at++] = cone.height(i, u, std::exp(-u)) - std::sqrt(re * re + im * im + kRound);
       }
     for (int i = 0; i < k_; ++i) {
       const double r = s_.fit.col(i).dot(Eigen::Map<const VectorXd>(x, p_)) - t_.wanted[i];
@@ -273,7 +272,7 @@ TEST_CASE("Cone program: only heights, or only discs") {
   for (Index i = 0; i < 30; ++i)
     tightest = std::max(tightest, std::hypot(discs.system.re.col(i).dot(flat.x),
                                              discs.system.im.col(i).dot(flat.x)) /
-                                      discs.system.cones[0].offset_at(i));
+                                      discs.system.cones[0].height(i, 0, 1));
   CHECK(tightest < 1);
   CHECK(tightest > 0.999);
 }

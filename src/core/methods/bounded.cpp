@@ -151,12 +151,7 @@ class BoundedDeformer final : public Deformer {
     const VectorXc& gamma = reference_method_->harmonic ? fz : fitted;
     std::vector<Zero> found;
     zeros.clear();
-    double turns = 0;
-    for (Index i = 0; i < m; ++i) {
-      const Complex a = gamma[i], b = gamma[(i + 1) % m];
-      turns += std::atan2(cross(a, b), dot(a, b));
-    }
-    if (std::lround(turns / (2 * kPi)) != 0) {
+    if (turns_of(gamma) != 0) {
       found = zeros_of(*rest_.mesh, product(values_, basis_->coefficients(unknowns)));
       // The loop of samples does not turn around those between it and the boundary.
       std::erase_if(found, [&](const Zero& zero) {
