@@ -82,9 +82,7 @@ void method_section(Workspace& workspace) {
         workspace.commit(spec.label, after);
       }
     } else {
-      const bool unused =
-          !spec.idle_with.empty() && parameter(method, scene.parameters, spec.idle_with) != 0;
-      ImGui::BeginDisabled(unused);
+      ImGui::BeginDisabled(!is_used(method, scene.parameters, spec));
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
       if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),

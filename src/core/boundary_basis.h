@@ -5,6 +5,8 @@
 // that makes the mean of |F|^2 over the samples the square of the unknowns.
 #pragma once
 
+#include <Eigen/QR>
+
 #include "core/cage.h"
 #include "core/dense.h"
 
@@ -51,6 +53,8 @@ class BoundaryBasis {
   const MatrixXc& at_samples() const { return at_samples_; }  ///< whitened
   /// The polygon's coefficients of unknowns.
   VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }
+  /// Those of all unknowns: one column each.
+  const MatrixXc& coefficients() const { return coefficients_; }
   /// The unknowns of the function that is 1.
   VectorXc one() const { return one_; }
 
@@ -60,6 +64,32 @@ class BoundaryBasis {
   std::vector<BoundaryPiece> pieces_;
   MatrixXc coefficients_, at_samples_;
   VectorXc one_;
+};
+
+/// Fits functions of the basis to values at points of the domain, in the sense of least squares.
+class HolomorphicFit {
+ public:
+  HolomorphicFit() = default;
+  /// Cost: a QR factorisation of points x unknowns.
+  HolomorphicFit(const BoundaryBasis& basis, std::span<const Complex> points)
+      : rows_(basis.whitened(basis.values(points))), qr_(rows_) {}
+
+  /// The whitened basis at the points.
+  const MatrixXc& rows() const { return rows_; }
+  VectorXc unknowns(const VectorXc& values) const { return qr_.solve(values); }
+
+  /// The nearest function: whitened unknowns, and its values at the points.
+  struct Fit {
+    VectorXc unknowns, values;
+  };
+  Fit operator()(const VectorXc& values) const {
+    VectorXc x = unknowns(values);
+    return {x, rows_ * x};
+  }
+
+ private:
+  MatrixXc rows_;
+  Eigen::HouseholderQR<MatrixXc> qr_;
 };
 
 }  // namespace holomorph

@@ -2,35 +2,12 @@
 #include "core/bounded_space.h"
 
 #include "core/error.h"
+#include "core/real_form.h"
 
 namespace holomorph {
 namespace {
 
 constexpr double kTightening = 0.002;
-
-/// Columns (Re, Im) of a complex row q: Re(q x) = re . (Re x, Im x), Im(q x) = im . (Re x, Im x).
-void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
-  const Index n = q.cols();
-  re.resize(2 * n, q.rows());
-  im.resize(2 * n, q.rows());
-  re.topRows(n) = q.real().transpose();
-  re.bottomRows(n) = -q.imag().transpose();
-  im.topRows(n) = q.imag().transpose();
-  im.bottomRows(n) = q.real().transpose();
-}
-
-VectorXd stacked(const VectorXc& x) {
-  VectorXd real(2 * x.size());
-  real << x.real(), x.imag();
-  return real;
-}
-VectorXc complex_of(const VectorXd& x) {
-  const Index n = x.size() / 2;
-  VectorXc result(n);
-  result.real() = x.head(n);
-  result.imag() = x.tail(n);
-  return result;
-}
 
 }  // namespace
 
@@ -47,10 +24,10 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
   system_.cones = {{same(std::log(tight.Sigma)), -1, 0}, {same(1), 0, tight.sigma}};
   if (!conformal) system_.cones.push_back({same(tight.k), 0, 0});
   system_.quadratic = MatrixXd::Zero(system_.unknowns(), system_.unknowns());
-  boundary_ = basis_->whitened(basis_->values(points.boundary));
+  fit_ = HolomorphicFit(*basis_, points.boundary);
   if (!conformal) inner_ = basis_->whitened(basis_->values(points.inner));
   MatrixXd re, im;
-  real_columns(boundary_, re, im);
+  real_columns(fit_.rows(), re, im);
   const MatrixXd mean_square = (re * re.transpose() + im * im.transpose()) / static_cast<double>(m);
   if (!conformal) {
     const Index count = inner_.rows();
@@ -72,7 +49,6 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
     system_.quadratic.topLeftCorner(2 * n, 2 * n) = mean_square;
     system_.fit.resize(2 * n, 0);
   }
-  fit_.compute(boundary_);
   centre_ = VectorXd::Zero(system_.unknowns());
   centre_.head(2 * n) = stacked(tight.middle() * basis_->one());
 }
@@ -92,7 +68,7 @@ void BoundedSpace::append_samples(const MatrixXc& whitened, ConeSystem& system) 
 }
 
 ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
-  const Index n = basis_->size(), m = boundary_.rows(), count = inner_.rows();
+  const Index n = basis_->size(), m = fit_.rows().rows(), count = inner_.rows();
   check(reference.log_fz.size() == m && reference.nu.size() == m &&
             (count == 0 || reference.inner_nu.size() == count),
         "bounded reference: one value for each sample");
@@ -117,7 +93,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
   };
   if (system_.re.rows() > 0) {
     const double share = count > 0 ? 0.5 : 1;
-    add_nu(boundary_, clamped(reference.nu), share);
+    add_nu(fit_.rows(), clamped(reference.nu), share);
     if (count > 0) add_nu(inner_, clamped(reference.inner_nu), share);
   }
   if (settings_.norm == BoundedSettings::Norm::l1) {
@@ -125,7 +101,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
     target.wanted << reference.log_fz.real(), reference.log_fz.imag();
   } else {
     const double weight = 1 / static_cast<double>(m);
-    target.linear.head(2 * n) = -weight * stacked(boundary_.adjoint() * reference.log_fz);
+    target.linear.head(2 * n) = -weight * stacked(fit_.rows().adjoint() * reference.log_fz);
     target.constant += 0.5 * weight * reference.log_fz.squaredNorm();
   }
   return target;
@@ -147,14 +123,9 @@ ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
 VectorXd BoundedSpace::unconstrained(const BoundedReference& reference) const {
   VectorXd x(system_.unknowns());
   const Index n = basis_->size();
-  x.head(2 * n) = stacked(fit_.solve(reference.log_fz));
-  if (system_.re.rows() > 0) x.tail(2 * n) = stacked(fit_.solve(reference.nu));
+  x.head(2 * n) = stacked(fit_.unknowns(reference.log_fz));
+  if (system_.re.rows() > 0) x.tail(2 * n) = stacked(fit_.unknowns(reference.nu));
   return x;
-}
-
-BoundedSpace::Fit BoundedSpace::holomorphic_fit(const VectorXc& values) const {
-  VectorXc unknowns = fit_.solve(values);
-  return {unknowns, boundary_ * unknowns};
 }
 
 LogMap BoundedSpace::map_of(const VectorXd& x) const {
@@ -174,41 +145,23 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
   settings.gap = warm ? 1e-3 : 1e-4;
   settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
   settings.neglected = 0.1;
-  BoundedMap best;
+  const CertifiedProgram program{certifier_,
+                                 settings_.bounds,
+                                 system_,
+                                 centre_,
+                                 [this](const VectorXd& x) { return map_of(x); },
+                                 [this](const Points& points, ConeSystem& system) {
+                                   append_samples(basis_->whitened(basis_->values(points)), system);
+                                 }};
   const VectorXd itself = unconstrained(reference);
   constexpr double kNothing = 1e-9;  // a reference of the space that keeps the bounds is the answer
   if (is_feasible(system_, itself) && energy_of(system_, target, itself) <= kNothing) {
-    best.solution.x = itself;
-    best.solution.status = ConeSolution::Status::solved;
-  } else {
-    best.solution = solved(system_, target, settings, start(warm));
+    ConeSolution known;
+    known.x = itself;
+    known.status = ConeSolution::Status::solved;
+    return program.proved(target, settings, std::move(known));
   }
-  best.map = map_of(best.solution.x);
-  best.certificate = certifier_.certify(best.map, settings_.bounds);
-  // Where the proof fails the function leaves its samples' chord: bind it there.
-  constexpr int kMostRounds = 3;
-  ConeSystem cut;
-  for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
-    if (best.rounds == 0) cut = system_;
-    append_samples(basis_->whitened(basis_->values(best.certificate.open)), cut);
-    ConeSolution from = best.solution;
-    for (double share = 0.02; !is_feasible(cut, from.x) && share <= 1; share *= 2)
-      from.x = (1 - share) * best.solution.x + share * centre_;
-    if (!is_feasible(cut, from.x)) from.x = centre_;
-    best.solution = solved(cut, target, settings, from);
-    best.map = map_of(best.solution.x);
-    best.certificate = certifier_.certify(best.map, settings_.bounds);
-  }
-  // The centre is certified, and what lies between two certified maps is, too, nearly always.
-  const VectorXd x = best.solution.x;
-  for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
-    best.blend = share;
-    best.solution.x = (1 - share) * x + share * centre_;
-    best.map = map_of(best.solution.x);
-    best.certificate = certifier_.certify(best.map, settings_.bounds);
-    if (share == 1) break;
-  }
-  return best;
+  return program.solved(target, settings, start(warm));
 }
 
 }  // namespace holomorph

@@ -5,11 +5,9 @@
 // solution of a small cone program.
 #pragma once
 
-#include <Eigen/QR>
 #include <memory>
 
-#include "core/certificate.h"
-#include "core/cone_program.h"
+#include "core/certified_program.h"
 
 namespace holomorph {
 
@@ -18,10 +16,11 @@ struct ReferencePoints {
   Points boundary, inner;
 };
 
-/// A map to be projected: ln f_z, continuous, and nu = conj(f_zbar) / f_z at those points.
+/// A map to be projected at those points: ln f_z, continuous, on the boundary; and Psi' =
+/// conj(f_zbar) and nu = Psi' / f_z everywhere.
 struct BoundedReference {
-  VectorXc log_fz, nu;
-  VectorXc inner_nu;
+  VectorXc log_fz, nu, psi;
+  VectorXc inner_nu, inner_psi;
 };
 
 struct BoundedSettings {
@@ -29,15 +28,6 @@ struct BoundedSettings {
   /// Of l's distance: mean of |Re| + |Im|, which forgives jumps of 2 pi, or half the mean square.
   enum class Norm { l1, l2 } norm = Norm::l1;
   double weight = 1;  ///< of nu's distance, half the mean square
-};
-
-/// The nearest map, and the proof that it keeps the bounds.
-struct BoundedMap {
-  LogMap map;
-  Certificate certificate;
-  ConeSolution solution;
-  int rounds = 0;    ///< of added samples
-  double blend = 0;  ///< how far towards the centre of the bounds it was moved, to be proved
 };
 
 class BoundedSpace {
@@ -49,23 +39,15 @@ class BoundedSpace {
                const BoundedSettings& settings);
 
   /// Projects. With `warm`, a solution of this space, the work starts from there and is less
-  /// exact: for dragging; without, the result depends on the reference alone. What cannot
-  /// be proved is cut off by added samples, then moved towards the centre of the bounds, as far as
-  /// that itself if need be: so the result is certified.
+  /// exact: for dragging; without, the result depends on the reference alone. It is certified.
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
-
-  /// The holomorphic function nearest to values at the reference's boundary points: whitened
-  /// unknowns, and its values there.
-  struct Fit {
-    VectorXc unknowns, values;
-  };
-  Fit holomorphic_fit(const VectorXc& values) const;
 
   /// Tries to prove the bounds for a map of this space.
   Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
 
   const BoundaryBasis& basis() const { return *basis_; }
   const BoundedSettings& settings() const { return settings_; }
+  const Certifier& certifier() const { return certifier_; }
 
   /// The distance of a map from the reference: l's plus weight times nu's.
   double energy(const BoundedReference& reference, const ConeSolution& solution) const;
@@ -82,8 +64,8 @@ class BoundedSpace {
   std::shared_ptr<const BoundaryBasis> basis_;
   BoundedSettings settings_;
   ConeSystem system_;
-  MatrixXc boundary_, inner_;           ///< the whitened basis at the reference's points
-  Eigen::HouseholderQR<MatrixXc> fit_;  ///< of boundary_
+  HolomorphicFit fit_;  ///< at the reference's boundary points
+  MatrixXc inner_;      ///< the whitened basis at its inner ones
   Certifier certifier_;
   VectorXd centre_;  ///< nu = 0, l in the middle of the bounds
 };

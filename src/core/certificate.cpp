@@ -21,6 +21,31 @@ Bounds Bounds::tightened(double share) const {
   return {k * (1 - share), sigma * std::exp(inwards), Sigma * std::exp(-inwards)};
 }
 
+const char* bound_name(Bound bound) {
+  static constexpr const char* kNames[] = {"largest stretch", "smallest stretch", "angle"};
+  return kNames[static_cast<int>(bound)];
+}
+
+LogMap scaled(LogMap map, Complex factor) {
+  // Cauchy coordinates sum to one, conj(Psi) turns along.
+  map.l.array() += std::log(factor);
+  map.w *= map.second == LogMap::Second::nu ? std::conj(factor) / factor : std::conj(factor);
+  return map;
+}
+
+Derivatives derivatives_of(const LogMap& map, const VectorXc& l, const VectorXc& w) {
+  Derivatives d{l.array().exp(), w};
+  if (map.second == LogMap::Second::nu) d.psi = w.cwiseProduct(d.phi);
+  return d;
+}
+
+Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, const VectorXc& w,
+                                  const VectorXc& l1, const VectorXc& w1) {
+  Derivatives d{l1.cwiseProduct(first.phi), w1};
+  if (map.second == LogMap::Second::nu) d.psi = (w1 + w.cwiseProduct(l1)).cwiseProduct(first.phi);
+  return d;
+}
+
 namespace {
 
 /// What a piece of the boundary sees of the polygon's vertices.
@@ -82,21 +107,21 @@ Certifier::Certifier(const BoundaryBasis& basis)
 
 // With s the slope of the coefficients along an edge and L = log (z_{e+1} - z) / (z_e - z):
 // 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the last two cancel in the sum.
-Certifier::Values Certifier::at(Complex z, const Function& l, const Function& nu) const {
+Certifier::Values Certifier::at(Complex z, const Function& l, const Function& w) const {
   const Points& polygon = basis_.polygon();
   const size_t n = polygon.size();
-  Complex sum_l = 0, sum_nu = 0, p = polygon[0] - z;
+  Complex sum_l = 0, sum_w = 0, p = polygon[0] - z;
   for (size_t e = 0; e < n; ++e) {
     const Complex q = polygon[(e + 1) % n] - z;
     const Complex log(0.5 * std::log(std::norm(q) / std::norm(p)),
                       std::atan2(cross(p, q), dot(p, q)));
     const Index i = static_cast<Index>(e);
     sum_l += times(l.values[i] - times(p, l.slopes[i]), log);
-    sum_nu += times(nu.values[i] - times(p, nu.slopes[i]), log);
+    sum_w += times(w.values[i] - times(p, w.slopes[i]), log);
     p = q;
   }
   const Complex factor = inverse(2 * kPi * kI);
-  return {times(sum_l, factor), times(sum_nu, factor)};
+  return {times(sum_l, factor), times(sum_w, factor)};
 }
 
 /// One proof in progress.
@@ -104,15 +129,16 @@ class Certifier::Proof {
  public:
   Proof(const Certifier& certifier, const LogMap& map, const Bounds& bounds)
       : l(certifier.function_of(map.l)),
-        nu(certifier.function_of(map.nu)),
+        w(certifier.function_of(map.w)),
         certifier_(certifier),
+        second_(map.second),
         bounds_(bounds) {}
 
-  /// A piece with the functions' values at its ends and bounds of |l''| and |nu''| on it.
+  /// A piece with the functions' values at its ends and bounds of |l''| and |w''| on it.
   struct Leaf {
     BoundaryPiece piece;
     Values start, end;
-    double second_l = 0, second_nu = 0;
+    double second_l = 0, second_w = 0;
   };
 
   /// Proves the bounds on a leaf, halving it up to `depth` times; notes where that fails.
@@ -133,12 +159,12 @@ class Certifier::Proof {
     Leaf first = leaf, second = leaf;
     first.piece = piece_of(domain, piece.segment, piece.from, middle);
     second.piece = piece_of(domain, piece.segment, middle, piece.to);
-    first.end = second.start = certifier_.at(first.piece.end, l, nu);
+    first.end = second.start = certifier_.at(first.piece.end, l, w);
     prove(first, depth - 1);
     prove(second, depth - 1);
   }
 
-  Function l, nu;
+  Function l, w;
   Certificate result;
 
  private:
@@ -153,38 +179,55 @@ class Certifier::Proof {
   }
 
   /// A bound that the leaf's ends and second derivatives do not prove.
-  std::optional<Certificate::Bound> open_bound(const Leaf& leaf) const {
+  std::optional<Bound> open_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
-                 dnu = off_chord(leaf.piece, leaf.second_nu, leaf.start.nu, leaf.end.nu);
+                 dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
+    if (second_ == LogMap::Second::psi) return open_bound_of_psi(leaf, dl, dw);
     for (const Values& at : {leaf.start, leaf.end}) {
-      const double u = at.l.real(), w = std::abs(at.nu) + dnu;
-      if (!(w <= bounds_.k)) return Certificate::Bound::k;
-      if (!(u + dl + w <= std::log(bounds_.Sigma))) return Certificate::Bound::Sigma;
-      if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Certificate::Bound::sigma;
+      const double u = at.l.real(), w = std::abs(at.w) + dw;
+      if (!(w <= bounds_.k)) return Bound::k;
+      if (!(u + dl + w <= std::log(bounds_.Sigma))) return Bound::Sigma;
+      if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
+    }
+    return {};
+  }
+
+  /// The same for Psi': |f_z| = e^u lies below its chord, by no more than Delta u^2 / 8 max e^u.
+  std::optional<Bound> open_bound_of_psi(const Leaf& leaf, double dl, double dw) const {
+    const double change = leaf.end.l.real() - leaf.start.l.real(),
+                 below = change * change / 8 *
+                         std::exp(std::max(leaf.end.l.real(), leaf.start.l.real()));
+    for (const Values& at : {leaf.start, leaf.end}) {
+      const double size = std::exp(at.l.real()), w = std::abs(at.w) + dw;
+      const double least = std::exp(-dl) * (size - below);
+      if (!(w <= bounds_.k * least)) return Bound::k;
+      if (!(std::exp(dl) * size + w <= bounds_.Sigma)) return Bound::Sigma;
+      if (!(least - w >= bounds_.sigma)) return Bound::sigma;
     }
     return {};
   }
 
   const Certifier& certifier_;
+  LogMap::Second second_;
   const Bounds& bounds_;
 };
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
   Proof proof(*this, map, bounds);
-  const VectorXc l = values_ * map.l, nu = values_ * map.nu, l2 = second_ * proof.l.jumps,
-                 nu2 = second_ * proof.nu.jumps;
-  const VectorXd l3 = nearer_ * proof.l.moduli, nu3 = nearer_ * proof.nu.moduli,
-                 lb = near_ * proof.l.moduli, nub = near_ * proof.nu.moduli;
+  const VectorXc l = values_ * map.l, w = values_ * map.w, l2 = second_ * proof.l.jumps,
+                 w2 = second_ * proof.w.jumps;
+  const VectorXd l3 = nearer_ * proof.l.moduli, w3 = nearer_ * proof.w.moduli,
+                 lb = near_ * proof.l.moduli, wb = near_ * proof.w.moduli;
   const Index count = l.size();
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
     const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
     const double reach = reach_of(piece);
     proof.prove({piece,
-                 {l[i], nu[i]},
-                 {l[next], nu[next]},
+                 {l[i], w[i]},
+                 {l[next], w[next]},
                  std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
-                 std::min(std::abs(nu2[i]) + nu3[i] * reach, nub[i])},
+                 std::min(std::abs(w2[i]) + w3[i] * reach, wb[i])},
                 depth);
   }
   proof.result.holds = proof.result.open.empty();

@@ -3,7 +3,8 @@
 // ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
 // superharmonic: bounds that hold on the boundary hold inside. Between two samples l and nu leave
 // the chord of their values by at most an eighth of the largest second derivative, and the bounds
-// are convex in (Re l, |nu|). After Levi, Weber 2016, with second derivatives in closed form.
+// are convex in (Re l, |nu|). After Levi, Weber 2016, with second derivatives in closed form. The
+// same with Psi' for nu, where |f_z| leaves its chord by another eighth.
 #pragma once
 
 #include <optional>
@@ -24,16 +25,36 @@ struct Bounds {
   double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }
 };
 
-/// f_z = e^l and conj(f_zbar) = nu e^l: coefficients over a BoundaryBasis' polygon.
+/// The derivatives of a harmonic map f = Phi + conj(Psi) without folds: f_z = Phi' = e^l, and
+/// conj(f_zbar) = Psi' = w e^l or w itself. l and w are coefficients over a BoundaryBasis' polygon.
 struct LogMap {
-  VectorXc l, nu;
+  enum class Second { nu, psi };  ///< what w is: Psi' / Phi' (the space L_nu), or Psi' (L_psi)
+  VectorXc l, w;
+  Second second = Second::nu;
 };
+
+/// The map times a factor.
+LogMap scaled(LogMap map, Complex factor);
+
+/// Phi' and Psi' at points.
+struct Derivatives {
+  VectorXc phi, psi;
+};
+
+/// Those of a map, from l and w at the points.
+Derivatives derivatives_of(const LogMap& map, const VectorXc& l, const VectorXc& w);
+/// Phi'' and Psi'', from the first derivatives and l, w, l' and w' at the points.
+Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, const VectorXc& w,
+                                  const VectorXc& l1, const VectorXc& w1);
+
+/// The three bounds, in the order of the cone programs' cones; and a name for messages.
+enum class Bound { Sigma, sigma, k };
+const char* bound_name(Bound bound);
 
 /// What a proof found.
 struct Certificate {
-  enum class Bound { k, sigma, Sigma };
   bool holds = false;
-  Bound failed = Bound::k;  ///< the first one that could not be proved, and where
+  Bound failed = Bound::Sigma;  ///< the first one that could not be proved, and where
   Complex where;
   Points open;  ///< the middles of all smallest pieces that could not be proved
 };
@@ -47,9 +68,11 @@ class Certifier {
   /// four matrices of pieces x vertices, and a few microseconds for each halving.
   Certificate certify(const LogMap& map, const Bounds& bounds, int depth = 6) const;
 
+  const MatrixXc& coordinates() const { return values_; }  ///< C at the basis' samples
+
  private:
   struct Values {
-    Complex l, nu;
+    Complex l, w;
   };
   /// A holomorphic function: coefficients, their slopes along the polygon's edges, and the slopes'
   /// jumps at its vertices.
@@ -59,7 +82,7 @@ class Certifier {
   };
   class Proof;
   Function function_of(const VectorXc& coefficients) const;
-  Values at(Complex z, const Function& l, const Function& nu) const;
+  Values at(Complex z, const Function& l, const Function& w) const;
 
   const BoundaryBasis& basis_;
   MatrixXc values_;         ///< C at samples

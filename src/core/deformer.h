@@ -28,8 +28,12 @@ struct ParameterSpec {
   Kind kind = Kind::number;
   double fallback = 0, lowest = 0, highest = 1;
   bool logarithmic = false;
-  std::string idle_with = {};        ///< the key of a toggle that leaves this one without effect
-  std::vector<Option> options = {};  ///< of a choice
+  struct Condition {
+    std::string key;
+    double value = 0;
+  };
+  std::optional<Condition> used_when = {};  ///< another parameter's value that it takes effect with
+  std::vector<Option> options = {};         ///< of a choice
 };
 
 enum class Precision {
@@ -152,6 +156,8 @@ const Method& method_named(const std::string& id);
 
 /// The parameter's value, its default when missing.
 double parameter(const Method& method, const Parameters& values, const std::string& key);
+/// Whether a parameter has any effect beside the others' values.
+bool is_used(const Method& method, const Parameters& values, const ParameterSpec& spec);
 /// The id of the option that a choice has.
 std::string choice(const Method& method, const Parameters& values, const std::string& key);
 

@@ -32,6 +32,10 @@ double parameter(const Method& method, const Parameters& values, const std::stri
   return 0;
 }
 
+bool is_used(const Method& method, const Parameters& values, const ParameterSpec& spec) {
+  return !spec.used_when || parameter(method, values, spec.used_when->key) == spec.used_when->value;
+}
+
 std::string choice(const Method& method, const Parameters& values, const std::string& key) {
   for (const ParameterSpec& spec : method.parameters)
     if (spec.key == key)

@@ -43,6 +43,14 @@ struct Setting {
   }
 };
 
+/// The value of an option of a choice.
+double option(const std::string& key, const std::string& id) {
+  for (const ParameterSpec& spec : method_named("bounded").parameters)
+    for (size_t i = 0; spec.key == key && i < spec.options.size(); ++i)
+      if (spec.options[i].id == id) return static_cast<double>(i);
+  throw std::invalid_argument(id);
+}
+
 Points long_bar() {
   return {{0, 0}, {200, 0}, {400, 0}, {600, 0}, {600, 100}, {400, 100}, {200, 100}, {0, 100}};
 }
@@ -50,18 +58,19 @@ Points long_bar() {
 }  // namespace
 
 TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified and nothing flips") {
-  for (const char* reference : {"pins", "har_arap", "arap"}) {
-    Parameters parameters;
-    const auto& options = method_named("bounded").parameters[0].options;
-    for (size_t i = 0; i < options.size(); ++i)
-      if (options[i].id == reference) parameters["reference"] = static_cast<double>(i);
+  using Row = std::pair<const char*, const char*>;
+  for (const auto& [reference, space] :
+       {Row{"pins", "nu"}, Row{"har_arap", "nu"}, Row{"arap", "nu"}, Row{"pins", "psi"},
+        Row{"har_arap", "psi"}, Row{"har_arap", "h"}}) {
+    const Parameters parameters{{"reference", option("reference", reference)},
+                                {"space", option("space", space)}};
     Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}}, parameters);
     for (int frame = 0; frame < 20; ++frame) {
       const double t = frame / 20.0;
       bar.pose.pins[2].position = Complex(300, 50) + (270 - 240 * t) * std::polar(1.0, 6 * t);
       const bool draft = frame % 5 != 4;
       const SampledMap map = bar.map({true, draft});
-      INFO(reference << ", frame " << frame << ": " << map.note);
+      INFO(reference << ", " << space << ", frame " << frame << ": " << map.note);
       CHECK(map.status == SampledMap::Status::certified);
       CHECK(bar.flips(map) == 0);
       for (Index i = 0; i < map.f.size(); ++i) {
@@ -131,6 +140,104 @@ TEST_CASE("Bounded method: a reference that knows no pins is followed in spite o
                 {{"reference", static_cast<double>(reference)}});
     bar.pose.pins[1].position += Complex(-20, 60);
     CHECK(bar.map().status == SampledMap::Status::certified);
+  }
+}
+
+TEST_CASE("Bounded method: pins are met more nearly in L_psi, and what holds them is said") {
+  double off[2] = {};
+  for (const char* space : {"nu", "psi"}) {
+    Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}},
+                {{"reference", option("reference", "har_arap")},
+                 {"space", option("space", space)},
+                 {"pin_weight", 1e5},
+                 {"k", 0.8}});
+    bar.pose.pins[1].position += Complex(0, 60);
+    const SampledMap map = bar.map();
+    CHECK(map.status == SampledMap::Status::certified);
+    const auto points = bar.deformer->point_map(bar.pose);
+    for (size_t i = 0; i < 3; ++i)
+      off[space == std::string("psi")] +=
+          std::abs(points->at(bar.rest.pins[i].position).f - bar.pose.pins[i].position);
+  }
+  INFO(off[0] << " px in L_nu, " << off[1] << " px in L_psi");
+  CHECK(off[1] < 0.2 * off[0]);
+  Setting far(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}},
+              {{"space", option("space", "psi")}, {"Sigma", 1.5}, {"sigma", 0.5}});
+  far.pose.pins[2].position = {1500, 50};
+  const std::string note = far.map().note;
+  INFO(note);
+  CHECK(note.find("from its place, held by the bound on the largest stretch") != std::string::npos);
+}
+
+namespace {
+
+const std::vector<Parameters>& specified_bounds() {
+  static const std::vector<Parameters> bounds{{{"k", 0.7}, {"sigma", 0.2}, {"Sigma", 5}},
+                                              {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}};
+  return bounds;
+}
+
+/// All bounds at single points between the mesh's vertices.
+void check_bounds_inside(const Setting& setting, const Parameters& bounds) {
+  const auto points = setting.deformer->point_map(setting.pose);
+  const Mesh& mesh = *setting.rest.mesh;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    Complex z = 0;
+    for (const int v : mesh.triangles[t]) z += mesh.vertices[static_cast<size_t>(v)] / 3.0;
+    const auto at = points->at(z);
+    const double fz = std::abs(at.fz), fzbar = std::abs(at.fzbar);
+    REQUIRE(fzbar <= bounds.at("k") * fz);
+    REQUIRE(fz + fzbar <= bounds.at("Sigma"));
+    REQUIRE(fz - fzbar >= bounds.at("sigma"));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Bounded method: a bar bent by 270 degrees with arap has zeros, and is certified") {
+  // The specification's map (d): both ends are held in place and turned.
+  for (const Parameters& bounds : specified_bounds()) {
+    Parameters parameters = bounds;
+    parameters["reference"] = option("reference", "arap");
+    Points ends;
+    for (const double x : {0.05, 5.95})
+      for (const double y : {-0.45, 0.0, 0.45}) ends.push_back({x, y});
+    Setting bar(polygon_cage(Points{{0, -0.5}, {6, -0.5}, {6, 0.5}, {0, 0.5}}), ends, parameters);
+    const double radius = 6 / (1.5 * kPi);
+    for (size_t i = 3; i < 6; ++i)
+      bar.pose.pins[i].position =
+          Complex(-radius, radius) + std::polar(1.0, 1.5 * kPi) * (ends[i] - Complex(6, 0));
+    const SampledMap map = bar.map();
+    INFO(map.note);
+    CHECK_FALSE(map.zeros.empty());
+    CHECK(map.status == SampledMap::Status::certified);
+    CHECK(bar.flips(map) == 0);
+    check_bounds_inside(bar, bounds);
+  }
+}
+
+TEST_CASE("Bounded method: a cage with two zeros of f' inside is certified") {
+  // The specification's map (e): f' = 3 (z - a) (z - b) on a square.
+  const Complex a(0.4, 0.1), b(-0.3, 0.2);
+  const auto f = [&](Complex z) { return z * z * z - 1.5 * (a + b) * z * z + 3.0 * a * b * z; };
+  for (const Parameters& bounds : specified_bounds()) {
+    Parameters parameters = bounds;
+    parameters["reference"] = option("reference", "cage");
+    Points square;
+    for (const Complex corner : {Complex(-1, -1), Complex(1, -1), Complex(1, 1), Complex(-1, 1)})
+      for (int i = 0; i < 10; ++i)
+        square.push_back(corner + 0.2 * i * (kI * corner).real() +
+                         kI * (0.2 * i * (kI * corner).imag()));
+    Setting setting(polygon_cage(square), {}, parameters);
+    for (Points& segment : setting.pose.cage.segments) segment[0] = f(segment[0]);
+    const SampledMap map = setting.map();
+    INFO(map.note);
+    REQUIRE(map.zeros.size() == 2);
+    for (const Complex zero : map.zeros)
+      CHECK(std::min(std::abs(zero - a), std::abs(zero - b)) <= 0.1);
+    CHECK(map.status == SampledMap::Status::certified);
+    CHECK(setting.flips(map) == 0);
+    check_bounds_inside(setting, bounds);
   }
 }
 

@@ -5,149 +5,14 @@
 #include "core/argument.h"
 #include "core/bounded_space.h"
 #include "core/error.h"
-#include "core/mesh.h"
+#include "support/known_maps.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
 using Norm = BoundedSettings::Norm;
 
-namespace {
-
-/// A smooth map of the plane by its Wirtinger derivatives.
-struct Known {
-  const char* name;
-  Points domain;
-  std::function<Complex(Complex)> fz, fzbar;
-};
-
-Points circle(int n) {
-  Points points;
-  for (int i = 0; i < n; ++i) points.push_back(std::polar(1.0, 2 * kPi * i / n));
-  return points;
-}
-
-Points bar() {
-  return {{0, -0.5}, {6, -0.5}, {6, 0.5}, {0, 0.5}};
-}
-
-/// From partial derivatives.
-Complex fz_of(Complex fx, Complex fy) {
-  return 0.5 * (fx - kI * fy);
-}
-Complex fzbar_of(Complex fx, Complex fy) {
-  return 0.5 * (fx + kI * fy);
-}
-
-Known squared() {
-  return {"(z - 0.05)^2", circle(50), [](Complex z) { return 2.0 * (z - 0.05); },
-          [](Complex) { return Complex(0); }};
-}
-Known quadratic() {
-  return {"z + 0.3 z^2 + 0.9 conj(z)^2",
-          {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
-          [](Complex z) { return 1.0 + 0.6 * z; },
-          [](Complex z) { return 1.8 * std::conj(z); }};
-}
-Known spiral() {
-  const double radius = 6 / (2 * kPi);
-  const auto turn = [=](Complex z) { return std::polar(1.0, z.real() / radius - kPi / 2); };
-  const auto fx = [=](Complex z) {
-    return (radius - z.imag()) * turn(z) * (kI / radius * (1 + 0.12 * z.real()) + 0.12);
-  };
-  const auto fy = [=](Complex z) { return -turn(z) * (1 + 0.12 * z.real()); };
-  return {"a 360 degree spiral", bar(), [=](Complex z) { return fz_of(fx(z), fy(z)); },
-          [=](Complex z) { return fzbar_of(fx(z), fy(z)); }};
-}
-Known folded() {
-  const auto fx = [](Complex z) {
-    return Complex(1 - 1.6 * std::exp(-4 * (z.real() - 3) * (z.real() - 3)));
-  };
-  return {"a fold", bar(), [=](Complex z) { return fz_of(fx(z), kI); },
-          [=](Complex z) { return fzbar_of(fx(z), kI); }};
-}
-
-/// A bar pinched as by turning its ends: f_z vanishes inside.
-Known pinched() {
-  return {"one zero in a bar", bar(), [](Complex z) { return (z - Complex(3.7, 0.05)) * 0.4; },
-          [](Complex) { return Complex(0); }};
-}
-Known two_zeros() {
-  return {"two zeros",
-          {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
-          [](Complex z) { return (z - Complex(0.4, 0.1)) * (z + Complex(0.3, -0.2)) * 3.0; },
-          [](Complex) { return Complex(0); }};
-}
-
-VectorXc values(const std::function<Complex(Complex)>& f, const Points& points) {
-  VectorXc result(static_cast<Index>(points.size()));
-  for (size_t i = 0; i < points.size(); ++i) result[static_cast<Index>(i)] = f(points[i]);
-  return result;
-}
-
-/// A known map over its domain, ready to be projected: 50 polygon vertices, 300 samples.
-struct Projection {
-  std::shared_ptr<const BoundaryBasis> basis;
-  std::unique_ptr<BoundedSpace> space;
-  BoundedReference reference;
-  Mesh mesh;
-
-  /// `inside`: nu counts inside the domain, too.
-  Projection(const Known& known, const Bounds& bounds, Norm norm, bool inside = true) {
-    const Cage cage = polygon_cage(known.domain);
-    basis = std::make_shared<const BoundaryBasis>(cage, 50, 300);
-    mesh = domain_mesh(cage, {1000});
-    ReferencePoints points{basis->samples(), {}};
-    std::vector<bool> outer(mesh.vertices.size());
-    for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = true;
-    for (size_t v = 0; v < mesh.vertices.size() && inside; ++v)
-      if (!outer[v]) points.inner.push_back(mesh.vertices[v]);
-    space = std::make_unique<BoundedSpace>(basis, points, BoundedSettings{bounds, norm, 1});
-    // The argument is that of the nearest holomorphic function.
-    const VectorXc fz = values(known.fz, basis->samples());
-    const auto [unknowns, gamma] = space->holomorphic_fit(fz);
-    const VectorXc on_mesh = basis->whitened(basis->values(mesh.vertices)) * unknowns;
-    const VectorXd theta = boundary_argument(basis->samples(), gamma, zeros_of(mesh, on_mesh));
-    reference.log_fz.resize(fz.size());
-    for (Index i = 0; i < fz.size(); ++i)
-      reference.log_fz[i] = Complex(std::log(std::abs(fz[i])), theta[i]);
-    const auto nu = [&](Complex z) { return std::conj(known.fzbar(z)) / known.fz(z); };
-    reference.nu = values(nu, basis->samples());
-    reference.inner_nu = values(nu, points.inner);
-  }
-
-  double energy(const BoundedMap& map) const { return space->energy(reference, map.solution); }
-};
-
-std::vector<Known> all_known() {
-  return {squared(), quadratic(), spiral(), folded(), pinched(), two_zeros()};
-}
-
-/// The worst violation of bounds among points: > 0 breaks one.
-double violation(const BoundaryBasis& basis, const LogMap& map, const Points& points,
-                 const Bounds& bounds) {
-  const MatrixXc c = basis.values(points);
-  const VectorXc l = c * map.l, nu = c * map.nu;
-  double worst = -1;
-  for (Index i = 0; i < l.size(); ++i) {
-    const double k = std::abs(nu[i]), size = std::exp(l[i].real());
-    worst = std::max(
-        {worst, k - bounds.k, size * (1 + k) - bounds.Sigma, bounds.sigma - size * (1 - k)});
-  }
-  return worst;
-}
-
-/// A few of the domain's boundary points between all samples, and all of a mesh's.
-Points dense_points(const BoundaryBasis& basis, const Mesh& mesh) {
-  Points points = mesh.vertices;
-  for (const BoundaryPiece& piece : basis.pieces())
-    for (int k = 0; k < 10; ++k) {
-      const double t = piece.from + (k + 0.5) / 10 * (piece.to - piece.from);
-      points.push_back(bezier_point(basis.domain().controls(piece.segment), t));
-    }
-  return points;
-}
-
-}  // namespace
+using known_maps::Known;
+using known_maps::Projection;
 
 TEST_CASE("Bounded: the energies of the specification's maps") {
   // nu is measured on the boundary there; sampling differs, and so the last per cent.
@@ -156,9 +21,9 @@ TEST_CASE("Bounded: the energies of the specification's maps") {
     double l2, l2_digit, l1, l1_digit;  ///< and half of their last digits
   };
   constexpr double kSampling = 0.01;
-  for (const Row& row :
-       {Row{squared(), 0.836, 5e-4, 1.28, 5e-3}, Row{quadratic(), 0.0043, 5e-5, 0.0049, 5e-5},
-        Row{spiral(), 0.0374, 5e-5, 0.219, 5e-4}})
+  for (const Row& row : {Row{known_maps::squared(), 0.836, 5e-4, 1.28, 5e-3},
+                         Row{known_maps::quadratic(), 0.0043, 5e-5, 0.0049, 5e-5},
+                         Row{known_maps::spiral(), 0.0374, 5e-5, 0.219, 5e-4}})
     for (const Norm norm : {Norm::l2, Norm::l1}) {
       const Projection projection(row.known, {}, norm, false);
       const BoundedMap map = projection.space->nearest(projection.reference);
@@ -172,18 +37,18 @@ TEST_CASE("Bounded: the energies of the specification's maps") {
 
 TEST_CASE("Bounded: what is certified holds ten times more densely, on the boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
-    for (const Known& known : all_known()) {
+    for (const Known& known : known_maps::all()) {
       const Projection projection(known, bounds, Norm::l1);
       BoundedMap map = projection.space->nearest(projection.reference);
       INFO(known.name << ", k = " << bounds.k);
       REQUIRE(map.certificate.holds);
-      const Points points = dense_points(*projection.basis, projection.mesh);
-      CHECK(violation(*projection.basis, map.map, points, bounds) <= 0);
+      const Points points = known_maps::dense_points(*projection.basis, projection.mesh);
+      CHECK(known_maps::violation(*projection.basis, map.map, points, bounds) <= 0);
       CHECK(map.blend <= 1e-3);
       // On from there, as in a drag.
       map = projection.space->nearest(projection.reference, &map);
       CHECK(map.certificate.holds);
-      CHECK(violation(*projection.basis, map.map, points, bounds) <= 0);
+      CHECK(known_maps::violation(*projection.basis, map.map, points, bounds) <= 0);
     }
 }
 
@@ -205,31 +70,33 @@ TEST_CASE("Bounded: maps that keep the bounds are their own nearest") {
 }
 
 TEST_CASE("Bounded: a certificate is refused where a bound breaks between the samples") {
-  const auto basis = std::make_shared<const BoundaryBasis>(polygon_cage(bar()), 50, 100);
+  const auto basis =
+      std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 50, 100);
   const Certifier certifier(*basis);
   LogMap map{VectorXc::Zero(basis->size()), VectorXc::Zero(basis->size())};
   CHECK(certifier.certify(map, {}).holds);
   CHECK_FALSE(certifier.certify(map, {0.7, 1.1, 5}).holds);
   // One coefficient is raised: nu peaks at one polygon vertex, not at the samples beside it.
-  map.nu[7] = 0.9;
+  map.w[7] = 0.9;
   const Points samples = basis->samples();
-  const VectorXc nu = basis->values(samples) * map.nu;
+  const VectorXc nu = basis->values(samples) * map.w;
   const double seen = nu.cwiseAbs().maxCoeff();
   Points dense;
   for (const BoundaryPiece& piece : basis->pieces())
     for (int k = 0; k < 200; ++k)
       dense.push_back(piece.start + k / 200.0 * (piece.end - piece.start));
-  const double peak = (basis->values(dense) * map.nu).cwiseAbs().maxCoeff();
+  const double peak = (basis->values(dense) * map.w).cwiseAbs().maxCoeff();
   REQUIRE(peak > seen);
   const Certificate between = certifier.certify(map, {0.5 * (seen + peak), 0.01, 20});
   CHECK_FALSE(between.holds);
-  CHECK(between.failed == Certificate::Bound::k);
+  CHECK(between.failed == Bound::k);
   CHECK(std::abs(between.where - basis->polygon()[7]) < 0.2);
   CHECK(certifier.certify(map, {peak + 0.01, 0.01, 20}).holds);
 }
 
 TEST_CASE("Bounded: bounds that cannot be are refused") {
-  const auto basis = std::make_shared<const BoundaryBasis>(polygon_cage(bar()), 25, 100);
+  const auto basis =
+      std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 25, 100);
   for (const Bounds& bounds : {Bounds{1, 0.2, 5}, Bounds{-0.1, 0.2, 5}, Bounds{0.5, 0, 5},
                                Bounds{0.5, 2, 1}, Bounds{0.5, NAN, 5}, Bounds{NAN, 0.2, 5}})
     CHECK_THROWS_AS(BoundedSpace(basis, {basis->samples(), {}}, {bounds}), Error);
@@ -244,7 +111,7 @@ TEST_CASE("A boundary basis reproduces holomorphic functions and surrounds its d
     const double size = box_of(basis.samples()).diagonal();
     const Complex center = box_of(basis.samples()).center();
     const auto wave = [&](Complex z) { return std::exp((z - center) / size); };
-    const VectorXc f = values(wave, basis.samples());
+    const VectorXc f = known_maps::values(wave, basis.samples());
     const double m = static_cast<double>(f.size());
     const VectorXc unknowns = basis.at_samples().adjoint() * f / m;
     CHECK((basis.at_samples() * unknowns - f).cwiseAbs().maxCoeff() <= 1e-2);
@@ -259,17 +126,17 @@ TEST_CASE("A boundary basis reproduces holomorphic functions and surrounds its d
 }
 
 TEST_CASE("The argument along a boundary is continuous and closes, zeros or not") {
-  const Mesh mesh = domain_mesh(circle(40), {600});
-  const Points samples = circle(200);
+  const Mesh mesh = domain_mesh(known_maps::circle(40), {600});
+  const Points samples = known_maps::circle(200);
   const auto two = [](Complex z) { return (z - 0.3) * (z - 0.3) * (z + Complex(0.2, 0.5)); };
-  const std::vector<Zero> zeros = zeros_of(mesh, values(two, mesh.vertices));
+  const std::vector<Zero> zeros = zeros_of(mesh, known_maps::values(two, mesh.vertices));
   int multiplicity = 0;
   for (const Zero& zero : zeros) {
     multiplicity += zero.multiplicity;
     CHECK(std::abs(two(zero.place)) < 0.02);
   }
   CHECK(multiplicity == 3);
-  const VectorXc f = values(two, samples);
+  const VectorXc f = known_maps::values(two, samples);
   for (const std::vector<Zero>& known : {zeros, std::vector<Zero>{}}) {
     const VectorXd theta = boundary_argument(samples, f, known);
     int jumps = 0;
@@ -290,9 +157,10 @@ TEST_CASE("The argument turns a part of the domain the shorter way around a zero
   // 260 above it; the zero is nearer to the lower side.
   const double bend = 80 * kPi / 180;
   const auto g = [&](Complex z) { return (z - Complex(3, -0.2)) * std::exp(-kI * bend * z / 6.0); };
-  const BoundaryBasis basis(polygon_cage(bar()), 50, 300);
+  const BoundaryBasis basis(polygon_cage(known_maps::bar()), 50, 300);
   const Points& samples = basis.samples();
-  const VectorXd theta = boundary_argument(samples, values(g, samples), {{Complex(3, -0.2), 1}});
+  const VectorXd theta =
+      boundary_argument(samples, known_maps::values(g, samples), {{Complex(3, -0.2), 1}});
   double left = 0, right = 0, lefts = 0, rights = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].real() < 0.5) left += theta[static_cast<Index>(i)], ++lefts;
@@ -307,13 +175,15 @@ TEST_CASE("The tree integrates along a mesh to the order of its rule") {
   const auto f2 = [](Complex z) { return -4.0 * std::sin(2.0 * z) + 2.0; };
   double last = 0;
   for (const int vertices : {500, 8000}) {
-    const Mesh mesh = domain_mesh(circle(60), {vertices});
+    const Mesh mesh = domain_mesh(known_maps::circle(60), {vertices});
     const MeshTree tree(mesh);
-    const VectorXc F = tree.antiderivative(values(f1, mesh.vertices), values(f2, mesh.vertices));
+    const VectorXc F = tree.antiderivative(known_maps::values(f1, mesh.vertices),
+                                           known_maps::values(f2, mesh.vertices));
     const Complex at_root = f(mesh.vertices[static_cast<size_t>(tree.root())]);
-    const double error = (F - values([&](Complex z) { return f(z) - at_root; }, mesh.vertices))
-                             .cwiseAbs()
-                             .maxCoeff();
+    const double error =
+        (F - known_maps::values([&](Complex z) { return f(z) - at_root; }, mesh.vertices))
+            .cwiseAbs()
+            .maxCoeff();
     CHECK(error < 1e-4);
     if (last > 0) CHECK(error < last / 30);  // fourth order: 16 times as many, a quarter as long
     last = error;

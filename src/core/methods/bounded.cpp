@@ -1,28 +1,21 @@
 // Method `bounded`: the nearest map that folds nowhere and stretches no more than allowed, to the
-// map of another method (Levi, Weber 2016, the space L_nu).
+// map of another method (Levi, Weber 2016).
 //
 // Reference at the boundary's samples -> continuous ln f_z -> cone program -> proof -> integration
 // along the mesh.
 #include <cstdio>
 
-#include "core/antiderivative.h"
-#include "core/argument.h"
-#include "core/bounded_space.h"
+#include "core/bounded_reference.h"
 #include "core/error.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/rows.h"
+#include "core/psi_space.h"
 #include "core/similarity.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
-constexpr size_t kInnerSamples = 300;
-/// The references' derivatives are rough on the boundary; they are looked at this far inside, in
-/// samples' distances.
-constexpr double kInset = 1.0;
-/// The distance is measured at every so many samples; the bounds hold at all of them.
-constexpr size_t kFitStride = 2;
 
 Bounds bounds_of(const Method& method, const Parameters& values) {
   return {parameter(method, values, "k"), parameter(method, values, "sigma"),
@@ -34,35 +27,27 @@ class BoundedDeformer final : public Deformer {
   explicit BoundedDeformer(const Rest& rest)
       : rest_(rest),
         method_(method_named("bounded")),
-        bounds_(bounds_of(method_, rest.parameters)) {
+        bounds_(bounds_of(method_, rest.parameters)),
+        space_(choice(method_, rest.parameters, "space")) {
     check(rest.mesh != nullptr, "method bounded: a rest with a mesh");
     bounds_.check_usable();
     const int basis = std::clamp(2 * static_cast<int>(rest.cage.size()), kBasis, kMostBasis);
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
-    tree_ = std::make_unique<MeshTree>(*rest.mesh);
-    take_inner_samples();
-    const Points inset = basis_->inset(kInset);
-    for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
-    space_ = std::make_unique<BoundedSpace>(basis_, points_, BoundedSettings{bounds_});
-    prepare_reference();
-    values_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 0);
-    slopes_ = planar_coordinates<double>(polygon_cage(basis_->polygon()), rest.mesh->vertices, 1);
+    on_mesh_ = std::make_unique<MapOnMesh>(*basis_, *rest.mesh);
+    reference_ = std::make_unique<ReferenceSampler>(
+        rest, method_named(choice(method_, rest.parameters, "reference")), *basis_, *on_mesh_);
     for (const RestPin& pin : rest.pins)
       pins_.push_back(locate(*rest.mesh, rest.mesh->vertices, pin.position));
+    prepare_space();
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
-    SampledMap reference;
-    Pose followed = pose;
-    if (!reference_method_->uses_pins) followed.pins.clear();
-    reference_->deform(followed, reference, {true, wanted.draft});
-    if (is_identity(reference)) return take_identity(out, wanted);
-    if (!reference.f.allFinite())
-      throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
-    const BoundedReference target = target_of(reference, out.zeros);
-    solution_ = space_->nearest(target, wanted.draft && solved_ ? &solution_ : nullptr);
+    reference_->deform(pose, wanted.draft);
+    if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
+      return take_identity(out, wanted);
+    project(reference_->reference(out.zeros), pose, wanted.draft && solved_);
     solved_ = true;
-    integrate(pose, reference);
+    integrate(pose);
     answer(out, wanted);
     turned_ = turned_triangles();
     out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
@@ -86,42 +71,49 @@ class BoundedDeformer final : public Deformer {
     return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, solution_.map, f_);
   }
 
-  /// Every so many inner vertices of the mesh.
-  void take_inner_samples() {
-    const Mesh& mesh = *rest_.mesh;
-    std::vector<char> outer(mesh.vertices.size(), 0);
-    for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
-    std::vector<int> inner;
-    for (size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (!outer[v]) inner.push_back(static_cast<int>(v));
-    const size_t step = std::max<size_t>(1, inner.size() / kInnerSamples);
-    for (size_t i = 0; i < inner.size(); i += step) {
-      inner_vertices_.push_back(inner[i]);
-      points_.inner.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
+  /// The mesh's places of pins that can be met.
+  std::vector<Location> met_pins() const {
+    std::vector<Location> places;
+    if (space_ == "psi" && reference_->uses_pins())
+      for (const auto& pin : pins_)
+        if (pin) places.push_back(*pin);
+    return places;
+  }
+
+  void prepare_space() {
+    if (space_ == "nu") {
+      nu_ = std::make_unique<BoundedSpace>(basis_, reference_->points(), BoundedSettings{bounds_});
+      return;
     }
+    PinRows rows;
+    rows.weight = parameter(method_, rest_.parameters, "pin_weight");
+    rows.size = box_of(rest_.mesh->vertices).diagonal();
+    if (const std::vector<Location> places = met_pins(); !places.empty())
+      rows.psi = on_mesh_->psi_rows(places, basis_->coefficients());
+    psi_ = std::make_unique<PsiSpace>(basis_, reference_->points(), BoundedSettings{bounds_},
+                                      std::move(rows));
   }
 
-  /// The reference is sampled next to the boundary's samples, then inside.
-  void prepare_reference() {
-    Rest rest = rest_;
-    rest.parameters.clear();
-    rest.precision = Precision::full;  // the samples are few
-    rest.samples = points_.boundary;
-    rest.samples.insert(rest.samples.end(), points_.inner.begin(), points_.inner.end());
-    rest.derivative_samples.clear();
-    reference_method_ = &method_named(choice(method_, rest_.parameters, "reference"));
-    if (!reference_method_->uses_pins) rest.pins.clear();
-    reference_ = reference_method_->prepare(rest, nullptr);
+  void project(const BoundedReference& followed, const Pose& pose, bool warm) {
+    if (nu_) {
+      solution_ = nu_->nearest(followed, warm ? &solution_ : nullptr);
+      return;
+    }
+    const BoundedReference target = space_ == "h" ? psi_->convexified(followed) : followed;
+    conformal_ = psi_->conformal(target, warm ? &conformal_ : nullptr);
+    solution_ = psi_->nearest(conformal_, target, psi_at_pins(pose), warm ? &solution_ : nullptr);
   }
 
-  bool is_identity(const SampledMap& reference) const {
-    const size_t count = points_.boundary.size();
-    for (size_t i = 0; i < count + points_.inner.size(); ++i)
-      if (reference.f[static_cast<Index>(i)] !=
-          (i < count ? points_.boundary[i] : points_.inner[i - count]))
-        return false;
-    return reference.fz == VectorXc::Ones(reference.fz.size()) && reference.fzbar.isZero(0) &&
-           bounds_.sigma <= 1 && bounds_.Sigma >= 1;
+  /// What is left for Psi to take the pins to their places.
+  VectorXc psi_at_pins(const Pose& pose) const {
+    if (met_pins().empty()) return {};
+    const VectorXc phi = on_mesh_->phi(conformal_.map.l);
+    const std::span<const Complex> places(phi.data(), static_cast<size_t>(phi.size()));
+    std::vector<Complex> left;
+    for (size_t i = 0; i < pins_.size(); ++i)
+      if (pins_[i])
+        left.push_back(std::conj(pose.pins[i].position - pins_[i]->in(*rest_.mesh, places)));
+    return Eigen::Map<const VectorXc>(left.data(), static_cast<Index>(left.size()));
   }
 
   void take_identity(SampledMap& out, Wanted wanted) {
@@ -141,84 +133,45 @@ class BoundedDeformer final : public Deformer {
     solved_ = false;
   }
 
-  /// ln f_z along the boundary and nu everywhere (algorithm 4).
-  BoundedReference target_of(const SampledMap& g, Points& zeros) const {
-    const Index m = static_cast<Index>(points_.boundary.size()),
-                inner = static_cast<Index>(points_.inner.size());
-    const VectorXc fz = g.fz.head(m);
-    // The nearest holomorphic function tells the turns and the zeros.
-    const auto [unknowns, fitted] = space_->holomorphic_fit(fz);
-    const VectorXc& gamma = reference_method_->harmonic ? fz : fitted;
-    std::vector<Zero> found;
-    zeros.clear();
-    if (turns_of(gamma) != 0) {
-      found = zeros_of(*rest_.mesh, product(values_, basis_->coefficients(unknowns)));
-      // The loop of samples does not turn around those between it and the boundary.
-      std::erase_if(found, [&](const Zero& zero) {
-        return winding_number(points_.boundary, zero.place) == 0;
-      });
-      for (const Zero& zero : found) zeros.push_back(zero.place);
-    }
-    const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
-    BoundedReference target;
-    target.log_fz.resize(m);
-    const double least = 1e-6 * fz.cwiseAbs().maxCoeff();
-    for (Index i = 0; i < m; ++i)
-      target.log_fz[i] = {std::log(std::max(std::abs(fz[i]), least)), theta[i]};
-    target.nu = (g.fzbar.head(m).conjugate().array() / fz.array()).matrix();
-    target.inner_nu = (g.fzbar.tail(inner).conjugate().array() / g.fz.tail(inner).array()).matrix();
-    return target;
-  }
-
-  /// Phi and Psi along the mesh, and the place from the pins or, without any, from the reference.
-  void integrate(const Pose& pose, const SampledMap& reference) {
-    const VectorXc l = product(values_, solution_.map.l), nu = product(values_, solution_.map.nu),
-                   l1 = product(slopes_, solution_.map.l), nu1 = product(slopes_, solution_.map.nu);
-    fz_ = l.array().exp();
-    psi_ = nu.cwiseProduct(fz_);
-    const VectorXc phi2 = l1.cwiseProduct(fz_),
-                   psi2 = (nu1 + nu.cwiseProduct(l1)).cwiseProduct(fz_);
-    f_ = tree_->antiderivative(fz_, phi2) + tree_->antiderivative(psi_, psi2).conjugate();
-    align(pose, reference);
+  /// The map at the mesh, at its place.
+  void integrate(const Pose& pose) {
+    auto [f, first] = on_mesh_->values(solution_.map);
+    f_ = std::move(f);
+    first_ = std::move(first);
+    align(pose);
     posed_ = pose;
   }
 
   /// Turns, scales and moves the map to the pins' places or, with less than two of them, to the
   /// reference's. A turn keeps all bounds, a change of scale is proved anew.
-  void align(const Pose& pose, const SampledMap& reference) {
+  void align(const Pose& pose) {
     Points from, to;
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
-    if (reference_method_->uses_pins)
+    if (reference_->uses_pins())
       for (size_t i = 0; i < pins_.size(); ++i)
         if (pins_[i]) {
           from.push_back(pins_[i]->in(*rest_.mesh, f));
           to.push_back(pose.pins[i].position);
         }
     if (from.size() < 2) {
-      from.clear(), to.clear();
-      const Index m = static_cast<Index>(points_.boundary.size());
-      for (size_t i = 0; i < points_.inner.size(); ++i) {
-        from.push_back(f_[inner_vertices_[i]]);
-        to.push_back(reference.f[m + static_cast<Index>(i)]);
-      }
+      from.clear();
+      for (const int v : reference_->inner_vertices()) from.push_back(f_[v]);
+      to.assign(reference_->inner_places().begin(), reference_->inner_places().end());
     }
     const Similarity nearest = similarity_between(from, to);
     Complex factor = nearest.factor;
-    const VectorXc one = VectorXc::Ones(basis_->size());
-    LogMap scaled = solution_.map;
-    scaled.l += std::log(factor) * one;
-    scaled.nu *= std::conj(factor) / factor;
-    const Certificate certificate = space_->certify(scaled);
-    if (!certificate.holds) {
-      factor /= std::abs(factor);
-      scaled.l = solution_.map.l + std::log(factor) * one;
-    } else {
+    LogMap map = scaled(solution_.map, factor);
+    const Certificate certificate = nu_ ? nu_->certify(map) : psi_->certify(map);
+    if (certificate.holds) {
       solution_.certificate = certificate;
+    } else {
+      factor /= std::abs(factor);
+      map = scaled(solution_.map, factor);
     }
-    solution_.map = std::move(scaled);
-    fz_ *= factor;
+    solution_.map = std::move(map);
+    first_.phi *= factor;
+    first_.psi *= std::conj(factor);
     for (Complex& w : f_) w = Similarity{factor, nearest.from, nearest.to}(w);
-    psi_ *= std::conj(factor);  // conj(Psi) turns along
   }
 
   void answer(SampledMap& out, Wanted wanted) const {
@@ -227,8 +180,8 @@ class BoundedDeformer final : public Deformer {
     if (rest_.samples == rest_.mesh->vertices) {
       out.f = f_;
       if (!wanted.derivatives) return;
-      out.fz = fz_;
-      out.fzbar = psi_.conjugate();
+      out.fz = first_.phi;
+      out.fzbar = first_.psi.conjugate();
       return;
     }
     const BoundedPointMap map(basis_, rest_.mesh, solution_.map, f_);
@@ -267,16 +220,15 @@ class BoundedDeformer final : public Deformer {
 
   /// What the proof says, and the pin that is farthest from its place.
   std::string note(const Pose& pose) const {
-    static constexpr const char* kNames[] = {"angle", "smallest stretch", "largest stretch"};
     if (!solution_.certificate.holds)
       return std::string("Not proved: the bound on the ") +
-             kNames[static_cast<int>(solution_.certificate.failed)] + " near " +
+             bound_name(solution_.certificate.failed) + " near " +
              point_text(solution_.certificate.where);
     std::string text = bounds_text();
     if (turned_ > 0)
       return "Proved, but too fine for the mesh: " + std::to_string(turned_) +
              " of its triangles turn over";
-    if (!reference_method_->uses_pins) return text;
+    if (!reference_->uses_pins()) return text;
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     double farthest = 0;
     size_t which = 0;
@@ -287,29 +239,30 @@ class BoundedDeformer final : public Deformer {
     }
     if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return text;
     char more[120];
-    std::snprintf(more, sizeof more, "; pin %d ends %.0f px from its place",
+    std::snprintf(more, sizeof more, "; pin %d ends %.3g px from its place",
                   static_cast<int>(which) + 1, farthest);
-    return text + more;
+    const auto bound = hardest_bound(solution_.solution);
+    return text + more +
+           (bound ? std::string(", held by the bound on the ") + bound_name(*bound) : "");
   }
 
   Rest rest_;
   const Method& method_;
   Bounds bounds_;
+  std::string space_;
   std::shared_ptr<const BoundaryBasis> basis_;
-  std::unique_ptr<BoundedSpace> space_;
-  std::unique_ptr<MeshTree> tree_;
-  ReferencePoints points_;
-  std::vector<int> inner_vertices_;  ///< of points_.inner in the mesh
-  const Method* reference_method_ = nullptr;
-  std::unique_ptr<Deformer> reference_;
-  PlanarMatrix<double> values_, slopes_;  ///< C and C' at the mesh's vertices
+  std::unique_ptr<MapOnMesh> on_mesh_;
+  std::unique_ptr<ReferenceSampler> reference_;
+  std::unique_ptr<BoundedSpace> nu_;  ///< this one or the other
+  std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
 
-  BoundedMap solution_;
+  BoundedMap solution_, conformal_;
   bool solved_ = false;
   int turned_ = 0;
   Pose posed_;
-  VectorXc f_, fz_, psi_;
+  VectorXc f_;
+  Derivatives first_;
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
@@ -335,20 +288,30 @@ Method bounded_method(const std::vector<Method>& references) {
     spec.highest = highest;
     return spec;
   };
+  ParameterSpec space{"space", "Maps", "What is given up first where the bounds do not allow all"};
+  space.kind = ParameterSpec::Kind::choice;
+  space.options = {
+      {"nu", "keep close (L_nu)"}, {"psi", "meet the pins (L_psi)"}, {"h", "keep sizes (H)"}};
+  space.highest = 2;
+  ParameterSpec weight = number("pin_weight", "Pin weight",
+                                "How much pins count when they are to be met", 1000, 1, 1e6);
+  weight.logarithmic = true;
+  weight.used_when = {"space", 1};
   Method method{
       "bounded",
       "No folds",
       "Nothing folds and nothing is stretched more than allowed, proved for every frame.",
-      {reference,
+      {reference, space,
        number("k", "Angle bound", "0 keeps all angles; towards 1 circles may turn flat", 0.7, 0,
               0.99),
        number("sigma", "Least stretch", "No length shrinks by more than this", 0.2, 0.01, 0.99),
-       number("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100)},
+       number("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100),
+       weight},
       true,
       true,
       false,
       prepare};
-  method.parameters.back().logarithmic = true;
+  method.parameters[4].logarithmic = true;
   method.presets = {{"Conformal", {{"k", 0}}},
                     {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
                     {"Default", {}},

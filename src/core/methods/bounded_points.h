@@ -7,7 +7,7 @@
 
 namespace holomorph {
 
-/// f_z = e^l and f_zbar = conj(nu e^l) over a polygon.
+/// The map with these derivatives and values f at the mesh's vertices.
 class BoundedPointMap final : public PointMap {
  public:
   BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
@@ -30,21 +30,19 @@ class BoundedPointMap final : public PointMap {
       places.push_back(z);
     }
     const MatrixXc c = basis_->values(places);
-    const VectorXc l = c * map_.l, nu = c * map_.nu;
+    const Derivatives d = derivatives_of(map_, c * map_.l, c * map_.w);
     std::vector<Value> values;
     for (size_t i = 0; i < points.size(); ++i) {
       const Complex h = points[i] - mesh_->vertices[nearest[i]];
       Complex phi = 0, psi = 0;
       for (size_t g = 0; g < nodes; ++g) {
         const Index at = static_cast<Index>(i * stride + g);
-        const Complex slope = rule.weights[g] * h * std::exp(l[at]);
-        phi += slope;
-        psi += nu[at] * slope;
+        phi += rule.weights[g] * h * d.phi[at];
+        psi += rule.weights[g] * h * d.psi[at];
       }
       const Index last = static_cast<Index>(i * stride + nodes);
-      const Complex fz = std::exp(l[last]);
-      values.push_back({f_[static_cast<Index>(nearest[i])] + phi + std::conj(psi), fz,
-                        std::conj(nu[last] * fz)});
+      values.push_back({f_[static_cast<Index>(nearest[i])] + phi + std::conj(psi), d.phi[last],
+                        std::conj(d.psi[last])});
     }
     return values;
   }

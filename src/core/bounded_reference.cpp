@@ -1,0 +1,97 @@
+// The boundary is looked at from a little inside, where derivatives of references are not rough.
+#include "core/bounded_reference.h"
+
+#include "core/argument.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+constexpr size_t kInnerSamples = 300;
+constexpr double kInset = 1.0;  ///< how far inside, in samples' distances
+/// The distance is measured at every so many samples; the bounds hold at all of them.
+constexpr size_t kFitStride = 2;
+
+}  // namespace
+
+ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
+                                   const BoundaryBasis& basis, const MapOnMesh& mesh)
+    : method_(method), basis_(basis), on_mesh_(mesh), mesh_(rest.mesh) {
+  take_points(*rest.mesh, basis);
+  fit_ = HolomorphicFit(basis, points_.boundary);
+  Rest followed = rest;
+  followed.parameters.clear();
+  followed.precision = Precision::full;  // the samples are few
+  followed.samples = points_.boundary;
+  followed.samples.insert(followed.samples.end(), points_.inner.begin(), points_.inner.end());
+  followed.derivative_samples.clear();
+  if (!method.uses_pins) followed.pins.clear();
+  deformer_ = method.prepare(followed, nullptr);
+}
+
+void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis) {
+  const Points inset = basis.inset(kInset);
+  for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
+  std::vector<char> outer(mesh.vertices.size(), 0);
+  for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
+  std::vector<int> inner;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (!outer[v]) inner.push_back(static_cast<int>(v));
+  const size_t step = std::max<size_t>(1, inner.size() / kInnerSamples);
+  for (size_t i = 0; i < inner.size(); i += step) {
+    inner_vertices_.push_back(inner[i]);
+    points_.inner.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
+  }
+}
+
+void ReferenceSampler::deform(const Pose& pose, bool draft) {
+  Pose followed = pose;
+  if (!method_.uses_pins) followed.pins.clear();
+  deformer_->deform(followed, map_, {true, draft});
+  if (!map_.f.allFinite())
+    throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
+}
+
+bool ReferenceSampler::is_identity() const {
+  const size_t count = points_.boundary.size();
+  for (size_t i = 0; i < count + points_.inner.size(); ++i)
+    if (map_.f[static_cast<Index>(i)] !=
+        (i < count ? points_.boundary[i] : points_.inner[i - count]))
+      return false;
+  return map_.fz == VectorXc::Ones(map_.fz.size()) && map_.fzbar.isZero(0);
+}
+
+BoundedReference ReferenceSampler::reference(Points& zeros) const {
+  const Index m = static_cast<Index>(points_.boundary.size()),
+              inner = static_cast<Index>(points_.inner.size());
+  const VectorXc fz = map_.fz.head(m);
+  // The nearest holomorphic function tells the turns and the zeros.
+  const auto [unknowns, fitted] = fit_(fz);
+  const VectorXc& gamma = method_.harmonic ? fz : fitted;
+  std::vector<Zero> found;
+  zeros.clear();
+  if (turns_of(gamma) != 0) {
+    found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
+    // The loop of samples does not turn around those between it and the boundary.
+    std::erase_if(
+        found, [&](const Zero& zero) { return winding_number(points_.boundary, zero.place) == 0; });
+    for (const Zero& zero : found) zeros.push_back(zero.place);
+  }
+  const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
+  BoundedReference target;
+  target.log_fz.resize(m);
+  const double least = 1e-6 * fz.cwiseAbs().maxCoeff();
+  for (Index i = 0; i < m; ++i)
+    target.log_fz[i] = {std::log(std::max(std::abs(fz[i]), least)), theta[i]};
+  target.psi = map_.fzbar.head(m).conjugate();
+  target.inner_psi = map_.fzbar.tail(inner).conjugate();
+  target.nu = (target.psi.array() / fz.array()).matrix();
+  target.inner_nu = (target.inner_psi.array() / map_.fz.tail(inner).array()).matrix();
+  return target;
+}
+
+std::span<const Complex> ReferenceSampler::inner_places() const {
+  return {map_.f.data() + points_.boundary.size(), points_.inner.size()};
+}
+
+}  // namespace holomorph

@@ -1,0 +1,47 @@
+// What a map without folds follows: another method's map, looked at along the boundary and inside.
+#pragma once
+
+#include "core/bounded_space.h"
+#include "core/deformer.h"
+#include "core/map_on_mesh.h"
+
+namespace holomorph {
+
+/// Samples of a method's map where a BoundedSpace measures the distance to it.
+class ReferenceSampler {
+ public:
+  /// Prepares the method over the rest's cage and pins. All but the rest must outlive this.
+  ReferenceSampler(const Rest& rest, const Method& method, const BoundaryBasis& basis,
+                   const MapOnMesh& mesh);
+
+  const ReferencePoints& points() const { return points_; }
+  /// Whether the method looks at pins.
+  bool uses_pins() const { return method_.uses_pins; }
+
+  /// Samples the map of a pose. Throws Error as the method does, and when it is not finite.
+  void deform(const Pose& pose, bool draft);
+  /// Whether that was the map that moves nothing, to the last bit.
+  bool is_identity() const;
+  /// ln f_z along the boundary (algorithm 4), nu and Psi' everywhere; and the places of the zeros
+  /// that were found.
+  BoundedReference reference(Points& zeros) const;
+  /// The inner points' places.
+  std::span<const Complex> inner_places() const;
+  /// The mesh's vertices that the inner points are.
+  const std::vector<int>& inner_vertices() const { return inner_vertices_; }
+
+ private:
+  void take_points(const Mesh& mesh, const BoundaryBasis& basis);
+
+  const Method& method_;
+  const BoundaryBasis& basis_;
+  const MapOnMesh& on_mesh_;
+  std::shared_ptr<const Mesh> mesh_;
+  ReferencePoints points_;
+  std::vector<int> inner_vertices_;
+  HolomorphicFit fit_;
+  std::unique_ptr<Deformer> deformer_;
+  SampledMap map_;
+};
+
+}  // namespace holomorph

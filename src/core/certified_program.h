@@ -1,0 +1,45 @@
+// A cone program whose answer is a map, and the proof that this map keeps its bounds.
+#pragma once
+
+#include <functional>
+
+#include "core/certificate.h"
+#include "core/cone_program.h"
+
+namespace holomorph {
+
+/// A map that keeps bounds, how it was found, and the proof.
+struct BoundedMap {
+  LogMap map;
+  Certificate certificate;
+  ConeSolution solution;
+  int rounds = 0;    ///< of added samples
+  double blend = 0;  ///< how far towards the centre of the bounds it was moved, to be proved
+};
+
+/// The bound that the solution's energy would gain most from if it were wider; none when no bound
+/// is in the way.
+std::optional<Bound> hardest_bound(const ConeSolution& solution);
+
+/// The program at the boundary's samples, and what its unknowns mean. All references must outlive
+/// this.
+struct CertifiedProgram {
+  const Certifier& certifier;
+  const Bounds& bounds;  ///< to be proved; the program's own are a little narrower
+  const ConeSystem& system;
+  const VectorXd& centre;  ///< feasible, and certified by all means
+  std::function<LogMap(const VectorXd& x)> map_of;
+  /// Adds samples at points of the boundary.
+  std::function<void(const Points& points, ConeSystem& system)> append;
+
+  /// Solves from a feasible start. What cannot be proved is cut off by added samples, then moved
+  /// towards the centre, as far as that itself if need be. Cost: that of the program, and again of
+  /// each round.
+  BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
+                    const ConeSolution& start) const;
+  /// The same with the program's solution known.
+  BoundedMap proved(const ConeTarget& target, const ConeSettings& settings,
+                    ConeSolution solution) const;
+};
+
+}  // namespace holomorph

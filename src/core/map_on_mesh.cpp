@@ -1,0 +1,40 @@
+// Along the tree: first derivatives by the trapezoidal rule, second ones for its correction.
+#include "core/map_on_mesh.h"
+
+namespace holomorph {
+
+MapOnMesh::MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh)
+    : mesh_(mesh),
+      tree_(mesh),
+      values_(planar_coordinates<double>(polygon_cage(basis.polygon()), mesh.vertices, 0)),
+      slopes_(planar_coordinates<double>(polygon_cage(basis.polygon()), mesh.vertices, 1)) {}
+
+MapOnMesh::Values MapOnMesh::values(const LogMap& map) const {
+  const VectorXc l = function(map.l), w = function(map.w);
+  Values values;
+  values.first = derivatives_of(map, l, w);
+  const Derivatives second =
+      second_derivatives_of(map, values.first, w, product(slopes_, map.l), product(slopes_, map.w));
+  values.f = tree_.antiderivative(values.first.phi, second.phi) +
+             tree_.antiderivative(values.first.psi, second.psi).conjugate();
+  return values;
+}
+
+VectorXc MapOnMesh::phi(const VectorXc& l) const {
+  const VectorXc fz = function(l).array().exp();
+  return tree_.antiderivative(fz, product(slopes_, l).cwiseProduct(fz));
+}
+
+MatrixXc MapOnMesh::psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const {
+  MatrixXc rows(static_cast<Index>(places.size()), coefficients.cols());
+  for (Index j = 0; j < coefficients.cols(); ++j) {
+    const VectorXc column = coefficients.col(j);
+    const VectorXc psi = tree_.antiderivative(function(column), product(slopes_, column));
+    for (size_t i = 0; i < places.size(); ++i)
+      rows(static_cast<Index>(i), j) =
+          places[i].in(mesh_, {psi.data(), static_cast<size_t>(psi.size())});
+  }
+  return rows;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,34 @@
+// Complex unknowns as real ones, (Re x, Im x), for solvers that know reals only.
+#pragma once
+
+#include "core/types.h"
+
+namespace holomorph {
+
+/// Columns of a complex row q: Re(q x) = re . (Re x, Im x) and Im(q x) = im . (Re x, Im x). Both
+/// matrices are 2n x m for q of m x n.
+inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
+  const Index n = q.cols();
+  re.resize(2 * n, q.rows());
+  im.resize(2 * n, q.rows());
+  re.topRows(n) = q.real().transpose();
+  re.bottomRows(n) = -q.imag().transpose();
+  im.topRows(n) = q.imag().transpose();
+  im.bottomRows(n) = q.real().transpose();
+}
+
+inline VectorXd stacked(const VectorXc& x) {
+  VectorXd real(2 * x.size());
+  real << x.real(), x.imag();
+  return real;
+}
+
+inline VectorXc complex_of(const VectorXd& x) {
+  const Index n = x.size() / 2;
+  VectorXc result(n);
+  result.real() = x.head(n);
+  result.imag() = x.tail(n);
+  return result;
+}
+
+}  // namespace holomorph
