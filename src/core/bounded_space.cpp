@@ -143,6 +143,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
   const ConeTarget target = target_of(reference);
   ConeSettings settings;
   settings.gap = warm ? 1e-3 : 1e-4;
+  settings.share = warm ? 1e-2 : 1e-3;
   settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
   settings.neglected = 0.1;
   const CertifiedProgram program{certifier_,
@@ -161,7 +162,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
     known.status = ConeSolution::Status::solved;
     return program.proved(target, settings, std::move(known));
   }
-  return program.solved(target, settings, start(warm));
+  return program.solved(target, settings, start(warm), CertifiedProgram::cuts_of(warm));
 }
 
 }  // namespace holomorph

@@ -132,7 +132,8 @@ class Certifier::Proof {
         w(certifier.function_of(map.w)),
         certifier_(certifier),
         second_(map.second),
-        bounds_(bounds) {}
+        bounds_(bounds),
+        log_Sigma_(std::log(bounds.Sigma)) {}
 
   /// A piece with the functions' values at its ends and bounds of |l''| and |w''| on it.
   struct Leaf {
@@ -147,7 +148,8 @@ class Certifier::Proof {
     if (!failed) return;
     const BoundaryPiece& piece = leaf.piece;
     if (result.open.empty()) result.failed = *failed;
-    if (depth == 0) {
+    // What an end breaks no halving proves.
+    if (depth == 0 || is_broken(leaf)) {
       const Complex middle = 0.5 * (piece.start + piece.end);
       if (result.open.empty()) result.where = middle;
       result.open.push_back(middle);
@@ -182,34 +184,50 @@ class Certifier::Proof {
   std::optional<Bound> open_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
-    if (second_ == LogMap::Second::psi) return open_bound_of_psi(leaf, dl, dw);
-    for (const Values& at : {leaf.start, leaf.end}) {
-      const double u = at.l.real(), w = std::abs(at.w) + dw;
-      if (!(w <= bounds_.k)) return Bound::k;
-      if (!(u + dl + w <= std::log(bounds_.Sigma))) return Bound::Sigma;
-      if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
-    }
-    return {};
+    if (second_ == LogMap::Second::nu)
+      return first_of(open_bound_of_nu(leaf.start, dl, dw), open_bound_of_nu(leaf.end, dl, dw));
+    // |f_z| = e^u lies below its chord, by no more than Delta u^2 / 8 max e^u.
+    const double from = leaf.start.l.real(), to = leaf.end.l.real(),
+                 below = (to - from) * (to - from) / 8 * std::exp(std::max(from, to));
+    return first_of(open_bound_of_psi(leaf.start, dl, dw, below),
+                    open_bound_of_psi(leaf.end, dl, dw, below));
   }
 
-  /// The same for Psi': |f_z| = e^u lies below its chord, by no more than Delta u^2 / 8 max e^u.
-  std::optional<Bound> open_bound_of_psi(const Leaf& leaf, double dl, double dw) const {
-    const double change = leaf.end.l.real() - leaf.start.l.real(),
-                 below = change * change / 8 *
-                         std::exp(std::max(leaf.end.l.real(), leaf.start.l.real()));
-    for (const Values& at : {leaf.start, leaf.end}) {
-      const double size = std::exp(at.l.real()), w = std::abs(at.w) + dw;
-      const double least = std::exp(-dl) * (size - below);
-      if (!(w <= bounds_.k * least)) return Bound::k;
-      if (!(std::exp(dl) * size + w <= bounds_.Sigma)) return Bound::Sigma;
-      if (!(least - w >= bounds_.sigma)) return Bound::sigma;
-    }
+  /// Whether an end breaks a bound itself.
+  bool is_broken(const Leaf& leaf) const {
+    for (const Values& at : {leaf.start, leaf.end})
+      if (second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0)
+                                        : open_bound_of_psi(at, 0, 0, 0))
+        return true;
+    return false;
+  }
+
+  static std::optional<Bound> first_of(std::optional<Bound> a, std::optional<Bound> b) {
+    return a ? a : b;
+  }
+
+  /// The bound that is not kept where the functions may be so far from these values.
+  std::optional<Bound> open_bound_of_nu(const Values& at, double dl, double dw) const {
+    const double u = at.l.real(), w = std::abs(at.w) + dw;
+    if (!(w <= bounds_.k)) return Bound::k;
+    if (!(u + dl + w <= log_Sigma_)) return Bound::Sigma;
+    if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
+    return {};
+  }
+  std::optional<Bound> open_bound_of_psi(const Values& at, double dl, double dw,
+                                         double below) const {
+    const double size = std::exp(at.l.real()), w = std::abs(at.w) + dw;
+    const double least = std::exp(-dl) * (size - below);
+    if (!(w <= bounds_.k * least)) return Bound::k;
+    if (!(std::exp(dl) * size + w <= bounds_.Sigma)) return Bound::Sigma;
+    if (!(least - w >= bounds_.sigma)) return Bound::sigma;
     return {};
   }
 
   const Certifier& certifier_;
   LogMap::Second second_;
   const Bounds& bounds_;
+  double log_Sigma_;
 };
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {

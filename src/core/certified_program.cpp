@@ -17,14 +17,33 @@ std::optional<Bound> hardest_bound(const ConeSolution& solution) {
   return hardest;
 }
 
+namespace {
+
+/// A start that lies inside a system, from x towards its centre if need be.
+ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& centre) {
+  const VectorXd x = start.x;
+  for (double share = 0.02; !is_feasible(system, start.x) && share <= 1; share *= 2)
+    start.x = (1 - share) * x + share * centre;
+  if (!is_feasible(system, start.x)) start.x = centre;
+  return start;
+}
+
+}  // namespace
+
 BoundedMap CertifiedProgram::solved(const ConeTarget& target, const ConeSettings& settings,
-                                    const ConeSolution& start) const {
-  return proved(target, settings, holomorph::solved(system, target, settings, start));
+                                    const ConeSolution& start, const Points& cuts) const {
+  if (cuts.empty())
+    return proved(target, settings, holomorph::solved(system, target, settings, start));
+  ConeSystem cut = system;
+  append(cuts, cut);
+  return proved(target, settings,
+                holomorph::solved(cut, target, settings, inside(cut, start, centre)), cuts);
 }
 
 BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings& settings,
-                                    ConeSolution solution) const {
+                                    ConeSolution solution, const Points& cuts) const {
   BoundedMap best;
+  best.cuts = cuts;
   const auto take = [&](ConeSolution candidate) {
     best.solution = std::move(candidate);
     best.map = map_of(best.solution.x);
@@ -34,13 +53,14 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
   constexpr int kMostRounds = 3;
   ConeSystem cut;
   for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
-    if (best.rounds == 0) cut = system;
-    append(best.certificate.open, cut);
-    ConeSolution from = best.solution;
-    for (double share = 0.02; !is_feasible(cut, from.x) && share <= 1; share *= 2)
-      from.x = (1 - share) * best.solution.x + share * centre;
-    if (!is_feasible(cut, from.x)) from.x = centre;
-    take(holomorph::solved(cut, target, settings, from));
+    if (best.rounds == 0) {
+      cut = system;
+      append(best.cuts, cut);
+    }
+    const Points& open = best.certificate.open;
+    append(open, cut);
+    best.cuts.insert(best.cuts.end(), open.begin(), open.end());
+    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, centre)));
   }
   // The centre is certified, and what lies between two certified maps is, too, nearly always.
   const VectorXd x = best.solution.x;

@@ -14,6 +14,7 @@ struct BoundedMap {
   Certificate certificate;
   ConeSolution solution;
   int rounds = 0;    ///< of added samples
+  Points cuts;       ///< all samples that were added
   double blend = 0;  ///< how far towards the centre of the bounds it was moved, to be proved
 };
 
@@ -32,14 +33,20 @@ struct CertifiedProgram {
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
 
-  /// Solves from a feasible start. What cannot be proved is cut off by added samples, then moved
-  /// towards the centre, as far as that itself if need be. Cost: that of the program, and again of
-  /// each round.
+  /// Solves from a feasible start, with cuts that are likely to be needed. What cannot be proved is
+  /// cut off by added samples, then moved towards the centre, as far as that itself if need be.
+  /// Cost: that of the program, and again of each round.
   BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
-                    const ConeSolution& start) const;
-  /// The same with the program's solution known.
-  BoundedMap proved(const ConeTarget& target, const ConeSettings& settings,
-                    ConeSolution solution) const;
+                    const ConeSolution& start, const Points& cuts = {}) const;
+  /// The same with the solution of the program with these cuts known.
+  BoundedMap proved(const ConeTarget& target, const ConeSettings& settings, ConeSolution solution,
+                    const Points& cuts = {}) const;
+
+  /// The cuts to go on with in a drag: as long as they are few.
+  static Points cuts_of(const BoundedMap* warm) {
+    constexpr size_t kMost = 60;
+    return warm && warm->cuts.size() <= kMost ? warm->cuts : Points{};
+  }
 };
 
 }  // namespace holomorph

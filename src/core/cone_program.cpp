@@ -1,4 +1,4 @@
-// Slacks are recomputed from x after each step, so that no drift ever leaves the cones.
+// Slacks follow x linearly, but for their heights, which are taken anew after each step.
 #include "core/cone_program.h"
 
 #include <algorithm>
@@ -30,7 +30,9 @@ class Solver {
     check(at_.x.size() == p_ + q_ && target.linear.size() == p_ + q_ && target.wanted.size() == k_,
           "cone program: sizes agree");
     s_.resize(system.cones.size());
-    check(take_slacks(at_.x, s_), "cone program: the start is strictly feasible");
+    u_ = heights(at_.x);
+    push(at_.x, s_);
+    check(take_heights(u_, s_), "cone program: the start is strictly feasible");
     centre_duals();
     start_fit(start.fit_duals.size() == k_);
     scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
@@ -40,40 +42,34 @@ class Solver {
     for (at_.iterations = 0;; ++at_.iterations) {
       take_gradient();
       measure();
-      if (at_.gap <= settings_.gap && at_.residual <= settings_.residual) {
+      if (at_.gap <= std::max(settings_.gap, settings_.share * at_.energy) &&
+          at_.residual <= settings_.residual) {
         at_.status = ConeSolution::Status::solved;
         break;
       }
-      if (at_.iterations == settings_.iterations || !step()) break;
+      if (at_.iterations == settings_.iterations) break;
+      if (step()) continue;
+      if (precise_) break;
+      precise_ = true;
     }
     at_.fit_duals = (up_.z - down_.z) / system_.fit_weight;
-    at_.energy = energy_of(system_, target_, at_.x);
     return std::move(at_);
   }
 
  private:
   VectorXd heights(const VectorXd& x) const {
-    return p_ > 0 ? VectorXd(system_.height.transpose() * x.head(p_)) : VectorXd::Zero(m_);
+    return p_ > 0 ? transposed_product(system_.height, x.head(p_)) : VectorXd::Zero(m_);
   }
 
-  /// Slacks of x; false when one is not strictly inside.
-  bool take_slacks(const VectorXd& x, std::vector<Eigen::Matrix3Xd>& s) {
-    const VectorXd u = heights(x);
-    VectorXd re = VectorXd::Zero(m_), im = VectorXd::Zero(m_);
-    if (q_ > 0) {
-      re = system_.re.transpose() * x.tail(q_);
-      im = system_.im.transpose() * x.tail(q_);
-    }
+  /// The slacks' heights where these are u; false when a slack is not strictly inside.
+  bool take_heights(const VectorXd& u, std::vector<Eigen::Matrix3Xd>& s) {
     decay_ = (-u.array()).exp();
     bool inside = true;
-    for (size_t c = 0; c < s.size(); ++c) {
-      const Cone& cone = system_.cones[c];
-      s[c].resize(3, m_);
+    for (size_t c = 0; c < s.size(); ++c)
       for (Index i = 0; i < m_; ++i) {
-        s[c].col(i) << cone.height(i, u[i], decay_[i]), re[i], im[i];
+        s[c](0, i) = system_.cones[c].height(i, u[i], decay_[i]);
         inside = inside && is_inside(s[c].col(i));
       }
-    }
     return inside;
   }
 
@@ -108,8 +104,8 @@ class Solver {
         re[i] += v[c](1, i);
         im[i] += v[c](2, i);
       }
-    if (p_ > 0) result.head(p_) = system_.height * u;
-    if (q_ > 0) result.tail(q_) = system_.re * re + system_.im * im;
+    if (p_ > 0) result.head(p_) = product(system_.height, u);
+    if (q_ > 0) result.tail(q_) = product(system_.re, re) + product(system_.im, im);
     return result;
   }
 
@@ -133,7 +129,8 @@ class Solver {
   }
 
   VectorXd fit_residual(const VectorXd& x) const {
-    return k_ > 0 ? VectorXd(system_.fit.transpose() * x.head(p_) - target_.wanted) : VectorXd();
+    return k_ > 0 ? VectorXd(transposed_product(system_.fit, x.head(p_)) - target_.wanted)
+                  : VectorXd();
   }
 
   void take_gradient() { gradient_ = system_.quadratic * at_.x + target_.linear; }
@@ -144,14 +141,14 @@ class Solver {
     const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array();
     const VectorXd pull =
         (up_.z - down_.z).array() + 2 * (up.array() * dd - down.array() * du) / (du + dd);
-    right.head(p_) -= system_.fit * pull;
+    right.head(p_) -= product(system_.fit, pull);
   }
 
   /// Directions of both sides from that of the residuals: t is free, up.z + down.z stays.
   void push_fit(const VectorXd& dx, const VectorXd& up, const VectorXd& down) {
     if (k_ == 0) return;
     const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array(),
-                         dr = (system_.fit.transpose() * dx.head(p_)).array(),
+                         dr = transposed_product(system_.fit, dx.head(p_)).array(),
                          dt = (up.array() + down.array() + (du - dd) * dr) / (du + dd);
     up_.ds = dt - dr;
     down_.ds = dt + dr;
@@ -164,80 +161,114 @@ class Solver {
     for (size_t c = 0; c < s_.size(); ++c) at_.gap += s_[c].cwiseProduct(at_.z[c]).sum();
     at_.gap += up_.s.dot(up_.z) + down_.s.dot(down_.z);
     VectorXd lagrangian = gradient_ - pulled_back(at_.z);
-    if (k_ > 0) lagrangian.head(p_) += system_.fit * (up_.z - down_.z);
+    if (k_ > 0) lagrangian.head(p_) += product(system_.fit, up_.z - down_.z);
     at_.residual = lagrangian.norm();
+    at_.energy = 0.5 * at_.x.dot(gradient_ + target_.linear) + target_.constant;
+    if (k_ > 0) at_.energy += 0.5 * system_.fit_weight * (up_.s - down_.s).lpNorm<1>();
   }
 
-  /// The normal matrix' lower triangle.
+  /// The normal matrix' lower triangle. Far from the end single precision does: steps that are a
+  /// little off are steps, and what is left is measured in double precision.
   void assemble() {
-    normal_ = system_.quadratic;
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i)
         scalings_[c][static_cast<size_t>(i)] = Scaling(s_[c].col(i), at_.z[c].col(i));
-    scratch_.resize(p_, std::max(m_, k_));
-    across_.resize(q_, 2 * m_);
-    left_.resize(q_, m_);
-    add_fit();
-    add_barrier();
+    normal_ = system_.quadratic;
+    constexpr double kFar = 1e-5;  // of a gap
+    precise_ = precise_ || at_.gap < kFar;
+    if (precise_)
+      add_curvature(double_);
+    else
+      add_curvature(single_);
+  }
+
+  /// Columns to be multiplied, and their products.
+  template <class Scalar>
+  struct Workspace {
+    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    Matrix a, b, ab, sum;
+  };
+
+  template <class Scalar>
+  void add_curvature(Workspace<Scalar>& work) {
+    work.a.resize(p_, std::max(m_, k_));
+    work.b.resize(q_, 2 * m_);
+    work.ab.resize(q_, m_);
+    work.sum.setZero(p_ + q_, p_ + q_);
+    add_fit(work);
+    add_barrier(work);
+    normal_ += work.sum.template cast<double>();
   }
 
   /// Curvature 4 / (s / z of both sides) of |r| along the central path.
-  void add_fit() {
+  template <class Scalar>
+  void add_fit(Workspace<Scalar>& work) {
     for (Index i = 0; i < k_; ++i) {
       const double weight = 4 / (up_.s[i] / up_.z[i] + down_.s[i] / down_.z[i]);
-      scratch_.col(i) = std::sqrt(weight) * system_.fit.col(i);
+      work.a.col(i) = (std::sqrt(weight) * system_.fit.col(i)).template cast<Scalar>();
     }
-    add_gram(scratch_, k_, 0, normal_);
+    add_gram(work.a, k_, 0, work.sum);
   }
 
-  void add_barrier() {
-    Index used = 0;
-    MatrixXd& a = scratch_;  // sqrt(uu) height, one column a sample
-    MatrixXd& b = across_;   // Cholesky of ww, two columns
-    MatrixXd& ab = left_;    // w's share of the mixed block over sqrt(uu)
+  /// The curvature of a sample's barriers in (u, w).
+  Eigen::Matrix3d barrier_at(Index i) const {
+    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+    for (size_t c = 0; c < s_.size(); ++c) {
+      const Cone& cone = system_.cones[c];
+      Eigen::Matrix3d part = scalings_[c][static_cast<size_t>(i)].inverse_square();
+      const double slope = slope_at(cone, i);
+      part.row(0) *= slope;
+      part.col(0) *= slope;
+      h += part;
+      if (cone.decay > 0) h(0, 0) += cone.decay * decay_[i] * at_.z[c](0, i);
+    }
+    return h;
+  }
+
+  template <class Scalar>
+  void add_barrier(Workspace<Scalar>& work) {
+    Index used = 0;  // a: sqrt(uu) height; b: Cholesky of ww; ab: the mixed block over sqrt(uu)
     for (Index i = 0; i < m_; ++i) {
-      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-      for (size_t c = 0; c < s_.size(); ++c) {
-        const Cone& cone = system_.cones[c];
-        Eigen::Matrix3d part = scalings_[c][static_cast<size_t>(i)].inverse_square();
-        const double slope = slope_at(cone, i);
-        part.row(0) *= slope;
-        part.col(0) *= slope;
-        h += part;
-        if (cone.decay > 0) h(0, 0) += cone.decay * decay_[i] * at_.z[c](0, i);
-      }
+      const Eigen::Matrix3d h = barrier_at(i);
       if (h.trace() * static_cast<double>(m_) < settings_.neglected) continue;
       const double root = std::sqrt(h(0, 0));
-      if (p_ > 0) a.col(used) = root * system_.height.col(i);
+      if (p_ > 0) work.a.col(used) = (root * system_.height.col(i)).template cast<Scalar>();
       if (q_ > 0) {
+        const auto re = system_.re.col(i), im = system_.im.col(i);
         const double l = std::sqrt(h(1, 1)), m = h(2, 1) / l,
                      n = std::sqrt(std::max(h(2, 2) - m * m, 0.0));
-        b.col(2 * used) = l * system_.re.col(i) + m * system_.im.col(i);
-        b.col(2 * used + 1) = n * system_.im.col(i);
+        work.b.col(2 * used) = (l * re + m * im).template cast<Scalar>();
+        work.b.col(2 * used + 1) = (n * im).template cast<Scalar>();
         if (p_ > 0 && root > 0)
-          ab.col(used) = (h(1, 0) * system_.re.col(i) + h(2, 0) * system_.im.col(i)) / root;
+          work.ab.col(used) = (h(1, 0) / root * re + h(2, 0) / root * im).template cast<Scalar>();
       }
       ++used;
     }
-    add_gram(a, used, 0, normal_);
-    add_gram(b, 2 * used, p_, normal_);
-    if (p_ > 0 && q_ > 0) add_product(ab, a, used, p_, 0, normal_);
+    add_gram(work.a, used, 0, work.sum);
+    add_gram(work.b, 2 * used, p_, work.sum);
+    if (p_ > 0 && q_ > 0) add_product(work.ab, work.a, used, p_, 0, work.sum);
   }
 
-  /// Directions of slacks along dx.
-  void push(const VectorXd& dx, std::vector<Eigen::Matrix3Xd>& ds) const {
-    const VectorXd u = heights(dx);
+  /// The linear parts of slacks along dx: that of u, then w of all cones.
+  void push(const VectorXd& dx, std::vector<Eigen::Matrix3Xd>& ds) {
+    du_ = heights(dx);
     VectorXd re = VectorXd::Zero(m_), im = re;
     if (q_ > 0) {
-      re = system_.re.transpose() * dx.tail(q_);
-      im = system_.im.transpose() * dx.tail(q_);
+      re = transposed_product(system_.re, dx.tail(q_));
+      im = transposed_product(system_.im, dx.tail(q_));
     }
     ds.resize(s_.size());
     for (size_t c = 0; c < ds.size(); ++c) {
       ds[c].resize(3, m_);
-      for (Index i = 0; i < m_; ++i)
-        ds[c].col(i) << slope_at(system_.cones[c], i) * u[i], re[i], im[i];
+      ds[c].row(1) = re.transpose();
+      ds[c].row(2) = im.transpose();
     }
+  }
+  /// The directions of slacks along dx.
+  void push_slacks(const VectorXd& dx) {
+    push(dx, ds_);
+    for (size_t c = 0; c < ds_.size(); ++c)
+      for (Index i = 0; i < m_; ++i) ds_[c](0, i) = slope_at(system_.cones[c], i) * du_[i];
   }
 
   /// dz = t - z - W^-2 ds, with t given or none.
@@ -281,7 +312,7 @@ class Solver {
     VectorXd up = -up_.z, down = -down_.z, right = -gradient_;
     add_fit_right(up, down, right);
     VectorXd dx = cholesky_.solve(right);
-    push(dx, ds_);
+    push_slacks(dx);
     push_fit(dx, up, down);
     dual_step(ds_, nullptr, dz_);
     const double reach = std::min(1.0, longest(ds_, dz_));
@@ -308,7 +339,7 @@ class Solver {
     right = pulled_back(t) - gradient_;
     add_fit_right(up, down, right);
     dx = cholesky_.solve(right);
-    push(dx, ds_);
+    push_slacks(dx);
     push_fit(dx, up, down);
     dual_step(ds_, &t, dz_);
     return move(dx, 0.98 * longest(ds_, dz_));
@@ -317,25 +348,26 @@ class Solver {
   /// Goes along dx as far as the exact slacks allow.
   bool move(const VectorXd& dx, double length) {
     std::vector<Eigen::Matrix3Xd> slacks(s_.size());
-    const auto shrinks_too_much = [&] {
+    VectorXd u;
+    const auto is_good = [&] {
+      u = u_ + length * du_;
+      for (size_t c = 0; c < s_.size(); ++c) slacks[c] = s_[c] + length * ds_[c];
+      if (!take_heights(u, slacks)) return false;
       for (size_t c = 0; c < s_.size(); ++c)
         for (Index i = 0; i < m_; ++i)
-          if (det(slacks[c].col(i)) < 1e-4 * det(s_[c].col(i))) return true;
-      return false;
+          if (det(slacks[c].col(i)) < 1e-4 * det(s_[c].col(i))) return false;
+      return true;
     };
-    VectorXd x;
     int tries = 0;
     constexpr int kMostTries = 60;
-    do {
-      if (tries > 0) length *= 0.8;
-      x = at_.x + length * dx;
-    } while ((!take_slacks(x, slacks) || shrinks_too_much()) && ++tries < kMostTries);
-    if (tries == kMostTries || !x.allFinite()) {
-      take_slacks(at_.x, s_);
+    while (tries < kMostTries && !is_good()) length *= 0.8, ++tries;
+    if (tries == kMostTries || !dx.allFinite()) {
+      take_heights(u_, s_);
       return false;
     }
     length_ = length;
-    at_.x = std::move(x);
+    at_.x += length * dx;
+    u_ = std::move(u);
     s_ = std::move(slacks);
     for (size_t c = 0; c < s_.size(); ++c) at_.z[c] += length * dz_[c];
     for (Side* side : {&up_, &down_})
@@ -352,8 +384,11 @@ class Solver {
   double length_ = 1;  ///< of the last step
   std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
   std::vector<std::vector<Scaling>> scalings_;
-  VectorXd decay_, gradient_, residual_;
-  MatrixXd normal_, scratch_, across_, left_;
+  VectorXd u_, du_, decay_, gradient_, residual_;
+  bool precise_ = false;  ///< from the end of single precision on
+  MatrixXd normal_;
+  Workspace<float> single_;
+  Workspace<double> double_;
   Cholesky cholesky_;
 };
 

@@ -47,7 +47,8 @@ struct ConeTarget {
 };
 
 struct ConeSettings {
-  double gap = 1e-4;       ///< of the energy: the sum of all slacks times their multipliers
+  double gap = 1e-4;       ///< the sum of all slacks times their multipliers
+  double share = 0;        ///< the same, of the energy: the larger one counts
   double residual = 3e-3;  ///< norm of the Lagrangian's gradient
   double neglected = 0;    ///< samples whose barrier curves less than this are left out of it
   int iterations = 60;

@@ -5,21 +5,61 @@
 #include <f77blas.h>
 
 namespace holomorph {
+namespace {
+
+VectorXd multiplied(CBLAS_TRANSPOSE transposed, const MatrixXd& a, const VectorXd& x) {
+  VectorXd y = VectorXd::Zero(transposed == CblasTrans ? a.cols() : a.rows());
+  if (a.size() > 0)
+    cblas_dgemv(CblasColMajor, transposed, static_cast<int>(a.rows()), static_cast<int>(a.cols()),
+                1.0, a.data(), static_cast<int>(a.rows()), x.data(), 1, 0.0, y.data(), 1);
+  return y;
+}
+
+template <class Syrk, class Matrix>
+void add_gram_by(Syrk syrk, const Matrix& k, Index columns, Index first, Matrix& out) {
+  if (columns == 0 || k.rows() == 0) return;
+  syrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(k.rows()),
+       static_cast<int>(columns), 1, k.data(), static_cast<int>(k.rows()), 1, &out(first, first),
+       static_cast<int>(out.rows()));
+}
+
+struct Place {
+  Index row, column;
+};
+
+template <class Gemm, class Matrix>
+void add_product_by(Gemm gemm, const Matrix& a, const Matrix& b, Index columns, Place at,
+                    Matrix& out) {
+  if (columns == 0 || a.rows() == 0 || b.rows() == 0) return;
+  gemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.rows()),
+       static_cast<int>(b.rows()), static_cast<int>(columns), 1, a.data(),
+       static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()), 1, &out(at.row, at.column),
+       static_cast<int>(out.rows()));
+}
+
+}  // namespace
+
+VectorXd product(const MatrixXd& a, const VectorXd& x) {
+  return multiplied(CblasNoTrans, a, x);
+}
+VectorXd transposed_product(const MatrixXd& a, const VectorXd& x) {
+  return multiplied(CblasTrans, a, x);
+}
 
 void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out) {
-  if (columns == 0 || k.rows() == 0) return;
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(k.rows()),
-              static_cast<int>(columns), 1.0, k.data(), static_cast<int>(k.rows()), 1.0,
-              &out(first, first), static_cast<int>(out.rows()));
+  add_gram_by(cblas_dsyrk, k, columns, first, out);
+}
+void add_gram(const Eigen::MatrixXf& k, Index columns, Index first, Eigen::MatrixXf& out) {
+  add_gram_by(cblas_ssyrk, k, columns, first, out);
 }
 
 void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row, Index column,
                  MatrixXd& out) {
-  if (columns == 0 || a.rows() == 0 || b.rows() == 0) return;
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.rows()),
-              static_cast<int>(b.rows()), static_cast<int>(columns), 1.0, a.data(),
-              static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()), 1.0,
-              &out(row, column), static_cast<int>(out.rows()));
+  add_product_by(cblas_dgemm, a, b, columns, {row, column}, out);
+}
+void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index columns, Index row,
+                 Index column, Eigen::MatrixXf& out) {
+  add_product_by(cblas_sgemm, a, b, columns, {row, column}, out);
 }
 
 bool Cholesky::factor(const MatrixXd& matrix) {

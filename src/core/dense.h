@@ -7,13 +7,20 @@
 
 namespace holomorph {
 
+/// A x and A^T x. A may be empty.
+VectorXd product(const MatrixXd& a, const VectorXd& x);
+VectorXd transposed_product(const MatrixXd& a, const VectorXd& x);
+
 /// Adds K K^T of the first `columns` columns to the lower triangle of out's block that starts at
 /// (first, first) and has K's rows. Cost: rows^2 * columns multiplications, half of them saved.
 void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out);
+void add_gram(const Eigen::MatrixXf& k, Index columns, Index first, Eigen::MatrixXf& out);
 
 /// Adds A B^T of the first `columns` columns to out's block at (row, column).
 void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row, Index column,
                  MatrixXd& out);
+void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index columns, Index row,
+                 Index column, Eigen::MatrixXf& out);
 
 /// A symmetric positive definite matrix as L L^T; reads the lower triangle only.
 class Cholesky {

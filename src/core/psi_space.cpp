@@ -154,7 +154,7 @@ BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference
         start.x = share * warm->solution.x;
         break;
       }
-  return program.solved(target, settings_for(warm), start);
+  return program.solved(target, settings_for(warm), start, CertifiedProgram::cuts_of(warm));
 }
 
 BoundedReference PsiSpace::convexified(const BoundedReference& reference) const {

@@ -13,6 +13,7 @@
 #include "raster/raster.h"
 #include "scene/auto_cage.h"
 #include "scene/live_map.h"
+#include "support/known_maps.h"
 
 namespace holomorph::bench {
 namespace {
@@ -219,6 +220,17 @@ double bounded_drag(DragFigure figure) {
   return times[150];
 }
 
+/// The specification's maps projected from nothing, with proof: the slowest one's median.
+double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
+  double slowest = 0;
+  for (const known_maps::Known& known : known_maps::all()) {
+    const known_maps::Projection projection(known, {}, known_maps::Norm::l1, true, fineness);
+    slowest = std::max(slowest,
+                       median_ms(runs, [&] { projection.space->nearest(projection.reference); }));
+  }
+  return slowest;
+}
+
 double bounded_cold_ms(int runs) {
   Scene scene = pulled_bar();
   const auto prepared = prepared_map(scene, Precision::single, {5000});
@@ -334,6 +346,14 @@ const Entry kEntries[] = {
      [](int) { return bounded_drag(DragFigure::longest); }},
     {"bounded: the same, frames that were not proved", "", 0, 1,
      [](int) { return bounded_drag(DragFigure::unproved); }},
+    {"bounded: cold L1 solve and proof, 50 vertices, 300 samples, slowest of six maps", "ms", 16, 5,
+     [](int runs) {
+       return bounded_solve_ms({50, 300}, runs);
+     }},
+    {"bounded: the same, 150 vertices, 1000 samples", "ms", 150, 3,
+     [](int runs) {
+       return bounded_solve_ms({150, 1000}, runs);
+     }},
     {"bounded: a folded pose from nothing, end to end", "ms", 0, 9, bounded_cold_ms},
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
      [](int runs) { return export_ms(runs, 2); }},

@@ -85,7 +85,12 @@ inline VectorXc values(const std::function<Complex(Complex)>& f, const Points& p
   return result;
 }
 
-/// A known map over its domain, ready to be projected: 50 polygon vertices, 300 samples.
+/// How fine: polygon vertices and samples.
+struct Fineness {
+  int basis = 50, samples = 300;
+};
+
+/// A known map over its domain, ready to be projected.
 struct Projection {
   std::shared_ptr<const BoundaryBasis> basis;
   std::unique_ptr<BoundedSpace> space;
@@ -94,9 +99,10 @@ struct Projection {
   Mesh mesh;
 
   /// `inside`: nu counts inside the domain, too.
-  Projection(const Known& known, const Bounds& bounds, Norm norm, bool inside = true) {
+  Projection(const Known& known, const Bounds& bounds, Norm norm, bool inside = true,
+             Fineness fineness = {}) {
     const Cage cage = polygon_cage(known.domain);
-    basis = std::make_shared<const BoundaryBasis>(cage, 50, 300);
+    basis = std::make_shared<const BoundaryBasis>(cage, fineness.basis, fineness.samples);
     mesh = domain_mesh(cage, {1000});
     points.boundary = basis->samples();
     std::vector<bool> outer(mesh.vertices.size());
