@@ -25,11 +25,14 @@ VectorXc MapOnMesh::phi(const VectorXc& l) const {
   return tree_.antiderivative(fz, product(slopes_, l).cwiseProduct(fz));
 }
 
+VectorXc MapOnMesh::antiderivative(const VectorXc& coefficients) const {
+  return tree_.antiderivative(function(coefficients), product(slopes_, coefficients));
+}
+
 MatrixXc MapOnMesh::psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const {
   MatrixXc rows(static_cast<Index>(places.size()), coefficients.cols());
   for (Index j = 0; j < coefficients.cols(); ++j) {
-    const VectorXc column = coefficients.col(j);
-    const VectorXc psi = tree_.antiderivative(function(column), product(slopes_, column));
+    const VectorXc psi = antiderivative(coefficients.col(j));
     for (size_t i = 0; i < places.size(); ++i)
       rows(static_cast<Index>(i), j) =
           places[i].in(mesh_, {psi.data(), static_cast<size_t>(psi.size())});

@@ -24,6 +24,8 @@ class MapOnMesh {
   /// Psi at places, one row each, of the functions whose coefficients are the columns.
   MatrixXc psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const;
 
+  /// The antiderivative of a function of the basis, 0 in the middle of the mesh.
+  VectorXc antiderivative(const VectorXc& coefficients) const;
   /// A function of the basis at the vertices.
   VectorXc function(const VectorXc& coefficients) const { return product(values_, coefficients); }
 

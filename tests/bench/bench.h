@@ -11,6 +11,7 @@ struct Result {
   std::string name, unit;
   double median = 0, goal = 0;  ///< goal 0: none
   int runs = 0;
+  std::string detail = {};  ///< what else was found
 };
 
 /// Runs every benchmark whose name contains `filter`; `report` is told each result as it comes.
