@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/canvas.h"
+#include "app/comparison_panel.h"
 #include "app/files.h"
 #include "app/panels.h"
 #include "app/state_file.h"
@@ -20,6 +21,7 @@ class Editor {
   explicit Editor(const EditorOptions& options)
       : preferences_(load_preferences()),
         window_(1280, 800, preferences_.ui_scale, preferences_.light_theme),
+        comparison_([this] { window_.wake(); }),
         files_(workspace_, preferences_, [this] { document_replaced(); }) {
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
@@ -67,7 +69,7 @@ class Editor {
     draw_panels(input);
     ImGui::Render();
     window_.end_frame();
-    if (state_file_) state_file_->write(workspace_, current_tool().busy());
+    if (state_file_) state_file_->write(workspace_, current_tool().busy(), comparison_.rows());
   }
 
   void layout(const PanelSizes& sizes) {
@@ -161,6 +163,7 @@ class Editor {
   void answer(Request request) {
     files_.answer(request);
     if (request == Request::help) help_ = true;
+    if (request == Request::compare) comparison_.start(workspace_.document.scene());
     if (request == Request::palette) {
       palette_ = palette_opening_ = true;
       palette_text_.clear();
@@ -217,6 +220,7 @@ class Editor {
       draw_inspector(workspace_, canvas_.heat_scale(), scale);
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       draw_context_menu(workspace_);
+      comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
@@ -248,6 +252,7 @@ class Editor {
   std::string title_, palette_text_;
   bool fit_ = false, panning_ = false, was_active_ = false, restyle_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false;
+  ComparisonPanel comparison_;
   Files files_;
 };
 

@@ -257,6 +257,7 @@ void Files::answer(Request request) {
     case Request::none:
     case Request::help:
     case Request::palette:
+    case Request::compare:
       break;
   }
 }

@@ -86,7 +86,7 @@ void method_section(Workspace& workspace) {
       float number = static_cast<float>(value);
       ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
       if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),
-                             static_cast<float>(spec.highest), "%.3g",
+                             static_cast<float>(spec.highest), "%.4g",
                              ImGuiSliderFlags_AlwaysClamp |
                                  (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
         Scene after = workspace.document.scene();
@@ -134,6 +134,9 @@ void one_handle(Workspace& workspace, Handle handle) {
     return;
   }
   if (layer == Layer::rest) return;
+  if (const auto place = workspace.map.pin_place(static_cast<size_t>(handle.index)))
+    if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
+      ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
   bool turns = scene.pins[handle.index].angle.has_value();
   if (ImGui::Checkbox("Turns the picture", &turns)) {
     Scene after = scene;
@@ -235,6 +238,19 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
     ImGui::TextDisabled("%.3g to %.3g", heat.low, heat.high);
   }
   ImGui::Checkbox("Mesh", &workspace.show_mesh);
+  if (!workspace.map.has_map()) return;
+  const double turns = workspace.map.boundary_turns();
+  const bool once = std::abs(turns - 1) < 0.01;
+  ImGui::TextColored(once ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
+                          : ImGui::ColorConvertU32ToFloat4(canvas_colors(false).warning),
+                     "Boundary turns %.2f times", turns);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "The turning number of the picture's outline: 1 unless the picture\n"
+        "winds around a branch point or lies on its back.");
+  if (const Points& zeros = workspace.map.map().zeros; !zeros.empty())
+    ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(zeros.size()),
+                        zeros.size() == 1 ? "place" : "places");
 }
 
 void history_section(Workspace& workspace) {

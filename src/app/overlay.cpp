@@ -94,12 +94,16 @@ void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& s
   list.AddCircleFilled(place, 3 * s, style.colors.warning);
 }
 
-/// A zero of the derivative of the map that is being kept from folding.
+/// A zero of the derivative of the map that is being kept from folding: a diamond around a dot.
 void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
-  list.AddCircleFilled(at, 5.5f * s, style.colors.outline);
-  list.AddCircleFilled(at, 4 * s, style.colors.warning);
-  list.AddCircleFilled(at, 1.6f * s, style.colors.outline);
+  const auto diamond = [&](float r, ImU32 color) {
+    list.AddQuadFilled({at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r},
+                       color);
+  };
+  diamond(8.5f * s, style.colors.outline);
+  diamond(6.5f * s, style.colors.accent);
+  list.AddCircleFilled(at, 2 * s, style.colors.outline);
 }
 
 void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
@@ -172,11 +176,12 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
     const auto& posed = workspace.map.posed();
-    if (layer == Layer::pose && posed && same_rest(*posed, scene)) {
-      for (size_t i = 0; i < scene.pins.size(); ++i)
+    if (posed && same_rest(*posed, scene)) {
+      const bool at_rest = layer == Layer::rest;
+      for (size_t i = 0; i < scene.pins.size() && !at_rest; ++i)
         if (const auto place = workspace.map.pin_place(i))
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
-      for (const Complex& zero : workspace.map.zero_places())
+      for (const Complex& zero : at_rest ? workspace.map.map().zeros : workspace.map.zero_places())
         draw_zero(list, px(workspace, zero), style);
     }
     for (const Handle& handle : handles_of(scene, layer)) {

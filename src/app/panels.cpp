@@ -200,6 +200,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   if (!note.empty()) {
     ImGui::TextColored(note_color, "%s", note.c_str());
     ImGui::SameLine();
+    const float room = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
+    if (ImGui::CalcTextSize(hint.c_str()).x > room) hint.clear();  // half a hint helps nobody
   }
   ImGui::TextUnformatted(hint.c_str());
   ImGui::PopClipRect();

@@ -2,20 +2,22 @@
 #include "app/state_file.h"
 
 #include "core/error.h"
+#include "scene/report.h"
 
 namespace holomorph {
 
-void StateFile::write(const Workspace& workspace, bool gesture) {
+void StateFile::write(const Workspace& workspace, bool gesture, int compared_rows) {
   static constexpr const char* kTools[] = {"select", "pen", "pin"};
   const Viewport& view = workspace.viewport;
-  char text[900];
+  char text[1200];
   std::snprintf(
       text, sizeof text,
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
       " \"center\": [%.17g, %.17g], \"zoom\": %.17g,\n"
       " \"tool\": \"%s\", \"layer\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
       " \"cage_points\": %d, \"pins\": %d, \"selected\": %d, \"history\": %d, \"step\": %d,\n"
-      " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s}\n",
+      " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s,\n"
+      " \"status\": \"%s\", \"boundary_turns\": %.6f, \"zeros\": %d, \"compared_rows\": %d}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.layer == Layer::rest ? "rest" : "pose",
@@ -26,7 +28,9 @@ void StateFile::write(const Workspace& workspace, bool gesture) {
       static_cast<int>(workspace.document.history().index()),
       workspace.document.modified() ? "true" : "false", workspace.map.busy() ? "true" : "false",
       gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
-      workspace.map.error() ? "true" : "false");
+      workspace.map.error() ? "true" : "false", name_of(workspace.map.map().status),
+      workspace.map.boundary_turns(), static_cast<int>(workspace.map.map().zeros.size()),
+      compared_rows);
   if (text == last_) return;
   last_ = text;
   try {

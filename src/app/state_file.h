@@ -11,7 +11,7 @@ class StateFile {
   /// Writes the state when it differs from what the file was last given. Plane points are found in
   /// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
   /// center_y) zoom.
-  void write(const Workspace& workspace, bool gesture);
+  void write(const Workspace& workspace, bool gesture, int compared_rows);
 
  private:
   Path path_;

@@ -84,6 +84,7 @@ struct SampledMap {
   std::string note;  ///< what the user should know, such as a pin that could not be used
   int iterations = 0;
   Points zeros;  ///< where the derivative of a map that was projected vanishes, at rest
+  bool ignores_pins = false;  ///< the method uses pins, but had no use for these
 };
 
 /// What is wanted of a map besides its values.

@@ -315,6 +315,15 @@ std::vector<Action> table() {
        has_cage,
        look<View::checker>,
        looks<View::checker>},
+      {"view.compare",
+       "Compare with other projections",
+       "",
+       "View",
+       {},
+       [](const Workspace& w) {
+         return w.document.scene().has_cage() && w.scene().method == "bounded";
+       },
+       ask<Request::compare>},
       {"view.mesh",
        "Mesh",
        "",

@@ -25,7 +25,8 @@ enum class Request {
   export_svg,
   quit,
   help,
-  palette
+  palette,
+  compare
 };
 
 enum class ToolId { select, pen, pin };

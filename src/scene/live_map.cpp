@@ -154,8 +154,15 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
 }
 
 std::optional<Complex> LiveMap::pin_place(size_t i) const {
-  if (!has_map() || i >= shown_->pins.size() || !shown_->pins[i]) return {};
+  if (!has_map() || map_.ignores_pins || i >= shown_->pins.size() || !shown_->pins[i]) return {};
   return shown_->pins[i]->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())});
+}
+
+double LiveMap::boundary_turns() const {
+  Points image;
+  if (has_map())
+    for (const int v : shown_->mesh->boundary) image.push_back(map_.f[v]);
+  return image.empty() ? 1 : turning_number(image);
 }
 
 Points LiveMap::zero_places() const {

@@ -58,7 +58,9 @@ class LiveMap {
   /// Where the shown map turns the picture over most, in the posed picture; none when that is less
   /// than 1e-4 of its area.
   std::optional<Complex> fold() const { return fold_; }
-  /// Where the map takes the place that pin `i` holds at rest.
+  /// How often the boundary's image turns: 1 for pictures that do not fold over branch points.
+  double boundary_turns() const;
+  /// Where the map takes the place that pin `i` holds at rest; none when pins have no say.
   std::optional<Complex> pin_place(size_t i) const;
   /// Where the map takes the zeros that it reports.
   Points zero_places() const;

@@ -312,6 +312,18 @@ class WindowTest(unittest.TestCase):
             json.dump(scene, file)
         self.assertFalse(info(os.path.join(self.work, "free.json"))["locally_injective"])
 
+    def test_others_projections_are_compared_side_by_side(self):
+        for name in ("octopus.json", "octopus.png"):
+            shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
+        with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
+            editor.wait(lambda s: s["status"] == "certified", "a map")
+            editor.key("ctrl+shift+p")
+            editor.type("compare with")
+            editor.key("Return")
+            editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
+            self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
+            self.screenshot(editor, "compared")
+
     def test_curves_are_bent_broken_and_cut(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")

@@ -379,7 +379,6 @@ std::vector<Result> comparison(const std::function<void(const Result&)>& report)
                   row.settled ? "" : ", not settled");
     results.push_back({kCompared + row.label, "ms", row.milliseconds, 0, 1, detail});
     report(results.back());
-    return true;
   });
   return results;
 }

@@ -137,17 +137,17 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
   const VectorXd gentle =
       values([](Complex z) { return std::polar(1.1, 0.4) * z + 0.2 * std::conj(z); });
   const VectorXd g = t->apply(gentle);
-  CHECK(by_half_spaces(*t, gentle, bounds).x == gentle);
-  CHECK(by_tangent_planes(*t, gentle, bounds).x == gentle);
-  const Projected framed = by_local_frames(*t, g, bounds);
+  CHECK(by_half_spaces(*t, gentle, {bounds}).x == gentle);
+  CHECK(by_tangent_planes(*t, gentle, {bounds}).x == gentle);
+  const Projected framed = by_local_frames(*t, g, {bounds});
   CHECK(distance(framed.x, g) <= 1e-3);
   // A picture bent so far that it is stretched to four times its size and pressed to nothing.
   const VectorXd wild = values([](Complex z) { return z + z * z / 400.0 - 0.5 * std::conj(z); });
   const VectorXd wild_g = t->apply(wild);
   REQUIRE(worst_outside(wild_g, bounds) > 1);
   for (const Projected& map :
-       {by_local_frames(*t, wild_g, bounds), by_half_spaces(*t, wild, bounds),
-        by_tangent_planes(*t, wild, bounds)}) {
+       {by_local_frames(*t, wild_g, {bounds}), by_half_spaces(*t, wild, {bounds}),
+        by_tangent_planes(*t, wild, {bounds})}) {
     CHECK(worst_outside(t->apply(map.x), bounds) <= 1e-3);
     CHECK(distance(map.x, wild_g) < distance(t->similarity(1), wild_g));
   }
@@ -156,10 +156,7 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
 TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says how well") {
   const Folded bar(250);
   std::vector<ComparedMap> rows;
-  compare(bar.rest, bar.pose, [&](const ComparedMap& row) {
-    rows.push_back(row);
-    return true;
-  });
+  compare(bar.rest, bar.pose, [&](const ComparedMap& row) { rows.push_back(row); });
   REQUIRE(rows.size() == 6);
   CHECK(std::abs(rows[0].turning_number - 1) > 0.5);  // the reference
   for (const ComparedMap& row : rows) {
@@ -175,10 +172,14 @@ TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says ho
   CHECK(rows[1].settled);
   CHECK(rows[1].max_k <= 0.7);
   CHECK(rows[1].max_tau <= 5);
+  std::stop_source stop;
   int taken = 0;
-  compare(bar.rest, bar.pose, [&](const ComparedMap&) { return ++taken < 2; });
+  const auto stop_soon = [&](const ComparedMap&) {
+    if (++taken == 2) stop.request_stop();
+  };
+  compare(bar.rest, bar.pose, stop_soon, stop.get_token());
   CHECK(taken == 2);
   Rest narrow = bar.rest;
   narrow.parameters = {{"sigma", 3}, {"Sigma", 2}};
-  CHECK_THROWS_AS(compare(narrow, bar.pose, [](const ComparedMap&) { return true; }), Error);
+  CHECK_THROWS_AS(compare(narrow, bar.pose, [](const ComparedMap&) {}), Error);
 }

@@ -116,11 +116,12 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
 
 }  // namespace
 
-Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start, const Bounds& bounds) {
+Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,
+                         const ProjectionSettings& settings) {
   Projected result{start};
   constexpr int kMost = 50;
-  for (; result.iterations < kMost; ++result.iterations) {
-    const VectorXd y = t.apply(result.x), p = projected(y, bounds);
+  for (; result.iterations < kMost && !settings.stop.stop_requested(); ++result.iterations) {
+    const VectorXd y = t.apply(result.x), p = projected(y, settings.bounds);
     VectorXd normals = VectorXd::Zero(y.size()), limits(t.elements());
     double worst = 0;
     for (Index i = 0; i < t.elements(); ++i) {
@@ -138,12 +139,13 @@ Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start, const Bou
   return result;
 }
 
-Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start, const Bounds& bounds) {
+Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start,
+                            const ProjectionSettings& settings) {
   Projected result{start};
   t.factor(identity_blocks(t));
   constexpr int kMost = 3000;
-  for (; result.iterations < kMost; ++result.iterations) {
-    const VectorXd y = t.apply(result.x), way = y - projected(y, bounds);
+  for (; result.iterations < kMost && !settings.stop.stop_requested(); ++result.iterations) {
+    const VectorXd y = t.apply(result.x), way = y - projected(y, settings.bounds);
     double worst = 0;
     for (Index i = 0; i < t.elements(); ++i) worst = std::max(worst, way.segment<4>(4 * i).norm());
     result.settled = worst < kSettled;

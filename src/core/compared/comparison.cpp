@@ -31,19 +31,20 @@ void measure(const VectorXd& elements, ComparedMap& row) {
 
 class Comparison {
  public:
-  Comparison(const Rest& rest, const Pose& pose)
+  Comparison(const Rest& rest, const Pose& pose, std::stop_token stop)
       : rest_(rest), pose_(pose), mesh_(*rest.mesh), method_(method_named("bounded")) {
     check(rest.mesh != nullptr, "comparison: a rest with a mesh");
-    bounds_ = bounds_of(rest.parameters);
-    bounds_.check_usable();
+    settings_ = {bounds_of(rest.parameters), std::move(stop)};
+    settings_.bounds.check_usable();
     rest_.samples = mesh_.vertices;
     rest_.derivative_samples = derivative_samples(mesh_);
     basis_ = std::make_unique<BoundaryBasis>(rest.cage, kBasis, kSamples);
     take_reference();
   }
 
-  void run(const std::function<bool(const ComparedMap&)>& take) {
-    if (!take(reference()) || !take(ours())) return;
+  void run(const std::function<void(const ComparedMap&)>& take) {
+    take(reference());
+    take(ours());
     const auto mesh = mesh_operator(mesh_);
     const VectorXd start = stacked(reference_), g = mesh->apply(start);
     const MapOnMesh on_mesh(*basis_, mesh_);
@@ -52,23 +53,26 @@ class Comparison {
     const Row rows[] = {
         [&] {
           return projected("Lipman 2012", "Triangles with local frames, from the identity", *mesh,
-                           [&] { return by_local_frames(*mesh, g, bounds_); });
+                           [&] { return by_local_frames(*mesh, g, settings_); });
         },
         [&] {
           return projected("Chen, Weber 2015", "The same for smooth harmonic maps", *harmonic,
-                           [&] { return by_local_frames(*harmonic, on_boundary_, bounds_); });
+                           [&] { return by_local_frames(*harmonic, on_boundary_, settings_); });
         },
         [&] {
           return projected("Aigerman, Lipman 2013", "Triangles kept in half-spaces, repeatedly",
-                           *mesh, [&] { return by_half_spaces(*mesh, start, bounds_); });
+                           *mesh, [&] { return by_half_spaces(*mesh, start, settings_); });
         },
         [&] {
           return projected("Kovalsky et al. 2015",
                            "Triangles projected and joined in turn, with tangent planes", *mesh,
-                           [&] { return by_tangent_planes(*mesh, start, bounds_); });
+                           [&] { return by_tangent_planes(*mesh, start, settings_); });
         }};
-    for (const Row& row : rows)
-      if (!take(row())) return;
+    for (const Row& row : rows) {
+      const ComparedMap map = row();
+      if (settings_.stop.stop_requested()) return;
+      take(map);
+    }
   }
 
  private:
@@ -102,9 +106,8 @@ class Comparison {
           map.fzbar[i].imag();
   }
 
-  /// What every row has: a place, flips, the turning number.
+  /// What every row has.
   void finish(VectorXc f, ComparedMap& row) const {
-    f.array() += (reference_ - f).mean();
     for (const auto& [i, j, k] : mesh_.triangles) row.flips += cross(f[j] - f[i], f[k] - f[i]) <= 0;
     Points boundary;
     for (const int v : mesh_.boundary) boundary.push_back(f[v]);
@@ -142,7 +145,9 @@ class Comparison {
     row.iterations = result.iterations;
     row.settled = result.settled;
     measure(t.apply(result.x), row);
-    finish(t.map(result.x), row);
+    VectorXc f = t.map(result.x);
+    f.array() += (reference_ - f).mean();  // derivatives know no place
+    finish(std::move(f), row);
     return row;
   }
 
@@ -150,7 +155,7 @@ class Comparison {
   Pose pose_;
   const Mesh& mesh_;
   const Method& method_;
-  Bounds bounds_;
+  ProjectionSettings settings_;
   std::unique_ptr<BoundaryBasis> basis_;
   VectorXc reference_;
   VectorXd on_boundary_;
@@ -159,8 +164,8 @@ class Comparison {
 }  // namespace
 
 void compare(const Rest& rest, const Pose& pose,
-             const std::function<bool(const ComparedMap&)>& take) {
-  Comparison(rest, pose).run(take);
+             const std::function<void(const ComparedMap&)>& take, std::stop_token stop) {
+  Comparison(rest, pose, std::move(stop)).run(take);
 }
 
 }  // namespace holomorph

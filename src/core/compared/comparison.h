@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 
 #include "core/certificate.h"
 #include "core/deformer.h"
@@ -24,9 +25,9 @@ struct ComparedMap {
 /// map, and those of Lipman 2012, Chen and Weber 2015, Aigerman and Lipman 2013, and Kovalsky et
 /// al. 2015, plainly implemented, all for the rest's parameters. Piecewise linear maps are measured
 /// on the mesh's triangles, harmonic ones at samples of the boundary and at vertices. `take` gets
-/// each row as it is done and may end the work by returning false. Throws Error as the methods do.
-/// Cost: seconds for thousands of vertices.
+/// each row as it is done; `stop` ends the work early. Throws Error as the methods do. Cost:
+/// seconds for a thousand vertices.
 void compare(const Rest& rest, const Pose& pose,
-             const std::function<bool(const ComparedMap&)>& take);
+             const std::function<void(const ComparedMap&)>& take, std::stop_token stop = {});
 
 }  // namespace holomorph

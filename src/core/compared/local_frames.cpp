@@ -24,17 +24,17 @@ struct Barrier {
 
 class LocalFrames {
  public:
-  LocalFrames(DerivativeOperator& t, const VectorXd& g, const Bounds& bounds)
-      : t_(t), g_(g), bounds_(bounds) {
-    const double middle = std::exp(bounds.middle());
+  LocalFrames(DerivativeOperator& t, const VectorXd& g, const ProjectionSettings& settings)
+      : t_(t), g_(g), bounds_(settings.bounds), stop_(settings.stop) {
+    const double middle = std::exp(bounds_.middle());
     x_ = t.similarity(middle);
     frames_.assign(static_cast<size_t>(t.elements()), 1);
-    r_ = VectorXd::Constant(t.elements(), 0.5 * (middle + bounds.Sigma));
+    r_ = VectorXd::Constant(t.elements(), 0.5 * (middle + bounds_.Sigma));
   }
 
   Projected run() {
     Projected result;
-    for (; result.iterations < kMostFrames && !result.settled; ++result.iterations) {
+    for (; !is_over(result); ++result.iterations) {
       const VectorXd before = t_.apply(x_);
       descend();
       const VectorXd after = t_.apply(x_);
@@ -49,6 +49,10 @@ class LocalFrames {
   }
 
  private:
+  bool is_over(const Projected& result) const {
+    return result.settled || result.iterations == kMostFrames || stop_.stop_requested();
+  }
+
   Vector5 point(const VectorXd& y, const VectorXd& r, Index i) const {
     Vector5 p;
     p << y.segment<4>(4 * i), r[i];
@@ -118,7 +122,7 @@ class LocalFrames {
     const double least = 1e-6 / static_cast<double>(t_.elements());
     for (double mu = 0.1 / static_cast<double>(t_.elements()); mu > least; mu *= 0.1)
       for (int step = 0; step < kMostNewton; ++step)
-        if (!newton(mu)) break;
+        if (stop_.stop_requested() || !newton(mu)) break;
   }
 
   /// One damped step for distance + mu barrier; false at the end.
@@ -165,14 +169,16 @@ class LocalFrames {
   DerivativeOperator& t_;
   const VectorXd& g_;
   const Bounds& bounds_;
+  const std::stop_token& stop_;
   std::vector<Complex> frames_;
   VectorXd x_, r_;
 };
 
 }  // namespace
 
-Projected by_local_frames(DerivativeOperator& t, const VectorXd& g, const Bounds& bounds) {
-  return LocalFrames(t, g, bounds).run();
+Projected by_local_frames(DerivativeOperator& t, const VectorXd& g,
+                          const ProjectionSettings& settings) {
+  return LocalFrames(t, g, settings).run();
 }
 
 }  // namespace holomorph

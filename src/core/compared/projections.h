@@ -5,10 +5,18 @@
 // convex; each has its own way around that.
 #pragma once
 
+#include <stop_token>
+
 #include "core/certificate.h"
 #include "core/compared/derivative_operator.h"
 
 namespace holomorph {
+
+/// The bounds, and a way to end the work early.
+struct ProjectionSettings {
+  Bounds bounds;
+  std::stop_token stop = {};
+};
 
 /// What came out, after how many outer steps, and whether it stopped moving.
 struct Projected {
@@ -24,14 +32,17 @@ Element nearest_bounded(const Element& element, const Bounds& bounds);
 /// frame) instead of |f_z| bounds from below, which is convex; solved by a barrier from a feasible
 /// start. Frames start as the identity's and then follow f_z, until nothing moves. Each iterate
 /// keeps the bounds.
-Projected by_local_frames(DerivativeOperator& t, const VectorXd& g, const Bounds& bounds);
+Projected by_local_frames(DerivativeOperator& t, const VectorXd& g,
+                          const ProjectionSettings& settings);
 
 /// Aigerman, Lipman 2013: the map goes to the nearest one whose elements lie in the half-spaces
 /// behind the projections of those that break the bounds, a quadratic program; then again.
-Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start, const Bounds& bounds);
+Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,
+                         const ProjectionSettings& settings);
 
 /// Kovalsky, Aigerman, Basri, Lipman 2015: all elements are projected, and the map goes to the
 /// nearest one on the plane through them that is normal to the way there. One factorisation.
-Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start, const Bounds& bounds);
+Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start,
+                            const ProjectionSettings& settings);
 
 }  // namespace holomorph

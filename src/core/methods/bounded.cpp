@@ -24,14 +24,14 @@ Bounds bounds_of(const Method& method, const Parameters& values) {
 
 class BoundedDeformer final : public Deformer {
  public:
-  explicit BoundedDeformer(const Rest& rest)
+  /// With about so many vertices around the cage.
+  BoundedDeformer(const Rest& rest, int basis)
       : rest_(rest),
         method_(method_named("bounded")),
         bounds_(bounds_of(method_, rest.parameters)),
         space_(choice(method_, rest.parameters, "space")) {
     check(rest.mesh != nullptr, "method bounded: a rest with a mesh");
     bounds_.check_usable();
-    const int basis = std::clamp(2 * static_cast<int>(rest.cage.size()), kBasis, kMostBasis);
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
     on_mesh_ = std::make_unique<MapOnMesh>(*basis_, *rest.mesh);
     reference_ = std::make_unique<ReferenceSampler>(
@@ -41,7 +41,17 @@ class BoundedDeformer final : public Deformer {
     prepare_space();
   }
 
+  static int final_basis(const Cage& cage) {
+    return std::clamp(2 * static_cast<int>(cage.size()), kBasis, kMostBasis);
+  }
+  /// While a cage of many points is dragged, a coarser basis keeps up with the hand.
+  void prepare_draft() {
+    const int coarse = std::clamp(static_cast<int>(rest_.cage.size()), kBasis, kMostBasis);
+    if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
+  }
+
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    if (wanted.draft && draft_) return draft_->deform(pose, out, wanted);
     reference_->deform(pose, wanted.draft);
     if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
       return take_identity(out, wanted);
@@ -53,12 +63,13 @@ class BoundedDeformer final : public Deformer {
     out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
                                                              : SampledMap::Status::infeasible;
     out.iterations = solution_.solution.iterations;
+    out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose);
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     if (posed_ != pose || !solved_) {
-      BoundedDeformer copy(rest_);
+      BoundedDeformer copy(rest_, final_basis(rest_.cage));
       SampledMap map;
       copy.deform(pose, map, {});
       return copy.current();
@@ -228,7 +239,8 @@ class BoundedDeformer final : public Deformer {
     if (turned_ > 0)
       return "Proved, but too fine for the mesh: " + std::to_string(turned_) +
              " of its triangles turn over";
-    if (!reference_->uses_pins()) return text;
+    if (!reference_->uses_pins())
+      return text + (pins_.empty() ? "" : "; what is followed knows no pins");
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     double farthest = 0;
     size_t which = 0;
@@ -257,6 +269,8 @@ class BoundedDeformer final : public Deformer {
   std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
 
+  std::unique_ptr<BoundedDeformer> draft_;
+
   BoundedMap solution_, conformal_;
   bool solved_ = false;
   int turned_ = 0;
@@ -267,7 +281,9 @@ class BoundedDeformer final : public Deformer {
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
   check_rest_cage(rest.cage);
-  return std::make_unique<BoundedDeformer>(rest);
+  auto deformer = std::make_unique<BoundedDeformer>(rest, BoundedDeformer::final_basis(rest.cage));
+  deformer->prepare_draft();
+  return deformer;
 }
 
 }  // namespace
@@ -288,10 +304,9 @@ Method bounded_method(const std::vector<Method>& references) {
     spec.highest = highest;
     return spec;
   };
-  ParameterSpec space{"space", "Maps", "What is given up first where the bounds do not allow all"};
+  ParameterSpec space{"space", "Keeps", "What is kept first where the bounds do not allow all"};
   space.kind = ParameterSpec::Kind::choice;
-  space.options = {
-      {"nu", "keep close (L_nu)"}, {"psi", "meet the pins (L_psi)"}, {"h", "keep sizes (H)"}};
+  space.options = {{"nu", "shape (L_nu)"}, {"psi", "pins (L_psi)"}, {"h", "sizes (H)"}};
   space.highest = 2;
   ParameterSpec weight = number("pin_weight", "Pin weight",
                                 "How much pins count when they are to be met", 1000, 1, 1e6);
