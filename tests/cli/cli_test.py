@@ -129,6 +129,27 @@ class CommandLine(unittest.TestCase):
             self.good("render", out, "--out", self.path("r.png"))
             self.assertEqual(Image.open(self.path("r.png")).convert("RGBA").tobytes(), Image.open(picture).convert("RGBA").tobytes())
 
+    def test_each_space_of_maps_without_folds_is_certified(self):
+        shutil.copy(os.path.join(SOURCE, "assets", "octopus.png"), self.folder)
+        scene = json.load(open(os.path.join(SOURCE, "assets", "octopus.json")))
+        for space in ("nu", "psi", "h"):
+            scene["method"]["parameters"] = {"space": space, "pin_weight": 1e4, "reference": "har_arap"}
+            jsonschema.validate(scene, SCHEMA)
+            path = self.path(space + ".json")
+            with open(path, "w") as file:
+                json.dump(scene, file)
+            report = json.loads(self.good("info", path, "--json").stdout)
+            self.assertTrue(report["certified"], space)
+            self.assertEqual(report["flipped_triangles"], 0)
+            self.assertAlmostEqual(report["turning_number"], 1, places=6)
+            self.assertLessEqual(report["max_k"], 0.7)
+            self.assertLessEqual(report["max_sigma"], 5)
+            self.assertGreaterEqual(report["min_sigma"], 0.2)
+        scene["method"]["parameters"]["space"] = "rigid"
+        with open(path, "w") as file:
+            json.dump(scene, file)
+        self.bad("info", path, says="/method/parameters/space")
+
     def test_golden_pictures(self):
         for name in SAMPLES:
             for view in ("image", "angle", "area", "stretch", "checker"):
