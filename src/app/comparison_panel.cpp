@@ -13,7 +13,7 @@ void cell(const char* format, double value) {
   if (std::isfinite(value))
     ImGui::Text(format, value);
   else
-    ImGui::TextUnformatted("folds");
+    ImGui::TextUnformatted("infinite");
 }
 
 }  // namespace
@@ -57,20 +57,22 @@ void ComparisonPanel::work(const Scene& scene, std::stop_token stop) {
 }
 
 void ComparisonPanel::draw(const Workspace& workspace, const OverlayStyle& style) {
-  if (open_ && draw_window(workspace, style)) start(workspace.scene());
+  if (!open_) return;
+  if (draw_window(workspace, style)) start(workspace.scene());
+  if (!open_) worker_.request_stop();
 }
 
 bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle& style) {
   const std::lock_guard lock(mutex_);
   const float s = static_cast<float>(style.scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(workspace.viewport.left + workspace.viewport.width / 2),
-       display.y - 50 * s},
-      ImGuiCond_Appearing, {0.5f, 1});
-  ImGui::SetNextWindowSize(
-      {std::min(690 * s, display.x - 40), 10 * ImGui::GetTextLineHeightWithSpacing() + 24 * s},
-      ImGuiCond_Appearing);
+  const float width = std::min(690 * s, display.x - 20);
+  const double middle = workspace.viewport.left + workspace.viewport.width / 2;
+  const float left =
+      std::clamp(static_cast<float>(middle) - width / 2, 10.0f, display.x - width - 10);
+  ImGui::SetNextWindowPos({left, display.y - 50 * s}, ImGuiCond_Appearing, {0, 1});
+  ImGui::SetNextWindowSize({width, 10 * ImGui::GetTextLineHeightWithSpacing() + 24 * s},
+                           ImGuiCond_Appearing);
   ImGui::Begin("Projections onto the same bounds", &open_,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   draw_table(style.scale);
@@ -94,10 +96,23 @@ void ComparisonPanel::draw_table(double scale) {
   const float s = static_cast<float>(scale);
   if (!ImGui::BeginTable("rows", 7, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("Map", ImGuiTableColumnFlags_WidthFixed, 190 * s);
-  for (const char* title : {"max k", "tau", "flips", "turning", "ms"})
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, 64 * s);
-  ImGui::TableSetupColumn("steps", ImGuiTableColumnFlags_WidthFixed, 110 * s);
-  ImGui::TableHeadersRow();
+  static constexpr const char* kColumns[][2] = {
+      {"Map", "Click a row to see its map over the picture"},
+      {"max k", "The flattest circle: 0 keeps all angles, 1 is a line"},
+      {"tau", "The largest stretch or shrinking of a length"},
+      {"flips", "Triangles that lie on their back"},
+      {"turning", "How often the outline turns: 1 unless it winds around a branch point"},
+      {"ms", "Time of the solve, without preparation"},
+      {"steps", "Iterations; 'not settled': stopped at the most"}};
+  for (int c = 1; c < 7; ++c)
+    ImGui::TableSetupColumn(kColumns[c][0], ImGuiTableColumnFlags_WidthFixed,
+                            (c < 6 ? 64 : 110) * s);
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int c = 0; c < 7; ++c) {
+    ImGui::TableNextColumn();
+    ImGui::TableHeader(kColumns[c][0]);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kColumns[c][1]);
+  }
   for (size_t i = 0; i < rows_.size(); ++i) {
     const ComparedMap& row = rows_[i];
     ImGui::TableNextRow();
@@ -110,6 +125,7 @@ void ComparisonPanel::draw_table(double scale) {
     cell("%.3f", row.max_tau);
     cell("%.0f", row.flips);
     cell("%.2f", row.turning_number);
+    if (i == 0) continue;  // nothing was solved for the reference
     cell("%.0f", row.milliseconds);
     ImGui::TableNextColumn();
     ImGui::Text(row.settled ? "%d" : "%d, not settled", row.iterations);
@@ -118,7 +134,8 @@ void ComparisonPanel::draw_table(double scale) {
 }
 
 void ComparisonPanel::draw_map(const Workspace& workspace, const OverlayStyle& style) const {
-  if (chosen_ < 0 || chosen_ >= static_cast<int>(rows_.size()) || !mesh_) return;
+  if (workspace.at_rest() || chosen_ < 0 || chosen_ >= static_cast<int>(rows_.size()) || !mesh_)
+    return;
   const VectorXc& f = rows_[static_cast<size_t>(chosen_)].f;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const auto px = [&](int vertex) {

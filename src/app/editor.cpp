@@ -90,7 +90,9 @@ class Editor {
     if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
       workspace_.preview.reset();
     was_active_ = ImGui::IsAnyItemActive();
-    const bool modal = files_.asking() || palette_ || help_;
+    const bool popup =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    const bool modal = files_.asking() || palette_ || help_ || popup;
     for (const Shortcut& key : window_.take_keys())
       if (!typing && !modal) take_key(key);
     workspace_.hide_overlays = !typing && window_.is_down('H');

@@ -24,7 +24,7 @@ void edit_number(const char* label, double value, const char* format, float spee
 void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec& spec,
                   size_t chosen) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.72f);
-  if (!ImGui::BeginCombo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
+  if (!begin_combo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
   for (size_t i = 0; i < spec.options.size(); ++i)
     if (ImGui::Selectable(spec.options[i].label.c_str(), i == chosen)) {
       Scene after = scene;
@@ -60,7 +60,7 @@ void method_section(Workspace& workspace) {
   const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
   const Method& method = method_named(scene.method);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##method", method.label.c_str())) {
+  if (begin_combo("##method", method.label.c_str())) {
     for (const Method& row : methods()) {
       if (ImGui::Selectable(row.label.c_str(), row.id == method.id))
         workspace.commit("Method: " + row.label, with_method(scene, row.id));
@@ -134,7 +134,7 @@ void one_handle(Workspace& workspace, Handle handle) {
     return;
   }
   if (layer == Layer::rest) return;
-  if (const auto place = workspace.map.pin_place(static_cast<size_t>(handle.index)))
+  if (const auto place = workspace.map.pin_place(scene, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
       ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
   bool turns = scene.pins[handle.index].angle.has_value();
@@ -222,8 +222,7 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
   static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch",
                                          "view.checker"};
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##view",
-                        action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
+  if (begin_combo("##view", action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
     for (const char* id : kIds) {
       const Action& action = action_named(id);
       ImGui::BeginDisabled(!action.enabled(workspace));

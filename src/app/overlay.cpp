@@ -179,7 +179,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     if (posed && same_rest(*posed, scene)) {
       const bool at_rest = layer == Layer::rest;
       for (size_t i = 0; i < scene.pins.size() && !at_rest; ++i)
-        if (const auto place = workspace.map.pin_place(i))
+        if (const auto place = workspace.map.pin_place(scene, i))
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
       for (const Complex& zero : at_rest ? workspace.map.map().zeros : workspace.map.zero_places())
         draw_zero(list, px(workspace, zero), style);

@@ -212,6 +212,12 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   ImGui::PopStyleVar(2);
 }
 
+bool begin_combo(const char* label, const char* preview) {
+  if (!ImGui::BeginCombo(label, preview)) return false;
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+  return true;
+}
+
 void draw_context_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("context")) return;
   for (const char* id :

@@ -53,6 +53,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 /// What a right click on the canvas offers.
 void draw_context_menu(Workspace& workspace);
 
+/// ImGui's combo, which Escape closes.
+bool begin_combo(const char* label, const char* preview);
+
 /// How many points the next cage from the picture has.
 void points_slider(Workspace& workspace, float width);
 

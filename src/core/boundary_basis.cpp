@@ -10,8 +10,8 @@
 namespace holomorph {
 namespace {
 
-/// A polygon's corners moved outwards by `distance` from both their edges.
-Points mitred(const Points& polygon, double distance) {
+/// A polygon's corners moved outwards by distances of their own from both their edges.
+Points mitred(const Points& polygon, const std::vector<double>& distances) {
   const size_t n = polygon.size();
   constexpr double kLongest = 12;  // of a mitre, in distances
   Points outer;
@@ -27,7 +27,7 @@ Points mitred(const Points& polygon, double distance) {
       mitre = kLongest * before / std::abs(before);
     else
       mitre *= 2 / std::max(size, 1e-12);
-    outer.push_back(polygon[i] + distance * mitre);
+    outer.push_back(polygon[i] + distances[i] * mitre);
   }
   return outer;
 }
@@ -58,13 +58,34 @@ std::vector<double> lengths_of(const Cage& domain) {
   return lengths;
 }
 
-std::vector<BoundaryPiece> cut(const Cage& domain, int wanted) {
+/// A piece in equal parts of its parameter.
+std::vector<BoundaryPiece> parted(const Cage& domain, const BoundaryPiece& piece, int parts) {
+  std::vector<BoundaryPiece> pieces;
+  const double step = (piece.to - piece.from) / parts;
+  for (int k = 0; k < parts; ++k)
+    pieces.push_back(piece_of(domain, piece.segment, piece.from + k * step,
+                              k + 1 == parts ? piece.to : piece.from + (k + 1) * step));
+  return pieces;
+}
+
+/// How far a piece is from its chord at most.
+double sagitta(const BoundaryPiece& piece) {
+  return piece.bend / 8;
+}
+
+/// About `wanted` pieces of equal length, one for each segment at least, and more where they are
+/// bent by more than `flat`.
+std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
   const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
   std::vector<BoundaryPiece> pieces;
   for (Index e = 0; e < domain.size(); ++e)
-    for (int k = 0; k < parts[static_cast<size_t>(e)]; ++k)
-      pieces.push_back(piece_of(domain, e, static_cast<double>(k) / parts[static_cast<size_t>(e)],
-                                (k + 1.0) / parts[static_cast<size_t>(e)]));
+    for (const BoundaryPiece& piece :
+         parted(domain, piece_of(domain, e, 0, 1), parts[static_cast<size_t>(e)])) {
+      constexpr double kMostParts = 6;
+      const double more = std::ceil(std::sqrt(sagitta(piece) / flat));
+      const auto finer = parted(domain, piece, static_cast<int>(std::clamp(more, 1.0, kMostParts)));
+      pieces.insert(pieces.end(), finer.begin(), finer.end());
+    }
   return pieces;
 }
 
@@ -95,17 +116,26 @@ bool is_around(const Points& polygon, const Points& inner, double distance) {
   return true;
 }
 
-Points polygon_around(const Cage& domain, int wanted, double distance) {
+/// A polygon around the domain, and the piece that each of its edges lies along.
+struct Surrounding {
+  Points polygon;
+  std::vector<BoundaryPiece> pieces;
+};
+
+Surrounding surrounding(const Cage& domain, int wanted, double distance) {
   const Points fine = flattened(domain).points;
   for (int vertices = wanted; vertices <= 4 * wanted; vertices *= 2) {
-    const std::vector<BoundaryPiece> pieces = cut(domain, vertices);
-    double sagitta = 0;  // chords of curves leave parts of the domain outside
-    for (const BoundaryPiece& piece : pieces) sagitta = std::max(sagitta, piece.bend / 8);
+    const std::vector<BoundaryPiece> pieces = cut(domain, vertices, 1.5 * distance);
     const Points inner = starts_of(pieces);
     double off = distance;
     for (int halving = 0; halving < 12; ++halving, off *= 0.5) {
-      const Points outer = mitred(inner, off + 1.5 * sagitta);
-      if (is_around(outer, fine, 0.3 * off)) return outer;
+      std::vector<double> distances;  // chords of curves leave parts of the domain outside
+      for (size_t i = 0; i < pieces.size(); ++i) {
+        const BoundaryPiece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
+        distances.push_back(off + 1.5 * std::max(sagitta(pieces[i]), sagitta(before)));
+      }
+      const Points outer = mitred(inner, distances);
+      if (is_around(outer, fine, 0.3 * off)) return {outer, pieces};
     }
   }
   throw Error(
@@ -146,9 +176,11 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   const double around = perimeter(flattened(domain_).points);
   const int vertices = std::max(basis, 25);
   constexpr double kOffset = 0.05;  // of the mean edge: 0.1 % of the perimeter for 50 vertices
-  polygon_ = polygon_around(domain_, vertices, kOffset * around / vertices);
-  const double finer = std::max(1.0, static_cast<double>(polygon_.size()) / vertices);
-  pieces_ = cut(domain_, static_cast<int>(std::max(samples, 2 * vertices) * finer));
+  Surrounding around_domain = surrounding(domain_, vertices, kOffset * around / vertices);
+  polygon_ = std::move(around_domain.polygon);
+  const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));
+  for (const BoundaryPiece& piece : around_domain.pieces)
+    for (const BoundaryPiece& part : parted(domain_, piece, each)) pieces_.push_back(part);
   samples_ = starts_of(pieces_);
   const MatrixXc c = values(samples_);
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");

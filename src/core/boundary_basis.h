@@ -28,8 +28,9 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 class BoundaryBasis {
  public:
   /// For a domain of either orientation, with about `basis` >= 25 polygon vertices (at least one
-  /// for each of the cage's, up to four times as many around curves that nearly touch) and about
-  /// `samples` samples, all cage vertices among them; more when there are more vertices. The
+  /// for each of the cage's, more along sharp bends, and up to four times as many around curves
+  /// that nearly touch) and `samples` / `basis` samples along each of its edges, two at least, all
+  /// cage vertices among them. The
   /// polygon lies a twentieth of its mean edge outside, nearer where the domain nearly touches
   /// itself. Throws Error for what check_rest_cage refuses. Cost: the product of the two numbers,
   /// and a QR factorisation of that size.

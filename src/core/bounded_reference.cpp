@@ -23,7 +23,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   followed.parameters.clear();
   followed.precision = Precision::full;  // the samples are few
   followed.samples = points_.boundary;
-  followed.samples.insert(followed.samples.end(), points_.inner.begin(), points_.inner.end());
+  for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
   followed.derivative_samples.clear();
   if (!method.uses_pins) followed.pins.clear();
   deformer_ = method.prepare(followed, nullptr);
@@ -37,11 +37,11 @@ void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis)
   std::vector<int> inner;
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!outer[v]) inner.push_back(static_cast<int>(v));
-  const size_t step = std::max<size_t>(1, inner.size() / kInnerSamples);
-  for (size_t i = 0; i < inner.size(); i += step) {
-    inner_vertices_.push_back(inner[i]);
-    points_.inner.push_back(mesh.vertices[static_cast<size_t>(inner[i])]);
-  }
+  const std::vector<int>& anchors = inner.empty() ? mesh.boundary : inner;
+  const size_t step = std::max<size_t>(1, anchors.size() / kInnerSamples);
+  for (size_t i = 0; i < anchors.size(); i += step) anchors_.push_back(anchors[i]);
+  if (inner.empty()) return;  // derivatives of references are rough on the boundary
+  for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
 }
 
 void ReferenceSampler::deform(const Pose& pose, bool draft) {
@@ -53,12 +53,14 @@ void ReferenceSampler::deform(const Pose& pose, bool draft) {
 }
 
 bool ReferenceSampler::is_identity() const {
-  const size_t count = points_.boundary.size();
-  for (size_t i = 0; i < count + points_.inner.size(); ++i)
-    if (map_.f[static_cast<Index>(i)] !=
-        (i < count ? points_.boundary[i] : points_.inner[i - count]))
-      return false;
-  return map_.fz == VectorXc::Ones(map_.fz.size()) && map_.fzbar.isZero(0);
+  const Index m = static_cast<Index>(points_.boundary.size()),
+              inner = static_cast<Index>(points_.inner.size());
+  for (Index i = 0; i < m; ++i)
+    if (map_.f[i] != points_.boundary[static_cast<size_t>(i)]) return false;
+  for (size_t i = 0; i < anchors_.size(); ++i)
+    if (anchor_places()[i] != mesh_->vertices[static_cast<size_t>(anchors_[i])]) return false;
+  return map_.fz.head(m + inner) == VectorXc::Ones(m + inner) &&
+         map_.fzbar.head(m + inner).isZero(0);
 }
 
 BoundedReference ReferenceSampler::reference(Points& zeros) const {
@@ -84,14 +86,14 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   for (Index i = 0; i < m; ++i)
     target.log_fz[i] = {std::log(std::max(std::abs(fz[i]), least)), theta[i]};
   target.psi = map_.fzbar.head(m).conjugate();
-  target.inner_psi = map_.fzbar.tail(inner).conjugate();
+  target.inner_psi = map_.fzbar.segment(m, inner).conjugate();
   target.nu = (target.psi.array() / fz.array()).matrix();
-  target.inner_nu = (target.inner_psi.array() / map_.fz.tail(inner).array()).matrix();
+  target.inner_nu = (target.inner_psi.array() / map_.fz.segment(m, inner).array()).matrix();
   return target;
 }
 
-std::span<const Complex> ReferenceSampler::inner_places() const {
-  return {map_.f.data() + points_.boundary.size(), points_.inner.size()};
+std::span<const Complex> ReferenceSampler::anchor_places() const {
+  return {map_.f.data() + points_.boundary.size(), anchors_.size()};
 }
 
 }  // namespace holomorph

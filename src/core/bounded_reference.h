@@ -25,10 +25,11 @@ class ReferenceSampler {
   /// ln f_z along the boundary (algorithm 4), nu and Psi' everywhere; and the places of the zeros
   /// that were found.
   BoundedReference reference(Points& zeros) const;
-  /// The inner points' places.
-  std::span<const Complex> inner_places() const;
-  /// The mesh's vertices that the inner points are.
-  const std::vector<int>& inner_vertices() const { return inner_vertices_; }
+  /// Some of the mesh's vertices, one at least, and where the map takes them.
+  const std::vector<int>& anchors() const { return anchors_; }
+  std::span<const Complex> anchor_places() const;
+  /// What the method had to say, such as a pin that it could not use.
+  const std::string& note() const { return map_.note; }
 
  private:
   void take_points(const Mesh& mesh, const BoundaryBasis& basis);
@@ -38,7 +39,7 @@ class ReferenceSampler {
   const MapOnMesh& on_mesh_;
   std::shared_ptr<const Mesh> mesh_;
   ReferencePoints points_;
-  std::vector<int> inner_vertices_;
+  std::vector<int> anchors_;  ///< the inner points; the boundary where there are none
   HolomorphicFit fit_;
   std::unique_ptr<Deformer> deformer_;
   SampledMap map_;

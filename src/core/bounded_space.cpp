@@ -5,103 +5,72 @@
 #include "core/real_form.h"
 
 namespace holomorph {
-namespace {
-
-constexpr double kTightening = 0.002;
-
-}  // namespace
-
 BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
                            const ReferencePoints& points, const BoundedSettings& settings)
-    : basis_(std::move(basis)), settings_(settings), certifier_(*basis_) {
+    : basis_(std::move(basis)),
+      settings_(settings),
+      distance_(*basis_, points, settings.weight),
+      certifier_(*basis_) {
   settings.bounds.check_usable();
   const Bounds tight = settings.bounds.tightened(kTightening);
-  const Index n = basis_->size(), m = static_cast<Index>(points.boundary.size());
+  const Index n = basis_->size();
   const bool conformal = settings.bounds.k == 0;
   system_.re.resize(conformal ? 0 : 2 * n, 0);
   append_samples(basis_->at_samples(), system_);
   const auto same = [](double offset) { return VectorXd::Constant(1, offset); };
   system_.cones = {{same(std::log(tight.Sigma)), -1, 0}, {same(1), 0, tight.sigma}};
-  if (!conformal) system_.cones.push_back({same(tight.k), 0, 0});
   system_.quadratic = MatrixXd::Zero(system_.unknowns(), system_.unknowns());
-  fit_ = HolomorphicFit(*basis_, points.boundary);
-  if (!conformal) inner_ = basis_->whitened(basis_->values(points.inner));
-  MatrixXd re, im;
-  real_columns(fit_.rows(), re, im);
-  const MatrixXd mean_square = (re * re.transpose() + im * im.transpose()) / static_cast<double>(m);
   if (!conformal) {
-    const Index count = inner_.rows();
-    const double share = count > 0 ? 0.5 : 1;
-    auto nu = system_.quadratic.bottomRightCorner(2 * n, 2 * n);
-    nu = settings.weight * share * mean_square;
-    if (count > 0) {
-      MatrixXd inner_re, inner_im;
-      real_columns(inner_, inner_re, inner_im);
-      nu += settings.weight * share / static_cast<double>(count) *
-            (inner_re * inner_re.transpose() + inner_im * inner_im.transpose());
-    }
+    system_.cones.push_back({same(tight.k), 0, 0});
+    system_.quadratic.bottomRightCorner(2 * n, 2 * n) = distance_.quadratic();
   }
-  if (settings.norm == BoundedSettings::Norm::l1) {
-    system_.fit.resize(2 * n, 2 * m);
-    system_.fit << re, im;
-    system_.fit_weight = 1 / static_cast<double>(m);
-  } else {
-    system_.quadratic.topLeftCorner(2 * n, 2 * n) = mean_square;
-    system_.fit.resize(2 * n, 0);
-  }
+  take_distance_of_l();
   centre_ = VectorXd::Zero(system_.unknowns());
   centre_.head(2 * n) = stacked(tight.middle() * basis_->one());
+}
+
+void BoundedSpace::take_distance_of_l() {
+  MatrixXd re, im;
+  real_columns(distance_.boundary().rows(), re, im);
+  const double m = static_cast<double>(re.cols());
+  system_.fit.resize(re.rows(), 0);
+  if (settings_.norm == BoundedSettings::Norm::l1) {
+    system_.fit.resize(re.rows(), 2 * re.cols());
+    system_.fit << re, im;
+    system_.fit_weight = 1 / m;
+  } else {
+    system_.quadratic.topLeftCorner(re.rows(), re.rows()) =
+        (re * re.transpose() + im * im.transpose()) / m;
+  }
 }
 
 void BoundedSpace::append_samples(const MatrixXc& whitened, ConeSystem& system) const {
   MatrixXd re, im;
   real_columns(whitened, re, im);
-  const auto append = [](const MatrixXd& columns, MatrixXd& to) {
-    const Index before = to.cols();
-    to.conservativeResize(columns.rows(), before + columns.cols());
-    to.rightCols(columns.cols()) = columns;
-  };
-  append(re, system.height);
+  append_columns(re, system.height);
   if (system.re.rows() == 0) return;  // conformal: nu is 0
-  append(re, system.re);
-  append(im, system.im);
+  append_columns(re, system.re);
+  append_columns(im, system.im);
 }
 
 ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
-  const Index n = basis_->size(), m = fit_.rows().rows(), count = inner_.rows();
-  check(reference.log_fz.size() == m && reference.nu.size() == m &&
-            (count == 0 || reference.inner_nu.size() == count),
-        "bounded reference: one value for each sample");
+  const MatrixXc& rows = distance_.boundary().rows();
+  const Index n = basis_->size(), m = rows.rows();
+  check(reference.log_fz.size() == m, "bounded reference: one value for each sample");
   ConeTarget target;
   target.linear = VectorXd::Zero(system_.unknowns());
-  // nu_g beyond the bound says no more than its direction.
-  const auto clamped = [&](const VectorXc& nu) {
-    VectorXc result = nu;
-    for (Complex& x : result) {
-      const double size = std::abs(x);
-      if (!std::isfinite(size))
-        x = 0;
-      else if (size > settings_.bounds.k)
-        x *= settings_.bounds.k / size;
-    }
-    return result;
-  };
-  const auto add_nu = [&](const MatrixXc& rows, const VectorXc& nu, double share) {
-    const double weight = settings_.weight * share / static_cast<double>(rows.rows());
-    target.linear.tail(2 * n) -= weight * stacked(rows.adjoint() * nu);
-    target.constant += 0.5 * weight * nu.squaredNorm();
-  };
   if (system_.re.rows() > 0) {
-    const double share = count > 0 ? 0.5 : 1;
-    add_nu(fit_.rows(), clamped(reference.nu), share);
-    if (count > 0) add_nu(inner_, clamped(reference.inner_nu), share);
+    // nu_g beyond the bound says no more than its direction.
+    const auto nu = distance_.target(reference.nu, reference.inner_nu, settings_.bounds.k);
+    target.linear.tail(2 * n) = nu.linear;
+    target.constant = nu.constant;
   }
   if (settings_.norm == BoundedSettings::Norm::l1) {
     target.wanted.resize(2 * m);
     target.wanted << reference.log_fz.real(), reference.log_fz.imag();
   } else {
     const double weight = 1 / static_cast<double>(m);
-    target.linear.head(2 * n) = -weight * stacked(fit_.rows().adjoint() * reference.log_fz);
+    target.linear.head(2 * n) = -weight * stacked(rows.adjoint() * reference.log_fz);
     target.constant += 0.5 * weight * reference.log_fz.squaredNorm();
   }
   return target;
@@ -123,8 +92,8 @@ ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
 VectorXd BoundedSpace::unconstrained(const BoundedReference& reference) const {
   VectorXd x(system_.unknowns());
   const Index n = basis_->size();
-  x.head(2 * n) = stacked(fit_.unknowns(reference.log_fz));
-  if (system_.re.rows() > 0) x.tail(2 * n) = stacked(fit_.unknowns(reference.nu));
+  x.head(2 * n) = stacked(distance_.boundary().unknowns(reference.log_fz));
+  if (system_.re.rows() > 0) x.tail(2 * n) = stacked(distance_.boundary().unknowns(reference.nu));
   return x;
 }
 

@@ -8,13 +8,9 @@
 #include <memory>
 
 #include "core/certified_program.h"
+#include "core/holomorphic_distance.h"
 
 namespace holomorph {
-
-/// Where a reference is looked at: at or near the boundary's samples, and inside.
-struct ReferencePoints {
-  Points boundary, inner;
-};
 
 /// A map to be projected at those points: ln f_z, continuous, on the boundary; and Psi' =
 /// conj(f_zbar) and nu = Psi' / f_z everywhere.
@@ -29,6 +25,9 @@ struct BoundedSettings {
   enum class Norm { l1, l2 } norm = Norm::l1;
   double weight = 1;  ///< of nu's distance, half the mean square
 };
+
+/// By how much bounds are narrowed where they are solved, so that they can be proved.
+inline constexpr double kTightening = 0.002;
 
 class BoundedSpace {
  public:
@@ -53,6 +52,7 @@ class BoundedSpace {
   double energy(const BoundedReference& reference, const ConeSolution& solution) const;
 
  private:
+  void take_distance_of_l();
   ConeTarget target_of(const BoundedReference& reference) const;
   ConeSolution start(const BoundedMap* warm) const;
   LogMap map_of(const VectorXd& x) const;
@@ -64,8 +64,7 @@ class BoundedSpace {
   std::shared_ptr<const BoundaryBasis> basis_;
   BoundedSettings settings_;
   ConeSystem system_;
-  HolomorphicFit fit_;  ///< at the reference's boundary points
-  MatrixXc inner_;      ///< the whitened basis at its inner ones
+  HolomorphicDistance distance_;  ///< of nu
   Certifier certifier_;
   VectorXd centre_;  ///< nu = 0, l in the middle of the bounds
 };

@@ -149,10 +149,11 @@ class Certifier::Proof {
     const BoundaryPiece& piece = leaf.piece;
     if (result.open.empty()) result.failed = *failed;
     // What an end breaks no halving proves.
-    if (depth == 0 || is_broken(leaf)) {
-      const Complex middle = 0.5 * (piece.start + piece.end);
-      if (result.open.empty()) result.where = middle;
-      result.open.push_back(middle);
+    const auto broken = broken_end(leaf);
+    if (broken || depth == 0) {
+      const Complex open = broken ? *broken : middle_of(piece);
+      if (result.open.empty()) result.where = open;
+      if (result.open.empty() || result.open.back() != open) result.open.push_back(open);
       return;
     }
     // What bounds |F''| on a piece bounds it on its halves.
@@ -193,13 +194,20 @@ class Certifier::Proof {
                     open_bound_of_psi(leaf.end, dl, dw, below));
   }
 
-  /// Whether an end breaks a bound itself.
-  bool is_broken(const Leaf& leaf) const {
-    for (const Values& at : {leaf.start, leaf.end})
-      if (second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0)
-                                        : open_bound_of_psi(at, 0, 0, 0))
-        return true;
-    return false;
+  /// An end that breaks a bound itself.
+  std::optional<Complex> broken_end(const Leaf& leaf) const {
+    const auto is_broken = [&](const Values& at) {
+      return second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0).has_value()
+                                           : open_bound_of_psi(at, 0, 0, 0).has_value();
+    };
+    if (is_broken(leaf.start)) return leaf.piece.start;
+    if (is_broken(leaf.end)) return leaf.piece.end;
+    return {};
+  }
+  Complex middle_of(const BoundaryPiece& piece) const {
+    return piece_of(certifier_.basis_.domain(), piece.segment, piece.from,
+                    0.5 * (piece.from + piece.to))
+        .end;
   }
 
   static std::optional<Bound> first_of(std::optional<Bound> a, std::optional<Bound> b) {

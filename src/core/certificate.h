@@ -56,7 +56,9 @@ struct Certificate {
   bool holds = false;
   Bound failed = Bound::Sigma;  ///< the first one that could not be proved, and where
   Complex where;
-  Points open;  ///< the middles of all smallest pieces that could not be proved
+  /// Points of the boundary where a bound is broken, or that are in the middle of a smallest piece
+  /// on which it could not be proved.
+  Points open;
 };
 
 class Certifier {

@@ -5,15 +5,16 @@
 
 namespace holomorph {
 
-std::optional<Bound> hardest_bound(const ConeSolution& solution) {
+std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> solutions) {
   constexpr double kNothing = 1e-2;  // multipliers left over from the interior
   std::optional<Bound> hardest;
   double most = kNothing;
-  for (size_t c = 0; c < solution.z.size(); ++c)
-    if (const double push = solution.z[c].row(0).sum(); push > most) {
-      most = push;
-      hardest = static_cast<Bound>(c);
-    }
+  for (const ConeSolution* solution : solutions)
+    for (size_t c = 0; c < solution->z.size(); ++c)
+      if (const double push = solution->z[c].row(0).sum(); push > most) {
+        most = push;
+        hardest = static_cast<Bound>(c);
+      }
   return hardest;
 }
 
@@ -46,6 +47,7 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
   best.cuts = cuts;
   const auto take = [&](ConeSolution candidate) {
     best.solution = std::move(candidate);
+    best.iterations += best.solution.iterations;
     best.map = map_of(best.solution.x);
     best.certificate = certifier.certify(best.map, bounds);
   };
@@ -62,11 +64,12 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
     best.cuts.insert(best.cuts.end(), open.begin(), open.end());
     take(holomorph::solved(cut, target, settings, inside(cut, best.solution, centre)));
   }
-  // The centre is certified, and what lies between two certified maps is, too, nearly always.
+  // The centre is certified, and on the way there every enclosure shrinks.
   const VectorXd x = best.solution.x;
   for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
     best.blend = share;
     ConeSolution nearer = best.solution;
+    nearer.iterations = 0;
     nearer.x = (1 - share) * x + share * centre;
     take(std::move(nearer));
     if (share == 1) break;

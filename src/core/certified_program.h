@@ -13,14 +13,15 @@ struct BoundedMap {
   LogMap map;
   Certificate certificate;
   ConeSolution solution;
-  int rounds = 0;    ///< of added samples
-  Points cuts;       ///< all samples that were added
-  double blend = 0;  ///< how far towards the centre of the bounds it was moved, to be proved
+  int rounds = 0;      ///< of added samples
+  Points cuts;         ///< all samples that were added
+  int iterations = 0;  ///< of all rounds
+  double blend = 0;    ///< how far towards the centre of the bounds it was moved, to be proved
 };
 
-/// The bound that the solution's energy would gain most from if it were wider; none when no bound
+/// The bound that the solutions' energies would gain most from if it were wider; none when no bound
 /// is in the way.
-std::optional<Bound> hardest_bound(const ConeSolution& solution);
+std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> solutions);
 
 /// The program at the boundary's samples, and what its unknowns mean. All references must outlive
 /// this.

@@ -27,6 +27,7 @@ class Solver {
         m_(system.samples()),
         k_(system.fit.cols()),
         at_(start) {
+    at_.status = ConeSolution::Status::stopped;
     check(at_.x.size() == p_ + q_ && target.linear.size() == p_ + q_ && target.wanted.size() == k_,
           "cone program: sizes agree");
     s_.resize(system.cones.size());
@@ -115,12 +116,12 @@ class Solver {
   };
 
   void start_fit(bool warm) {
-    residual_ = fit_residual(at_.x);
+    const VectorXd residual = fit_residual(at_.x);
     constexpr double kRoom = 0.1;  // between |r| and its bound
-    const double room = std::max(kRoom, k_ > 0 ? residual_.cwiseAbs().mean() : 0.0);
-    const VectorXd t = residual_.cwiseAbs().array() + (warm ? 0.2 * kRoom : room);
-    up_.s = t - residual_;
-    down_.s = t + residual_;
+    const double room = std::max(kRoom, k_ > 0 ? residual.cwiseAbs().mean() : 0.0);
+    const VectorXd t = residual.cwiseAbs().array() + (warm ? 0.2 * kRoom : room);
+    up_.s = t - residual;
+    down_.s = t + residual;
     constexpr double kSurest = 0.95;
     const VectorXd d =
         warm ? VectorXd(at_.fit_duals.cwiseMax(-kSurest).cwiseMin(kSurest)) : VectorXd::Zero(k_);
@@ -384,7 +385,7 @@ class Solver {
   double length_ = 1;  ///< of the last step
   std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
   std::vector<std::vector<Scaling>> scalings_;
-  VectorXd u_, du_, decay_, gradient_, residual_;
+  VectorXd u_, du_, decay_, gradient_;
   bool precise_ = false;  ///< from the end of single precision on
   MatrixXd normal_;
   Workspace<float> single_;
@@ -395,14 +396,17 @@ class Solver {
 }  // namespace
 
 bool is_feasible(const ConeSystem& system, const VectorXd& x) {
-  const Index p = system.height.rows(), q = system.re.rows();
-  for (Index i = 0; i < system.samples(); ++i) {
-    const double u = p > 0 ? system.height.col(i).dot(x.head(p)) : 0;
-    const double w =
-        q > 0 ? std::hypot(system.re.col(i).dot(x.tail(q)), system.im.col(i).dot(x.tail(q))) : 0;
-    for (const Cone& cone : system.cones)
-      if (!(cone.height(i, u, std::exp(-u)) > w)) return false;
+  // The same sums as the solver's, so that both agree to the last bit.
+  const Index p = system.height.rows(), q = system.re.rows(), m = system.samples();
+  VectorXd u = VectorXd::Zero(m), re = u, im = u;
+  if (p > 0) u = transposed_product(system.height, x.head(p));
+  if (q > 0) {
+    re = transposed_product(system.re, x.tail(q));
+    im = transposed_product(system.im, x.tail(q));
   }
+  for (Index i = 0; i < m; ++i)
+    for (const Cone& cone : system.cones)
+      if (!is_inside({cone.height(i, u[i], std::exp(-u[i])), re[i], im[i]})) return false;
   return true;
 }
 

@@ -60,8 +60,9 @@ struct Rest {
   Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
   Points samples;  ///< where the map is wanted, inside or on the cage
-  Points
-      derivative_samples;  ///< where f_z and f_zbar are wanted, one per sample; empty: at samples
+  /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
+  /// are finite on the boundary give them at samples.
+  Points derivative_samples;
   /// The domain's triangles, for methods that integrate or minimise over it.
   std::shared_ptr<const Mesh> mesh;
   Parameters parameters;

@@ -22,6 +22,12 @@ Distortion distortion_of(const SampledMap& map) {
   return result;
 }
 
+int flipped_triangles(const Mesh& mesh, const VectorXc& f) {
+  int count = 0;
+  for (const auto& [i, j, k] : mesh.triangles) count += !(cross(f[j] - f[i], f[k] - f[i]) > 0);
+  return count;
+}
+
 bool MapReport::locally_injective() const {
   return zeros.empty() && flipped_triangles == 0 && std::abs(turning_number - 1) < 0.01;
 }
@@ -43,8 +49,8 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
     const double winding = (increment(i, j) + increment(j, k) + increment(k, i)) / (2 * kPi);
     if (std::abs(winding) > 0.5)
       report.zeros.push_back((mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]) / 3.0);
-    if (cross(map.f[j] - map.f[i], map.f[k] - map.f[i]) <= 0) ++report.flipped_triangles;
   }
+  report.flipped_triangles = flipped_triangles(mesh, map.f);
   Points image;
   for (const int v : mesh.boundary) image.push_back(map.f[v]);
   report.turning_number = turning_number(image);

@@ -15,6 +15,9 @@ struct Distortion {
 /// Needs the map's derivatives. Cost: linear.
 Distortion distortion_of(const SampledMap& map);
 
+/// How many of a mesh's triangles are turned over, or nowhere, with vertices at f.
+int flipped_triangles(const Mesh& mesh, const VectorXc& f);
+
 /// Measures of a whole map on a mesh.
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;

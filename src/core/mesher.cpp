@@ -274,6 +274,30 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   }
 }
 
+/// Moves inner vertices of triangles that settling turned over to the mean of their neighbours.
+void untangle(Mesh& mesh) {
+  std::vector<char> outer(mesh.vertices.size(), 0);
+  for (const int v : mesh.boundary) outer[v] = 1;
+  constexpr int kMostRounds = 50;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<char> moves(mesh.vertices.size(), 0);
+    bool any = false;
+    for (const auto& [a, b, c] : mesh.triangles)
+      if (cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]) <= 0)
+        moves[a] = moves[b] = moves[c] = 1, any = true;
+    if (!any) return;
+    Points sum(mesh.vertices.size(), 0);
+    std::vector<int> count(mesh.vertices.size(), 0);
+    for (const auto& [a, b, c] : mesh.triangles)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        sum[from] += mesh.vertices[to], ++count[from];
+        sum[to] += mesh.vertices[from], ++count[to];
+      }
+    for (size_t v = 0; v < sum.size(); ++v)
+      if (moves[v] && !outer[v]) mesh.vertices[v] = sum[v] / static_cast<double>(count[v]);
+  }
+}
+
 Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
@@ -314,6 +338,7 @@ Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
   Mesh mesh = polygon_mesh(flat.points, options);
   if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
   settle_on(cage, flat, mesh);
+  untangle(mesh);
   std::vector<int> vertices;
   for (size_t i = 0; i < flat.points.size(); ++i)
     if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);

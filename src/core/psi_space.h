@@ -22,7 +22,7 @@ class PsiSpace {
            const BoundedSettings& settings, PinRows pins = {});
 
   /// The first step: the conformal map nearest to the reference's f_z, by settings.norm, within the
-  /// bounds on stretch and 1 % narrower, so that some room is left for Psi'. Certified.
+  /// bounds on stretch, and 1 % narrower ones when k > 0: some room is left for Psi'. Certified.
   BoundedMap conformal(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
   /// The second step: with the first one's l, the Psi' within the bounds that is nearest to the
@@ -42,19 +42,18 @@ class PsiSpace {
   }
 
  private:
-  void take_distance();
-  VectorXd psi_linear(const BoundedReference& reference) const;
+  ConeTarget target_of(const BoundedReference& reference, const VectorXc& wanted) const;
   /// The discs of Psi' where these are Re l, one for each bound.
   std::vector<Cone> discs(const VectorXd& u) const;
+  void append_discs(const Points& points, const VectorXc& l, ConeSystem& system) const;
 
   std::shared_ptr<const BoundaryBasis> basis_;
   BoundedSettings settings_;
   Bounds tight_;
   BoundedSpace conformal_;
-  MatrixXc boundary_, inner_;  ///< the whitened basis at the reference's points
-  MatrixXc pins_;              ///< rows less their mean, over the size
+  HolomorphicDistance distance_;  ///< of Psi'
+  MatrixXc pins_;                 ///< rows less their mean, over the size
   double pin_weight_, size_;
-  MatrixXd distance_;                                           ///< P of Psi'
   ConeSystem discs_;                                            ///< but for their radii
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> dirichlet_;  ///< of Re l at boundary points
 };

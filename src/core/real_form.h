@@ -17,6 +17,13 @@ inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
   im.bottomRows(n) = q.real().transpose();
 }
 
+/// Appends columns.
+inline void append_columns(const MatrixXd& columns, MatrixXd& to) {
+  const Index before = to.cols();
+  to.conservativeResize(columns.rows(), before + columns.cols());
+  to.rightCols(columns.cols()) = columns;
+}
+
 inline VectorXd stacked(const VectorXc& x) {
   VectorXd real(2 * x.size());
   real << x.real(), x.imag();

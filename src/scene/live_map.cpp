@@ -153,7 +153,8 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   return true;
 }
 
-std::optional<Complex> LiveMap::pin_place(size_t i) const {
+std::optional<Complex> LiveMap::pin_place(const Scene& scene, size_t i) const {
+  if (!posed_ || !same_rest(*posed_, scene)) return {};
   if (!has_map() || map_.ignores_pins || i >= shown_->pins.size() || !shown_->pins[i]) return {};
   return shown_->pins[i]->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())});
 }

@@ -60,8 +60,9 @@ class LiveMap {
   std::optional<Complex> fold() const { return fold_; }
   /// How often the boundary's image turns: 1 for pictures that do not fold over branch points.
   double boundary_turns() const;
-  /// Where the map takes the place that pin `i` holds at rest; none when pins have no say.
-  std::optional<Complex> pin_place(size_t i) const;
+  /// Where the map takes the place that pin `i` of a scene holds at rest; none when pins have no
+  /// say or the scene has other pins by now.
+  std::optional<Complex> pin_place(const Scene& scene, size_t i) const;
   /// Where the map takes the zeros that it reports.
   Points zero_places() const;
   /// The scene that map() shows; it may lag behind the one being edited.

@@ -76,8 +76,9 @@ TEST_CASE("Bounded: a certificate is refused where a bound breaks between the sa
   LogMap map{VectorXc::Zero(basis->size()), VectorXc::Zero(basis->size())};
   CHECK(certifier.certify(map, {}).holds);
   CHECK_FALSE(certifier.certify(map, {0.7, 1.1, 5}).holds);
-  // One coefficient is raised: nu peaks at one polygon vertex, not at the samples beside it.
+  // Two coefficients are raised: nu peaks beside a polygon vertex, between two samples.
   map.w[7] = 0.9;
+  map.w[8] = 0.75;
   const Points samples = basis->samples();
   const VectorXc nu = basis->values(samples) * map.w;
   const double seen = nu.cwiseAbs().maxCoeff();
@@ -92,6 +93,78 @@ TEST_CASE("Bounded: a certificate is refused where a bound breaks between the sa
   CHECK(between.failed == Bound::k);
   CHECK(std::abs(between.where - basis->polygon()[7]) < 0.2);
   CHECK(certifier.certify(map, {peak + 0.01, 0.01, 20}).holds);
+}
+
+TEST_CASE("Bounded: a certificate of Psi' is refused where a bound breaks between the samples") {
+  const auto basis =
+      std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 50, 100);
+  const Certifier certifier(*basis);
+  LogMap map{VectorXc::Zero(basis->size()), VectorXc::Zero(basis->size()), LogMap::Second::psi};
+  map.w[7] = 0.9;
+  map.w[8] = 0.75;
+  const double seen = (certifier.coordinates() * map.w).cwiseAbs().maxCoeff();
+  Points dense;
+  for (const BoundaryPiece& piece : basis->pieces())
+    for (int k = 0; k < 200; ++k)
+      dense.push_back(piece.start + k / 200.0 * (piece.end - piece.start));
+  const double peak = (basis->values(dense) * map.w).cwiseAbs().maxCoeff();
+  REQUIRE(peak > seen);
+  const double between = 0.5 * (seen + peak);
+  // |f_z| is 1: each bound has its turn.
+  CHECK(certifier.certify(map, {between, 0.01, 20}).failed == Bound::k);
+  CHECK_FALSE(certifier.certify(map, {between, 0.01, 20}).holds);
+  CHECK_FALSE(certifier.certify(map, {0.99, 1 - between, 20}).holds);
+  CHECK_FALSE(certifier.certify(map, {0.99, 0.01, 1 + between}).holds);
+  CHECK(certifier.certify(map, {peak + 0.01, 0.99 - peak, 1.01 + peak}).holds);
+  // The same with |f_z| scaled, and turned with the map.
+  for (const Complex factor : {Complex(2), std::polar(0.5, 1.1)}) {
+    const double s = std::abs(factor);
+    const LogMap turned = scaled(map, factor);
+    CHECK_FALSE(certifier.certify(turned, {between, 0.01 * s, 20 * s}).holds);
+    CHECK(certifier.certify(turned, {peak + 0.01, (0.99 - peak) * s, (1.01 + peak) * s}).holds);
+  }
+}
+
+TEST_CASE("Bounded: a certificate of Psi' knows that |f_z| lies below its chord") {
+  // l grows so steeply along the bar that e^l is far below its chord between two samples; Psi' is
+  // nearly as large as it may be at both.
+  const auto basis = std::make_shared<const BoundaryBasis>(
+      polygon_cage(Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 25, 50);
+  const Certifier certifier(*basis);
+  LogMap map{VectorXc(basis->size()), VectorXc(basis->size()), LogMap::Second::psi};
+  constexpr double kSteep = 30;
+  for (Index j = 0; j < basis->size(); ++j) {
+    const Complex z = basis->polygon()[static_cast<size_t>(j)];
+    map.l[j] = kSteep * (z - 0.5);
+    map.w[j] = 0;
+  }
+  const double low = std::exp(-0.5 * kSteep), high = std::exp(0.5 * kSteep);
+  CHECK(certifier.certify(map, {0.5, 0.9 * low, 1.1 * high}).holds);
+  // The largest chord of e^l over a piece leaves it by this much: a constant Psi' between the two.
+  const double piece = std::abs(basis->pieces()[0].end - basis->pieces()[0].start);
+  const double sag = std::exp(0.5 * kSteep * piece) / 2 + std::exp(-0.5 * kSteep * piece) / 2;
+  REQUIRE(sag > 1.02);
+  map.w.setConstant(0.5 * low);
+  CHECK(certifier.certify(map, {0.51, 0.4 * low, 1.1 * high}).holds);
+  CHECK_FALSE(certifier.certify(map, {0.49, 0.4 * low, 1.1 * high}).holds);
+}
+
+TEST_CASE("Bounded: what goes on from another frame's map ends as near as what starts anew") {
+  constexpr double kShare = 1e-2, kGap = 1e-3;  // of the drafts' settings
+  for (const known_maps::Known& known : known_maps::all()) {
+    Projection from(known, {}, known_maps::Norm::l1), to(known, {}, known_maps::Norm::l1);
+    to.reference.log_fz.array() += Complex(0.3, 0.8);
+    to.reference.nu *= 0.8;
+    to.reference.inner_nu *= 0.8;
+    const BoundedMap before = from.space->nearest(from.reference),
+                     warm = from.space->nearest(to.reference, &before),
+                     cold = from.space->nearest(to.reference);
+    INFO(known.name);
+    const double best = from.space->energy(to.reference, cold.solution);
+    const double stayed = from.space->energy(to.reference, before.solution);
+    CHECK(from.space->energy(to.reference, warm.solution) <= (1 + kShare) * best + kGap);
+    CHECK(stayed > (1 + kShare) * best + 10 * kGap);
+  }
 }
 
 TEST_CASE("Bounded: bounds that cannot be are refused") {

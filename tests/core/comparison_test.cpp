@@ -48,7 +48,7 @@ double worst_outside(const VectorXd& elements, const Bounds& bounds) {
   double worst = -1;
   for (Index i = 0; 4 * i < elements.size(); ++i)
     worst = std::max(worst, outside(elements.segment<4>(4 * i), bounds));
-  return worst;
+  return elements.allFinite() ? worst : 1e300;
 }
 
 }  // namespace
@@ -151,6 +151,9 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
     CHECK(worst_outside(t->apply(map.x), bounds) <= 1e-3);
     CHECK(distance(map.x, wild_g) < distance(t->similarity(1), wild_g));
   }
+  // Conformal maps of a mesh are similarities, which leaves a barrier no room.
+  const Projected conformal = by_local_frames(*t, wild_g, {{0, 0.5, 2}});
+  CHECK(worst_outside(t->apply(conformal.x), {0.001, 0.5, 2}) <= 1e-9);
 }
 
 TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says how well") {

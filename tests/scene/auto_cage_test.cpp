@@ -3,8 +3,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/boundary_basis.h"
+#include "core/distortion.h"
 #include "core/error.h"
 #include "core/mesh.h"
+#include "scene/file.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -72,6 +75,25 @@ TEST_CASE("A curved automatic cage contains the largest part, with fewer control
             outside += winding_number(flat, {c + 0.5, image.height - r - 0.5}) != 1;
       CHECK(outside == 0);
     }
+}
+
+TEST_CASE("Curved automatic cages have meshes without turned triangles, and surroundings") {
+  // Sharp corners between curves: refinement sets vertices on their chords, nearer to inner ones
+  // than the curves are.
+  for (const auto& [name, vertices] :
+       {std::pair("giraffe", 30), std::pair("fish", 30), std::pair("octopus", 30),
+        std::pair("sunflower", 30), std::pair("gecko", 20)}) {
+    const std::string path = std::string(HOLOMORPH_SOURCE "/assets/") + name + ".png";
+    AutoCageOptions options{vertices, -1};
+    options.curved = true;
+    const Cage cage = auto_cage(decode_image(read_file(path), name), options);
+    const Mesh mesh = domain_mesh(cage, {8000});
+    INFO(name);
+    CHECK(flipped_triangles(
+              mesh, Eigen::Map<const VectorXc>(mesh.vertices.data(),
+                                               static_cast<Index>(mesh.vertices.size()))) == 0);
+    CHECK(BoundaryBasis(cage, 50, 300).size() <= 150);
+  }
 }
 
 TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") {

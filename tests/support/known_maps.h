@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "core/argument.h"
 #include "core/bounded_space.h"
@@ -141,6 +142,7 @@ inline double violation(const BoundaryBasis& basis, const LogMap& map, const Poi
   double worst = -1;
   for (Index i = 0; i < phi.size(); ++i) {
     const double fz = std::abs(phi[i]), fzbar = std::abs(psi[i]);
+    if (!std::isfinite(fz) || !std::isfinite(fzbar)) return std::numeric_limits<double>::infinity();
     worst = std::max(
         {worst, fzbar / fz - bounds.k, fz + fzbar - bounds.Sigma, bounds.sigma - (fz - fzbar)});
   }

@@ -64,10 +64,17 @@ std::vector<Eigen::Matrix4d> identity_blocks(const DerivativeOperator& t) {
   return blocks;
 }
 
+/// One for each element: normal . y <= limit; none where the normal is 0.
+struct HalfSpaces {
+  VectorXd normals, limits;
+};
+
 /// min sum of weights |T x - g|^2 / 2 with normal_i . (T x)_i <= limit_i where normal_i is not 0:
 /// primal-dual interior points from any start.
+/// Stops early when asked to.
 VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
-                           const VectorXd& normals, const VectorXd& limits) {
+                           const HalfSpaces& spaces, const std::stop_token& stop) {
+  const auto& [normals, limits] = spaces;
   std::vector<Index> rows;
   for (Index i = 0; i < t.elements(); ++i)
     if (!normals.segment<4>(4 * i).isZero(0)) rows.push_back(i);
@@ -84,7 +91,7 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
   VectorXd s = (limit - along(t.apply(x))).cwiseMax(0.1),
            z = VectorXd::Constant(count, 0.1 * scale);
   constexpr int kMost = 40;
-  for (int iteration = 0; iteration < kMost; ++iteration) {
+  for (int iteration = 0; iteration < kMost && !stop.stop_requested(); ++iteration) {
     const VectorXd y = t.apply(x), off = along(y) + s - limit;
     const double mu = count > 0 ? s.dot(z) / static_cast<double>(count) : 0;
     std::vector<Eigen::Matrix4d> blocks = identity_blocks(t);
@@ -93,7 +100,7 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
     for (Index r = 0; r < count; ++r) {
       const Element n = normals.segment<4>(4 * rows[r]);
       blocks[static_cast<size_t>(rows[r])] += z[r] / s[r] * n * n.transpose();
-      pull.segment<4>(4 * rows[r]) += (z[r] + (z[r] * off[r] + centre - s[r] * z[r]) / s[r]) * n;
+      pull.segment<4>(4 * rows[r]) += (z[r] * off[r] + centre) / s[r] * n;
     }
     t.factor(blocks);
     const VectorXd dx = t.solve(-t.adjoint(pull));
@@ -122,19 +129,19 @@ Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,
   constexpr int kMost = 50;
   for (; result.iterations < kMost && !settings.stop.stop_requested(); ++result.iterations) {
     const VectorXd y = t.apply(result.x), p = projected(y, settings.bounds);
-    VectorXd normals = VectorXd::Zero(y.size()), limits(t.elements());
+    HalfSpaces spaces{VectorXd::Zero(y.size()), VectorXd::Zero(t.elements())};
     double worst = 0;
     for (Index i = 0; i < t.elements(); ++i) {
       const Element way = y.segment<4>(4 * i) - p.segment<4>(4 * i);
       const double length = way.norm();
       worst = std::max(worst, length);
       if (length == 0) continue;
-      normals.segment<4>(4 * i) = way / length;
-      limits[i] = way.dot(p.segment<4>(4 * i)) / length;
+      spaces.normals.segment<4>(4 * i) = way / length;
+      spaces.limits[i] = way.dot(p.segment<4>(4 * i)) / length;
     }
     result.settled = worst < kSettled;
     if (result.settled) break;
-    result.x = quadratic_program(t, y, result.x, normals, limits);
+    result.x = quadratic_program(t, y, result.x, spaces, settings.stop);
   }
   return result;
 }

@@ -6,13 +6,14 @@
 
 #include "core/clock.h"
 #include "core/compared/projections.h"
+#include "core/distortion.h"
 #include "core/error.h"
 #include "core/real_form.h"
 
 namespace holomorph {
 namespace {
 
-constexpr int kBasis = 50, kSamples = 300;
+constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
 constexpr double kInset = 1;  ///< of samples at which references are smooth, in samples' distances
 
 /// Adds an element to the worst ones of a row.
@@ -32,50 +33,67 @@ void measure(const VectorXd& elements, ComparedMap& row) {
 class Comparison {
  public:
   Comparison(const Rest& rest, const Pose& pose, std::stop_token stop)
-      : rest_(rest), pose_(pose), mesh_(*rest.mesh), method_(method_named("bounded")) {
-    check(rest.mesh != nullptr, "comparison: a rest with a mesh");
+      : rest_(rest), pose_(pose), mesh_(mesh_of(rest)), method_(method_named("bounded")) {
     settings_ = {bounds_of(rest.parameters), std::move(stop)};
     settings_.bounds.check_usable();
     rest_.samples = mesh_.vertices;
     rest_.derivative_samples = derivative_samples(mesh_);
-    basis_ = std::make_unique<BoundaryBasis>(rest.cage, kBasis, kSamples);
+    const int basis = std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis);
+    basis_ = std::make_unique<BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
+    take_dense_points();
     take_reference();
   }
 
   void run(const std::function<void(const ComparedMap&)>& take) {
     take(reference());
+    if (settings_.stop.stop_requested()) return;
     take(ours());
+    if (settings_.stop.stop_requested()) return;
     const auto mesh = mesh_operator(mesh_);
     const VectorXd start = stacked(reference_), g = mesh->apply(start);
     const MapOnMesh on_mesh(*basis_, mesh_);
-    const auto harmonic = harmonic_operator(*basis_, on_mesh, basis_->samples());
-    using Row = std::function<ComparedMap()>;
-    const Row rows[] = {
-        [&] {
-          return projected("Lipman 2012", "Triangles with local frames, from the identity", *mesh,
-                           [&] { return by_local_frames(*mesh, g, settings_); });
-        },
-        [&] {
-          return projected("Chen, Weber 2015", "The same for smooth harmonic maps", *harmonic,
-                           [&] { return by_local_frames(*harmonic, on_boundary_, settings_); });
-        },
-        [&] {
-          return projected("Aigerman, Lipman 2013", "Triangles kept in half-spaces, repeatedly",
-                           *mesh, [&] { return by_half_spaces(*mesh, start, settings_); });
-        },
-        [&] {
-          return projected("Kovalsky et al. 2015",
-                           "Triangles projected and joined in turn, with tangent planes", *mesh,
-                           [&] { return by_tangent_planes(*mesh, start, settings_); });
-        }};
-    for (const Row& row : rows) {
-      const ComparedMap map = row();
+    const auto harmonic = harmonic_operator(*basis_, on_mesh, basis_->samples()),
+               dense = harmonic_operator(*basis_, on_mesh, dense_);
+    const Rival rivals[] = {
+        {"Lipman 2012", "Triangles with local frames, from the identity", *mesh, false,
+         [&] { return by_local_frames(*mesh, g, settings_); }},
+        {"Chen, Weber 2015", "The same for smooth harmonic maps", *dense, true,
+         [&] { return by_local_frames(*harmonic, on_boundary_, settings_); }},
+        {"Aigerman, Lipman 2013", "Triangles kept in half-spaces, repeatedly", *mesh, false,
+         [&] { return by_half_spaces(*mesh, start, settings_); }},
+        {"Kovalsky et al. 2015", "Triangles projected and joined in turn, with tangent planes",
+         *mesh, false, [&] { return by_tangent_planes(*mesh, start, settings_); }}};
+    for (const Rival& rival : rivals) {
+      const ComparedMap map = row_of(rival);
       if (settings_.stop.stop_requested()) return;
       take(map);
     }
   }
 
  private:
+  struct Rival {
+    const char *label, *hint;
+    const DerivativeOperator& measured;  ///< whose elements are looked at
+    bool smooth;                         ///< those are the dense points
+    std::function<Projected()> project;
+  };
+
+  static const Mesh& mesh_of(const Rest& rest) {
+    check(rest.mesh != nullptr, "comparison: a rest with a mesh");
+    return *rest.mesh;
+  }
+
+  /// Between the samples that harmonic maps are bounded at, and all of the mesh.
+  void take_dense_points() {
+    dense_ = derivative_samples(mesh_);
+    for (const BoundaryPiece& piece : basis_->pieces())
+      for (const double t : {0.25, 0.5, 0.75}) {
+        dense_.push_back(bezier_point(basis_->domain().controls(piece.segment),
+                                      piece.from + t * (piece.to - piece.from)));
+        tangents_.push_back(piece.end - piece.start);
+      }
+  }
+
   Bounds bounds_of(const Parameters& values) const {
     return {parameter(method_, values, "k"), parameter(method_, values, "sigma"),
             parameter(method_, values, "Sigma")};
@@ -108,7 +126,7 @@ class Comparison {
 
   /// What every row has.
   void finish(VectorXc f, ComparedMap& row) const {
-    for (const auto& [i, j, k] : mesh_.triangles) row.flips += cross(f[j] - f[i], f[k] - f[i]) <= 0;
+    row.flips = flipped_triangles(mesh_, f);
     Points boundary;
     for (const int v : mesh_.boundary) boundary.push_back(f[v]);
     row.turning_number = turning_number(boundary);
@@ -131,23 +149,48 @@ class Comparison {
     row.milliseconds = now_ms() - start;
     row.iterations = map.iterations;
     row.settled = map.status == SampledMap::Status::certified;
-    for (Index i = 0; i < map.fz.size(); ++i) measure(map.fz[i], map.fzbar[i], row);
+    const auto points = deformer->point_map(pose_);
+    VectorXd elements(4 * static_cast<Index>(dense_.size()));
+    for (size_t i = 0; i < dense_.size(); ++i) {
+      const PointMap::Value at = points->at(dense_[i]);
+      elements.segment<4>(4 * static_cast<Index>(i)) << at.fz.real(), at.fz.imag(), at.fzbar.real(),
+          at.fzbar.imag();
+    }
+    measure(elements, row);
     finish(map.f, row);
+    row.turning_number = turns_of_tangents(elements);
     return row;
   }
 
-  ComparedMap projected(const char* label, const char* hint, const DerivativeOperator& t,
-                        const std::function<Projected()>& project) const {
-    ComparedMap row{label, hint};
+  /// The turning number from derivatives along the boundary: the mesh's outline is too coarse where
+  /// a smooth map bends sharply.
+  double turns_of_tangents(const VectorXd& elements) const {
+    const Index vertices = static_cast<Index>(mesh_.vertices.size());
+    std::vector<Complex> tangents;
+    for (size_t i = 0; i < tangents_.size(); ++i) {
+      const Index at = 4 * (vertices + static_cast<Index>(i));
+      tangents.push_back(Complex(elements[at], elements[at + 1]) * tangents_[i] +
+                         Complex(elements[at + 2], elements[at + 3]) * std::conj(tangents_[i]));
+    }
+    double turns = 0;
+    for (size_t i = 0; i < tangents.size(); ++i)
+      turns += std::arg(tangents[(i + 1) % tangents.size()] / tangents[i]);
+    return turns / (2 * kPi);
+  }
+
+  ComparedMap row_of(const Rival& rival) const {
+    ComparedMap row{rival.label, rival.hint};
     const double start = now_ms();
-    const Projected result = project();
+    const Projected result = rival.project();
     row.milliseconds = now_ms() - start;
     row.iterations = result.iterations;
     row.settled = result.settled;
-    measure(t.apply(result.x), row);
-    VectorXc f = t.map(result.x);
+    const VectorXd elements = rival.measured.apply(result.x);
+    measure(elements, row);
+    VectorXc f = rival.measured.map(result.x);
     f.array() += (reference_ - f).mean();  // derivatives know no place
     finish(std::move(f), row);
+    if (rival.smooth) row.turning_number = turns_of_tangents(elements);
     return row;
   }
 
@@ -157,6 +200,8 @@ class Comparison {
   const Method& method_;
   ProjectionSettings settings_;
   std::unique_ptr<BoundaryBasis> basis_;
+  Points dense_;                   ///< the mesh's vertices, then the boundary
+  std::vector<Complex> tangents_;  ///< of the boundary there
   VectorXc reference_;
   VectorXd on_boundary_;
 };

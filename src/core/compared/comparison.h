@@ -24,9 +24,9 @@ struct ComparedMap {
 /// Compares the maps of a rest and pose of method `bounded`: the reference itself, this program's
 /// map, and those of Lipman 2012, Chen and Weber 2015, Aigerman and Lipman 2013, and Kovalsky et
 /// al. 2015, plainly implemented, all for the rest's parameters. Piecewise linear maps are measured
-/// on the mesh's triangles, harmonic ones at samples of the boundary and at vertices. `take` gets
-/// each row as it is done; `stop` ends the work early. Throws Error as the methods do. Cost:
-/// seconds for a thousand vertices.
+/// on the mesh's triangles, harmonic ones densely along the boundary, between the samples too, and
+/// at vertices. `take` gets each row as it is done; `stop` ends the work early. Throws Error as the
+/// methods do. Cost: seconds for a thousand vertices.
 void compare(const Rest& rest, const Pose& pose,
              const std::function<void(const ComparedMap&)>& take, std::stop_token stop = {});
 

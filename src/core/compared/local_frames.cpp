@@ -14,6 +14,7 @@ using Cones = Eigen::Matrix<double, 12, 5>;  // four times (height, w), linear p
 using Offsets = Eigen::Matrix<double, 12, 1>;
 
 constexpr int kMostFrames = 20, kMostNewton = 12;
+constexpr double kLeastAngle = 1e-3;
 constexpr double kSettled = 1e-4;  ///< largest change of an element
 
 struct Barrier {
@@ -26,6 +27,7 @@ class LocalFrames {
  public:
   LocalFrames(DerivativeOperator& t, const VectorXd& g, const ProjectionSettings& settings)
       : t_(t), g_(g), bounds_(settings.bounds), stop_(settings.stop) {
+    bounds_.k = std::max(bounds_.k, kLeastAngle);
     const double middle = std::exp(bounds_.middle());
     x_ = t.similarity(middle);
     frames_.assign(static_cast<size_t>(t.elements()), 1);
@@ -154,6 +156,7 @@ class LocalFrames {
       slope -= mu * b.gradient[4] * b.gradient[4] / b.hessian(4, 4);
     }
     const double now = distance(y) + mu * barrier_value(y, r_);
+    if (!std::isfinite(now) || !dx.allFinite()) return false;
     double length = 1;
     for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
       const VectorXd r = r_ + length * dr, moved = y + length * dy;
@@ -168,7 +171,7 @@ class LocalFrames {
 
   DerivativeOperator& t_;
   const VectorXd& g_;
-  const Bounds& bounds_;
+  Bounds bounds_;
   const std::stop_token& stop_;
   std::vector<Complex> frames_;
   VectorXd x_, r_;

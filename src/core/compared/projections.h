@@ -31,7 +31,7 @@ Element nearest_bounded(const Element& element, const Bounds& bounds);
 /// Lipman 2012, and Chen, Weber 2015 when T is harmonic: with a frame for each element, Re(f_z /
 /// frame) instead of |f_z| bounds from below, which is convex; solved by a barrier from a feasible
 /// start. Frames start as the identity's and then follow f_z, until nothing moves. Each iterate
-/// keeps the bounds.
+/// keeps the bounds, with k = 0.001 for smaller ones: a barrier needs room.
 Projected by_local_frames(DerivativeOperator& t, const VectorXd& g,
                           const ProjectionSettings& settings);
 

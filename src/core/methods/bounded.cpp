@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/bounded_reference.h"
+#include "core/distortion.h"
 #include "core/error.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/rows.h"
@@ -54,21 +55,20 @@ class BoundedDeformer final : public Deformer {
     if (wanted.draft && draft_) return draft_->deform(pose, out, wanted);
     reference_->deform(pose, wanted.draft);
     if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
-      return take_identity(out, wanted);
-    project(reference_->reference(out.zeros), pose, wanted.draft && solved_);
-    solved_ = true;
+      return take_identity(pose, out, wanted);
+    project(reference_->reference(out.zeros), pose, wanted.draft && warm_);
+    warm_ = true;
     integrate(pose);
     answer(out, wanted);
-    turned_ = turned_triangles();
     out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
                                                              : SampledMap::Status::infeasible;
-    out.iterations = solution_.solution.iterations;
+    out.iterations = conformal_.iterations + solution_.iterations;
     out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose);
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
-    if (posed_ != pose || !solved_) {
+    if (posed_ != pose) {
       BoundedDeformer copy(rest_, final_basis(rest_.cage));
       SampledMap map;
       copy.deform(pose, map, {});
@@ -127,7 +127,7 @@ class BoundedDeformer final : public Deformer {
     return Eigen::Map<const VectorXc>(left.data(), static_cast<Index>(left.size()));
   }
 
-  void take_identity(SampledMap& out, Wanted wanted) {
+  void take_identity(const Pose& pose, SampledMap& out, Wanted wanted) {
     const Index count = static_cast<Index>(rest_.samples.size());
     out = SampledMap{};
     out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
@@ -136,12 +136,18 @@ class BoundedDeformer final : public Deformer {
       out.fzbar = VectorXc::Zero(count);
     }
     out.status = SampledMap::Status::certified;
-    out.note = bounds_text();
+    out.ignores_pins = !reference_->uses_pins();
     f_ = Eigen::Map<const VectorXc>(rest_.mesh->vertices.data(),
                                     static_cast<Index>(rest_.mesh->vertices.size()));
     solution_ = BoundedMap{};
     solution_.map = {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())};
-    solved_ = false;
+    solution_.certificate.holds = true;
+    solution_.solution.status = ConeSolution::Status::solved;
+    conformal_ = BoundedMap{};
+    warm_ = false;
+    posed_ = pose;
+    turned_ = 0;
+    out.note = note(pose);
   }
 
   /// The map at the mesh, at its place.
@@ -151,6 +157,7 @@ class BoundedDeformer final : public Deformer {
     first_ = std::move(first);
     align(pose);
     posed_ = pose;
+    turned_ = flipped_triangles(*rest_.mesh, f_);
   }
 
   /// Turns, scales and moves the map to the pins' places or, with less than two of them, to the
@@ -166,8 +173,8 @@ class BoundedDeformer final : public Deformer {
         }
     if (from.size() < 2) {
       from.clear();
-      for (const int v : reference_->inner_vertices()) from.push_back(f_[v]);
-      to.assign(reference_->inner_places().begin(), reference_->inner_places().end());
+      for (const int v : reference_->anchors()) from.push_back(f_[v]);
+      to.assign(reference_->anchor_places().begin(), reference_->anchor_places().end());
     }
     const Similarity nearest = similarity_between(from, to);
     Complex factor = nearest.factor;
@@ -221,26 +228,25 @@ class BoundedDeformer final : public Deformer {
     return text;
   }
 
-  /// Triangles that the mesh turns over although the map does not: it is too coarse there.
-  int turned_triangles() const {
-    int count = 0;
-    for (const auto& [i, j, k] : rest_.mesh->triangles)
-      count += cross(f_[j] - f_[i], f_[k] - f_[i]) <= 0;
-    return count;
-  }
-
-  /// What the proof says, and the pin that is farthest from its place.
+  /// What the proof says, and what else the user should know.
   std::string note(const Pose& pose) const {
     if (!solution_.certificate.holds)
       return std::string("Not proved: the bound on the ") +
              bound_name(solution_.certificate.failed) + " near " +
              point_text(solution_.certificate.where);
-    std::string text = bounds_text();
+    std::string text = bounds_text() + pin_note(pose);
+    if (!reference_->note().empty()) text += "; " + reference_->note();
+    if (solution_.solution.status != ConeSolution::Status::solved)
+      text += "; not quite the nearest";
     if (turned_ > 0)
       return "Proved, but too fine for the mesh: " + std::to_string(turned_) +
              " of its triangles turn over";
-    if (!reference_->uses_pins())
-      return text + (pins_.empty() ? "" : "; what is followed knows no pins");
+    return text;
+  }
+
+  /// The pin that is farthest from its place.
+  std::string pin_note(const Pose& pose) const {
+    if (!reference_->uses_pins()) return pins_.empty() ? "" : "; what is followed knows no pins";
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     double farthest = 0;
     size_t which = 0;
@@ -249,13 +255,13 @@ class BoundedDeformer final : public Deformer {
       const double off = std::abs(pins_[i]->in(*rest_.mesh, f) - pose.pins[i].position);
       if (off > farthest) farthest = off, which = i;
     }
-    if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return text;
+    if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return "";
     char more[120];
-    std::snprintf(more, sizeof more, "; pin %d ends %.3g px from its place",
-                  static_cast<int>(which) + 1, farthest);
-    const auto bound = hardest_bound(solution_.solution);
-    return text + more +
-           (bound ? std::string(", held by the bound on the ") + bound_name(*bound) : "");
+    std::snprintf(more, sizeof more, "; pin %d ends %.*f px from its place",
+                  static_cast<int>(which) + 1, farthest < 10 ? 2 : 0, farthest);
+    const auto bound = hardest_bound({&conformal_.solution, &solution_.solution});
+    return more + (bound ? std::string(", held by the bound on the ") + bound_name(*bound)
+                         : ", as in the map that is followed");
   }
 
   Rest rest_;
@@ -268,13 +274,12 @@ class BoundedDeformer final : public Deformer {
   std::unique_ptr<BoundedSpace> nu_;  ///< this one or the other
   std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
-
   std::unique_ptr<BoundedDeformer> draft_;
 
   BoundedMap solution_, conformal_;
-  bool solved_ = false;
-  int turned_ = 0;
-  Pose posed_;
+  bool warm_ = false;  ///< whether a drag can go on from the solution
+  int turned_ = 0;     ///< triangles that the mesh, too coarse for the map, turns over
+  std::optional<Pose> posed_;
   VectorXc f_;
   Derivatives first_;
 };
