@@ -175,6 +175,11 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                              style.colors.pin);
     }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
+    if (layer == Layer::pose && !scene.outline.empty()) {
+      std::vector<ImVec2> line;
+      for (const Complex& z : scene.outline) line.push_back(px(workspace, z));
+      stroke(list, line, true, style.colors.accent, style);
+    }
     const auto& posed = workspace.map.posed();
     if (posed && same_rest(*posed, scene)) {
       const bool at_rest = layer == Layer::rest;

@@ -73,6 +73,7 @@ struct Rest {
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
+  Points outline = {};  ///< closed; where the cage's shape is to go, or none
   bool operator==(const Pose&) const = default;
 };
 

@@ -1,8 +1,17 @@
-// Calls of CBLAS and of LAPACK's potrf on Eigen's column-major storage.
+// Calls of CBLAS and of LAPACK on Eigen's column-major storage.
 #include "core/dense.h"
 
 #include <cblas.h>
 #include <f77blas.h>
+
+#include "core/error.h"
+
+extern "C" {
+void zgeqrf_(const int* m, const int* n, void* a, const int* lda, void* tau, void* work,
+             const int* lwork, int* info);
+void zungqr_(const int* m, const int* n, const int* k, void* a, const int* lda, const void* tau,
+             void* work, const int* lwork, int* info);
+}
 
 namespace holomorph {
 namespace {
@@ -60,6 +69,21 @@ void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row,
 void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index columns, Index row,
                  Index column, Eigen::MatrixXf& out) {
   add_product_by(cblas_sgemm, a, b, columns, {row, column}, out);
+}
+
+Orthonormal orthonormal(MatrixXc a) {
+  const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols());
+  check(m >= n && n > 0, "orthonormal: as many rows as columns");
+  constexpr int kBlock = 64;
+  const int room = n * kBlock;
+  VectorXc tau(n), work(room);
+  int wrong = 0;
+  zgeqrf_(&m, &n, a.data(), &m, tau.data(), work.data(), &room, &wrong);
+  check(wrong == 0, "orthonormal: LAPACK's arguments");
+  MatrixXc r = a.topRows(n).triangularView<Eigen::Upper>();
+  zungqr_(&m, &n, &n, a.data(), &m, tau.data(), work.data(), &room, &wrong);
+  check(wrong == 0, "orthonormal: LAPACK's arguments");
+  return {std::move(a), std::move(r)};
 }
 
 bool Cholesky::factor(const MatrixXd& matrix) {

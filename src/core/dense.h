@@ -22,6 +22,13 @@ void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row,
 void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index columns, Index row,
                  Index column, Eigen::MatrixXf& out);
 
+/// A = Q R with orthonormal columns of Q and R upper triangular, by Householder's reflections. A
+/// has as many rows as columns at least.
+struct Orthonormal {
+  MatrixXc q, r;
+};
+Orthonormal orthonormal(MatrixXc a);
+
 /// A symmetric positive definite matrix as L L^T; reads the lower triangle only.
 class Cholesky {
  public:

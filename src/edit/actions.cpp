@@ -139,8 +139,8 @@ void redo(Workspace& w) {
 // Glyphs of Font Awesome 4.
 constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
                      *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
-                     *kPen = "\uf040", *kPin = "\uf08d", *kMagic = "\uf0d0", *kFit = "\uf065",
-                     *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
+                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf040", *kMagic = "\uf0d0",
+                     *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
 
 /// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
@@ -227,6 +227,17 @@ std::vector<Action> table() {
        has_selection,
        erase_selection<Refit::tangents>},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
+      {"edit.remove_outline",
+       "Remove the outline",
+       "",
+       "Edit",
+       {},
+       [](const Workspace& w) { return !w.scene().outline.empty(); },
+       [](Workspace& w) {
+         Scene scene = w.document.scene();
+         scene.outline.clear();
+         w.commit("Remove outline", scene);
+       }},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
 
       {"tool.select",
@@ -246,6 +257,14 @@ std::vector<Action> table() {
        choose<ToolId::pen>,
        chosen<ToolId::pen>},
       {"tool.pin", "Pin", kPin, "Tools", {'N'}, always, choose<ToolId::pin>, chosen<ToolId::pin>},
+      {"tool.outline",
+       "Outline: draw the shape that the picture goes onto",
+       kOutline,
+       "Tools",
+       {'O'},
+       always,
+       choose<ToolId::outline>,
+       chosen<ToolId::outline>},
 
       {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
       {"cage.rest",

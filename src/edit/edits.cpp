@@ -169,7 +169,10 @@ Scene with_method(Scene scene, const std::string& id) {
   const Method& method = method_named(id);
   std::erase_if(scene.parameters, [&](const auto& entry) {
     return std::none_of(method.parameters.begin(), method.parameters.end(),
-                        [&](const ParameterSpec& spec) { return spec.key == entry.first; });
+                        [&](const ParameterSpec& spec) {
+                          return spec.key == entry.first && entry.second >= spec.lowest &&
+                                 entry.second <= spec.highest;
+                        });
   });
   scene.method = id;
   return scene;

@@ -106,6 +106,8 @@ Box Workspace::content_box() const {
     box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
   }
   for (const Complex& z : outline_of(cage_of(scene(), layer))) box.include(z);
+  if (!at_rest())
+    for (const Complex& z : scene().outline) box.include(z);
   if (!at_rest() && map.has_map())
     for (const Complex& z : map.map().f)
       if (is_finite(z)) box.include(z);

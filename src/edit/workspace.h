@@ -29,7 +29,7 @@ enum class Request {
   compare
 };
 
-enum class ToolId { select, pen, pin };
+enum class ToolId { select, pen, pin, outline };
 
 /// A short message over the canvas; `where` can be shown.
 struct Toast {

@@ -19,7 +19,7 @@ Rest rest_of(const Scene& scene, Precision precision) {
 }
 
 Pose pose_of(const Scene& scene) {
-  Pose pose{scene.pose, {}};
+  Pose pose{scene.pose, {}, scene.outline};
   if (method_named(scene.method).uses_pins)
     for (const Pin& pin : scene.pins)
       pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});

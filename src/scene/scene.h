@@ -35,6 +35,7 @@ struct Scene {
   std::optional<ImageReference> image;
   Cage rest, pose;
   std::vector<Pin> pins;
+  Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::string method = "cage";
   Parameters parameters;
   Extra cage_extra, method_extra, extra;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/outline_match.h"
 #include "core/segment.h"
 
 namespace holomorph {
@@ -197,6 +198,20 @@ void read_method(const Reader& reader, Scene& scene) {
   scene.method_extra = reader.others({"id", "parameters"});
 }
 
+Points read_outline(const Reader& reader) {
+  reader.array();
+  constexpr size_t kMostPoints = 20000;
+  if (reader.size() > kMostPoints) reader.fail("more than 20000 points");
+  Points outline;
+  for (size_t i = 0; i < reader.size(); ++i) outline.push_back(reader[i].point());
+  try {
+    check_outline(outline);
+  } catch (const Error& error) {
+    reader.fail(error.what());
+  }
+  return outline;
+}
+
 Json point_json(Complex z) {
   return Json::array({z.real(), z.imag()});
 }
@@ -286,8 +301,9 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     if (pins.size() > 2000) pins.fail("more than 2000 pins");
     for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
   }
+  if (reader.has("outline")) scene.outline = read_outline(reader["outline"]);
   if (reader.has("method")) read_method(reader["method"], scene);
-  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "method"});
+  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "outline", "method"});
   return scene;
 }
 
@@ -320,6 +336,10 @@ std::string json_of(const Scene& scene) {
       add_extra(item, pin.extra);
       document["pins"].push_back(std::move(item));
     }
+  }
+  if (!scene.outline.empty()) {
+    document["outline"] = Json::array();
+    for (const Complex& z : scene.outline) document["outline"].push_back(point_json(z));
   }
   Json method;
   method["id"] = scene.method;

@@ -1,5 +1,6 @@
 # The real window: draw, drag, pin, undo, save, reopen, recover, by real input events.
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -323,6 +324,33 @@ class WindowTest(unittest.TestCase):
             editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
             self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
             self.screenshot(editor, "compared")
+
+    def test_a_drawn_outline_takes_the_picture_along(self):
+        with Editor(PROGRAM, [self.picture]) as editor:
+            editor.wait(lambda s: not s["empty"], "the picture")
+            editor.key("p")
+            for x, y in ((50, 50), (750, 50), (750, 750), (50, 750)):
+                editor.click(x, y)
+            editor.key("Return")
+            editor.wait(lambda s: s["cage_points"] == 4, "a cage")
+            editor.key("o")
+            around = [(400 + 330 * math.cos(t / 24 * 2 * math.pi), 400 + 220 * math.sin(t / 24 * 2 * math.pi))
+                      for t in range(24)]
+            editor.move(*around[0])
+            editor.xdotool("mousedown", 1)
+            for point in around[1:]:
+                editor.move(*point)
+            editor.xdotool("mouseup", 1)
+            editor.wait(lambda s: s["outline_points"] > 24 and s["method"] == "outline", "an outline")
+            time.sleep(0.5)
+            self.screenshot(editor, "outline")
+            path = os.path.join(self.work, "outline.json")
+            self.save_as(editor, path)
+        report = json.loads(subprocess.run([PROGRAM, "info", path, "--json"], check=True,
+                                           capture_output=True, text=True).stdout)
+        self.assertLessEqual(report["flipped_triangles"], 16)  # specks at the corners
+        self.assertIn("met to", report["note"])
+        self.assertNotIn("folds", report["note"])
 
     def test_curves_are_bent_broken_and_cut(self):
         with Editor(PROGRAM, [self.picture]) as editor:

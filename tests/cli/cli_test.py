@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import math
 import os
 import shutil
 import signal
@@ -149,6 +150,31 @@ class CommandLine(unittest.TestCase):
         with open(path, "w") as file:
             json.dump(scene, file)
         self.bad("info", path, says="/method/parameters/space")
+
+    def test_an_outline_is_met_and_kept_in_the_file(self):
+        shutil.copy(os.path.join(SOURCE, "assets", "gecko.png"), self.folder)
+        scene = json.load(open(os.path.join(SOURCE, "assets", "gecko.json")))
+        n = 120
+        scene["outline"] = [[400 + 300 * math.cos(2 * math.pi * i / n), 300 + 200 * math.sin(2 * math.pi * i / n)]
+                            for i in range(n)]
+        scene["cage"] = {"rest": [[[0, 0]], [[800, 0]], [[800, 600]], [[0, 600]]]}
+        scene["pins"] = []
+        scene["method"] = {"id": "outline", "parameters": {"softness": 0.5}}
+        jsonschema.validate(scene, SCHEMA)
+        path = self.write("scene.json", scene)
+        report = json.loads(self.good("info", path, "--json").stdout)
+        self.assertIn("met to", report["note"])
+        # Onto a smooth outline the derivative vanishes at the corners: a few specks turn over.
+        self.assertLessEqual(report["flipped_triangles"], 16)
+        self.assertNotIn("folds", report["note"])
+        # The cage's corners go onto the ellipse.
+        corners = "\n".join(f"{x},{y}" for (x, y), *_ in scene["cage"]["rest"])
+        out = self.good("map", path, "--points", self.write("p.csv", corners)).stdout
+        for line in out.strip().split("\n")[1:]:
+            u, v = map(float, line.split(",")[:2])
+            self.assertLess(abs(math.hypot((u - 400) / 300, (v - 300) / 200) - 1), 0.03)
+        scene["outline"] = [[0, 0], [10, 0], [0, 10], [10, 10]]
+        self.bad("info", self.write("bad.json", scene), says="/outline: the outline crosses itself")
 
     def test_golden_pictures(self):
         for name in SAMPLES:

@@ -15,6 +15,7 @@ struct Desk {
     tools.push_back(select_tool());
     tools.push_back(pen_tool());
     tools.push_back(pin_tool());
+    tools.push_back(outline_tool());
     workspace.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
     if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
     settle();

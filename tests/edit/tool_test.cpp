@@ -116,6 +116,55 @@ TEST_CASE("Pen: draw, take back, close by the first point, by Enter and by doubl
   }
 }
 
+TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's target, as one step") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::outline;
+  const size_t before = desk.steps();
+  const auto around = [](int i) {
+    return Complex(300, 300) + (100.0 + 1.5 * (i % 2)) * std::polar(1.0, 2 * kPi * i / 60);
+  };
+  desk.press(around(0));
+  for (int i = 1; i < 60; ++i) desk.move(around(i));
+  CHECK(desk.tool().busy());
+  CHECK(desk.scene().outline.empty());
+  desk.release(around(59));
+  REQUIRE(desk.scene().outline.size() >= 24);
+  CHECK(desk.steps() == before + 1);
+  CHECK(desk.scene().method == "outline");
+  // The tremor is gone.
+  for (const Complex& z : desk.scene().outline)
+    CHECK(std::abs(std::abs(z - Complex(300, 300)) - 100.75) <= 0.75);
+  desk.settle();
+  for (const int v : desk.workspace.map.prepared()->mesh->boundary)
+    CHECK(std::abs(std::abs(desk.workspace.map.map().f[v] - Complex(300, 300)) - 100.75) <= 2);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.scene().outline.empty());
+}
+
+TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::outline;
+  const Scene before = desk.scene();
+  desk.press({300, 300});
+  desk.move({400, 300});
+  CHECK(desk.tool().key(Key::escape, desk.workspace));
+  desk.release({400, 300});
+  desk.click({10, 10});
+  desk.press({300, 300});
+  for (const Complex z : {Complex(400, 300), Complex(300, 400), Complex(400, 400)}) desk.move(z);
+  desk.release({400, 400});
+  CHECK(desk.scene() == before);
+  CHECK(desk.workspace.toasts.size() >= 2);
+}
+
+TEST_CASE("A method's parameters that another one would not take stay behind") {
+  Scene scene = with_cage(Scene{}, shapes::rectangle(200, 150));
+  scene = with_method(scene, "pins");
+  scene.parameters["pin_weight"] = 0.01;
+  CHECK(with_method(scene, "outline").parameters.contains("pin_weight"));
+  CHECK_FALSE(with_method(scene, "bounded").parameters.contains("pin_weight"));
+}
+
 TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing stays to be mended") {
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});

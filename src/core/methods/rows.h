@@ -18,6 +18,9 @@ Method arap_method();
 /// `har_arap`: the same energy among smooth harmonic maps.
 Method har_arap_method();
 
+/// `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
+Method outline_method();
+
 /// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
 Method bounded_method(const std::vector<Method>& references);
 
