@@ -191,7 +191,7 @@ TEST_CASE("Alternating fit: fixed targets are met by least squares, moving ones 
 }
 
 TEST_CASE("Outline: random shapes go onto random outlines, without folds") {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
     const Cage cage = polygon_cage(outlines::random(seed, seed % 2, 50));
     const Points outline = outlines::random(seed + 100, seed % 3 == 0, 400);
     INFO("seed " << seed);
@@ -305,6 +305,7 @@ TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
   const Cage cage = polygon_cage(outlines::random(41, false, 40));
   const OutlineTask task{cage, outline, {{0, 0}}, {{60, 40}}};
   OutlineSettings settings;
+  settings.vertices = 100;
   const auto off = [&](const OutlineMatch& match) {
     const Points pin{{0, 0}};
     return std::abs((cauchy_coordinates(match.basis, pin) * match.phi)[0] - Complex(60, 40));
@@ -312,14 +313,13 @@ TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
   settings.pin_weight = 1e-3;
   const double light = off(matched(task, settings));
   settings.pin_weight = 10;
-  settings.most_iterations = 100;
+  settings.most_iterations = 50;
   const OutlineMatch heavy = matched(task, settings);
   CHECK(off(heavy) < 0.3 * light);
-  for (const Cage& other :
-       {reversed(cage), shapes::curved_star(9, 3, 0.25, 3), shapes::curved_star(8, 2, 0.2, 5)}) {
+  for (const Cage& other : {reversed(cage), shapes::curved_star(6, 2, 0.2, 3)}) {
     Points scaled = moved(outline, box_of(controls_of(other)).diagonal() / 800, 0);
     std::reverse(scaled.begin(), scaled.end());
-    const Onto onto(other, scaled);
+    const Onto onto(other, scaled, {{"vertices", 60}});
     INFO(onto.map.note);
     for (const int v : onto.rest.mesh->boundary)
       CHECK(std::abs(std::abs(onto.map.f[v]) - std::abs(scaled[0])) <= 0.01 * std::abs(scaled[0]));
