@@ -74,7 +74,7 @@ struct HalfSpaces {
 /// Stops early when asked to.
 VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
                            const HalfSpaces& spaces, const std::stop_token& stop) {
-  const auto& [normals, limits] = spaces;
+  const VectorXd &normals = spaces.normals, &limits = spaces.limits;
   std::vector<Index> rows;
   for (Index i = 0; i < t.elements(); ++i)
     if (!normals.segment<4>(4 * i).isZero(0)) rows.push_back(i);
