@@ -171,7 +171,7 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 }
 
 BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
-    : domain_(signed_area(outline_of(domain)) < 0 ? reversed(domain) : domain) {
+    : domain_(counter_clockwise(domain)) {
   check_rest_cage(domain);
   const double around = perimeter(flattened(domain_).points);
   const int vertices = std::max(basis, 25);
@@ -215,12 +215,7 @@ Points BoundaryBasis::inset(double share) const {
 }
 
 MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {
-  const PlanarMatrix<double> planar =
-      planar_coordinates<double>(polygon_cage(polygon_), points, order);
-  MatrixXc c(planar.rows(), planar.cols());
-  c.real() = planar.re;
-  c.imag() = planar.im;
-  return c;
+  return as_complex(planar_coordinates<double>(polygon_cage(polygon_), points, order));
 }
 
 }  // namespace holomorph

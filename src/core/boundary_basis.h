@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/QR>
+#include <algorithm>
 
 #include "core/cage.h"
 #include "core/dense.h"
@@ -27,6 +28,11 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 
 class BoundaryBasis {
  public:
+  /// How many vertices serve: `wanted`, but neither too coarse nor too slow.
+  static int usual_size(Index wanted) {
+    return static_cast<int>(std::clamp<Index>(wanted, 50, 150));
+  }
+
   /// For a domain of either orientation, with about `basis` >= 25 polygon vertices (at least one
   /// for each of the cage's, more along sharp bends, and up to four times as many around curves
   /// that nearly touch) and `samples` / `basis` samples along each of its edges, two at least, all

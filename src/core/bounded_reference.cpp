@@ -8,24 +8,28 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kInnerSamples = 300;
-constexpr double kInset = 1.0;  ///< how far inside, in samples' distances
 /// The distance is measured at every so many samples; the bounds hold at all of them.
 constexpr size_t kFitStride = 2;
 
 }  // namespace
+
+Bounds bounds_of(const Parameters& values) {
+  const Method& method = method_named("bounded");
+  return {parameter(method, values, "k"), parameter(method, values, "sigma"),
+          parameter(method, values, "Sigma")};
+}
 
 ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
                                    const BoundaryBasis& basis, const MapOnMesh& mesh)
     : method_(method), basis_(basis), on_mesh_(mesh), mesh_(rest.mesh) {
   take_points(*rest.mesh, basis);
   fit_ = HolomorphicFit(basis, points_.boundary);
-  Rest followed = rest;
+  Rest followed = used_by(method, rest);
   followed.parameters.clear();
   followed.precision = Precision::full;  // the samples are few
   followed.samples = points_.boundary;
   for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
   followed.derivative_samples.clear();
-  if (!method.uses_pins) followed.pins.clear();
   deformer_ = method.prepare(followed, nullptr);
 }
 
@@ -45,9 +49,7 @@ void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis)
 }
 
 void ReferenceSampler::deform(const Pose& pose, bool draft) {
-  Pose followed = pose;
-  if (!method_.uses_pins) followed.pins.clear();
-  deformer_->deform(followed, map_, {true, draft});
+  deformer_->deform(used_by(method_, pose), map_, {true, draft});
   if (!map_.f.allFinite())
     throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
 }

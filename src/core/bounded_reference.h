@@ -7,9 +7,16 @@
 
 namespace holomorph {
 
+/// The bounds that a rest's parameters of method `bounded` ask for.
+Bounds bounds_of(const Parameters& values);
+
 /// Samples of a method's map where a BoundedSpace measures the distance to it.
 class ReferenceSampler {
  public:
+  static constexpr int kSamplesPerVertex = 6;  ///< of the basis
+  /// How far inside of the boundary's samples references are smooth, in the samples' distances.
+  static constexpr double kInset = 1;
+
   /// Prepares the method over the rest's cage and pins. All but the rest must outlive this.
   ReferenceSampler(const Rest& rest, const Method& method, const BoundaryBasis& basis,
                    const MapOnMesh& mesh);

@@ -45,7 +45,6 @@ class BoundedSpace {
   Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
 
   const BoundaryBasis& basis() const { return *basis_; }
-  const BoundedSettings& settings() const { return settings_; }
   const Certifier& certifier() const { return certifier_; }
 
   /// The distance of a map from the reference: l's plus weight times nu's.

@@ -86,6 +86,10 @@ Cage reversed(const Cage& cage) {
   return backwards;
 }
 
+Cage counter_clockwise(const Cage& cage) {
+  return signed_area(outline_of(cage)) < 0 ? reversed(cage) : cage;
+}
+
 std::vector<Index> reversed_columns(const Cage& cage) {
   Cage tagged = cage;
   Index c = 0;

@@ -66,6 +66,9 @@ FlatCage flattened(const Cage& cage);
 /// The same loop run through backwards, from the same first vertex.
 Cage reversed(const Cage& cage);
 
+/// The same loop run through counter-clockwise.
+Cage counter_clockwise(const Cage& cage);
+
 /// For each control point of the cage its number among those of the reversed cage.
 std::vector<Index> reversed_columns(const Cage& cage);
 

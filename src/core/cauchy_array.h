@@ -28,6 +28,15 @@ struct PlanarMatrix {
   std::complex<T> operator()(Index i, Index j) const { return {re(i, j), im(i, j)}; }
 };
 
+/// The same matrix with complex entries.
+template <class T>
+MatrixXc as_complex(const PlanarMatrix<T>& planar) {
+  MatrixXc c(planar.rows(), planar.cols());
+  c.real() = planar.re.template cast<double>();
+  c.imag() = planar.im.template cast<double>();
+  return c;
+}
+
 /// Which machine code runs: `automatic` takes the widest of AVX-512, AVX2 and portable that the
 /// processor has.
 enum class Kernel { automatic, portable, avx2 };

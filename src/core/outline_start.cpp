@@ -219,12 +219,9 @@ struct Search {
 }  // namespace
 
 Complex deepest_point(const Polyline& outline) {
-  double left = std::numeric_limits<double>::infinity(), bottom = left, right = -left, top = -left;
-  for (const Complex& z : outline.points()) {
-    left = std::min(left, z.real()), right = std::max(right, z.real());
-    bottom = std::min(bottom, z.imag()), top = std::max(top, z.imag());
-  }
-  Complex corner(left, bottom), size(right - left, top - bottom), best;
+  const Box box = box_of(outline.points());
+  const Complex corner(box.left, box.bottom), size(box.width(), box.height());
+  Complex best;
   double most = -1;
   constexpr int kCells = 24;
   for (double reach = 1; reach > 1e-14; reach /= kCells / 4.0) {

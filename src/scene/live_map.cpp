@@ -1,6 +1,7 @@
 // Values are compared instead of dirty flags: the worker is asked when same_rest is false.
 #include "scene/live_map.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/clock.h"
@@ -11,12 +12,13 @@ bool same_rest(const Scene& a, const Scene& b) {
   if (a.method != b.method || a.parameters != b.parameters || a.rest != b.rest) return false;
   for (Index i = 0; i < a.pose.size() && i < b.pose.size(); ++i)
     if (a.pose.degree(i) != b.pose.degree(i)) return false;
-  if (!method_named(a.method).uses_pins) return true;
-  if (a.pins.size() != b.pins.size()) return false;
-  for (size_t i = 0; i < a.pins.size(); ++i)
-    if (a.pins[i].rest != b.pins[i].rest ||
-        a.pins[i].angle.has_value() != b.pins[i].angle.has_value())
-      return false;
+  const Method& method = method_named(a.method);
+  const auto same_pin = [](const Pin& p, const Pin& q) {
+    return p.rest == q.rest && p.angle.has_value() == q.angle.has_value();
+  };
+  const auto same_stroke = [](const Stroke& s, const Stroke& t) { return s.rest == t.rest; };
+  if (method.uses_pins && !std::ranges::equal(a.pins, b.pins, same_pin)) return false;
+  if (method.uses_strokes && !std::ranges::equal(a.strokes, b.strokes, same_stroke)) return false;
   return true;
 }
 
@@ -147,7 +149,7 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
     return false;
   }
   pose_milliseconds_ = now_ms() - start;
-  fold_ = visible_fold(*shown_->mesh, map_.f);
+  describe();
   posed_ = scene;
   posed_wanted_ = wanted;
   return true;
@@ -159,20 +161,17 @@ std::optional<Complex> LiveMap::pin_place(const Scene& scene, size_t i) const {
   return shown_->pins[i]->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())});
 }
 
-double LiveMap::boundary_turns() const {
+/// What there is to say of a map that was just posed.
+void LiveMap::describe() {
+  const Mesh& mesh = *shown_->mesh;
+  fold_ = visible_fold(mesh, map_.f);
   Points image;
-  if (has_map())
-    for (const int v : shown_->mesh->boundary) image.push_back(map_.f[v]);
-  return image.empty() ? 1 : turning_number(image);
-}
-
-Points LiveMap::zero_places() const {
-  Points places;
-  if (!has_map()) return places;
+  for (const int v : mesh.boundary) image.push_back(map_.f[v]);
+  boundary_turns_ = turning_number(image);
+  zero_places_.clear();
   for (const Complex& zero : map_.zeros)
-    if (const auto at = locate(*shown_->mesh, shown_->mesh->vertices, zero))
-      places.push_back(at->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())}));
-  return places;
+    if (const auto at = locate(mesh, mesh.vertices, zero))
+      zero_places_.push_back(at->in(mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())}));
 }
 
 void LiveMap::clear() {
@@ -183,6 +182,8 @@ void LiveMap::clear() {
   error_.reset();
   failed_ = false;
   fold_.reset();
+  boundary_turns_ = 1;
+  zero_places_.clear();
   const std::lock_guard lock(mutex_);
   ++wanted_;
   waiting_.reset();

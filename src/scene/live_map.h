@@ -59,12 +59,12 @@ class LiveMap {
   /// than 1e-4 of its area.
   std::optional<Complex> fold() const { return fold_; }
   /// How often the boundary's image turns: 1 for pictures that do not fold over branch points.
-  double boundary_turns() const;
+  double boundary_turns() const { return boundary_turns_; }
   /// Where the map takes the place that pin `i` of a scene holds at rest; none when pins have no
   /// say or the scene has other pins by now.
   std::optional<Complex> pin_place(const Scene& scene, size_t i) const;
   /// Where the map takes the zeros that it reports.
-  Points zero_places() const;
+  const Points& zero_places() const { return zero_places_; }
   /// The scene that map() shows; it may lag behind the one being edited.
   const std::optional<Scene>& posed() const { return posed_; }
   double pose_milliseconds() const { return pose_milliseconds_; }
@@ -75,6 +75,7 @@ class LiveMap {
   void work();
   void take_result(const Scene& scene, Wanted wanted);
   bool pose(const Scene& scene, Wanted wanted);
+  void describe();
 
   MeshOptions options_;
   std::function<void()> wake_;
@@ -82,6 +83,8 @@ class LiveMap {
   SampledMap map_;
   std::optional<Error> error_;
   std::optional<Complex> fold_;
+  double boundary_turns_ = 1;
+  Points zero_places_;
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
   Wanted posed_wanted_;
   std::optional<Scene> posed_;  ///< the scene that map_ shows

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/bounded_reference.h"
 #include "core/clock.h"
 #include "core/compared/projections.h"
 #include "core/distortion.h"
@@ -12,9 +13,6 @@
 
 namespace holomorph {
 namespace {
-
-constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
-constexpr double kInset = 1;  ///< of samples at which references are smooth, in samples' distances
 
 /// Adds an element to the worst ones of a row.
 void measure(Complex fz, Complex fzbar, ComparedMap& row) {
@@ -38,8 +36,9 @@ class Comparison {
     settings_.bounds.check_usable();
     rest_.samples = mesh_.vertices;
     rest_.derivative_samples = derivative_samples(mesh_);
-    const int basis = std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis);
-    basis_ = std::make_unique<BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
+    const int basis = BoundaryBasis::usual_size(rest.cage.size());
+    basis_ = std::make_unique<BoundaryBasis>(rest.cage, basis,
+                                             ReferenceSampler::kSamplesPerVertex * basis);
     take_dense_points();
     take_reference();
   }
@@ -94,26 +93,17 @@ class Comparison {
       }
   }
 
-  Bounds bounds_of(const Parameters& values) const {
-    return {parameter(method_, values, "k"), parameter(method_, values, "sigma"),
-            parameter(method_, values, "Sigma")};
-  }
-
   /// The reference at the mesh's vertices, and its derivatives next to the boundary's samples.
   void take_reference() {
     const Method& followed = method_named(choice(method_, rest_.parameters, "reference"));
-    Rest rest = rest_;
+    Rest rest = used_by(followed, rest_);
     rest.parameters.clear();
     rest.precision = Precision::full;
-    Pose pose = pose_;
-    if (!followed.uses_pins) {
-      rest.pins.clear();
-      pose.pins.clear();
-    }
+    const Pose pose = used_by(followed, pose_);
     SampledMap map;
     followed.prepare(rest, nullptr)->deform(pose, map, {});
     reference_ = map.f;
-    rest.samples = basis_->inset(kInset);
+    rest.samples = basis_->inset(ReferenceSampler::kInset);
     rest.derivative_samples.clear();
     followed.prepare(rest, nullptr)->deform(pose, map, {true, false});
     if (!reference_.allFinite() || !map.fz.allFinite())

@@ -9,6 +9,7 @@
 #include "core/distortion.h"
 #include "core/error.h"
 #include "core/methods/bounded_points.h"
+#include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 #include "core/psi_space.h"
 #include "core/similarity.h"
@@ -16,24 +17,18 @@
 namespace holomorph {
 namespace {
 
-constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 6;
-
-Bounds bounds_of(const Method& method, const Parameters& values) {
-  return {parameter(method, values, "k"), parameter(method, values, "sigma"),
-          parameter(method, values, "Sigma")};
-}
-
 class BoundedDeformer final : public Deformer {
  public:
   /// With about so many vertices around the cage.
   BoundedDeformer(const Rest& rest, int basis)
       : rest_(rest),
         method_(method_named("bounded")),
-        bounds_(bounds_of(method_, rest.parameters)),
+        bounds_(bounds_of(rest.parameters)),
         space_(choice(method_, rest.parameters, "space")) {
     check(rest.mesh != nullptr, "method bounded: a rest with a mesh");
     bounds_.check_usable();
-    basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis, kSamplesPerVertex * basis);
+    basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis,
+                                                   ReferenceSampler::kSamplesPerVertex * basis);
     on_mesh_ = std::make_unique<MapOnMesh>(*basis_, *rest.mesh);
     reference_ = std::make_unique<ReferenceSampler>(
         rest, method_named(choice(method_, rest.parameters, "reference")), *basis_, *on_mesh_);
@@ -42,12 +37,10 @@ class BoundedDeformer final : public Deformer {
     prepare_space();
   }
 
-  static int final_basis(const Cage& cage) {
-    return std::clamp(2 * static_cast<int>(cage.size()), kBasis, kMostBasis);
-  }
+  static int final_basis(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
   /// While a cage of many points is dragged, a coarser basis keeps up with the hand.
   void prepare_draft() {
-    const int coarse = std::clamp(static_cast<int>(rest_.cage.size()), kBasis, kMostBasis);
+    const int coarse = BoundaryBasis::usual_size(rest_.cage.size());
     if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
   }
 
@@ -294,49 +287,34 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method bounded_method(const std::vector<Method>& references) {
-  ParameterSpec reference{"reference", "Follows", "The map that is kept within the bounds"};
-  reference.kind = ParameterSpec::Kind::choice;
+  std::vector<ParameterSpec::Option> followed;
+  size_t usual = 0;
   for (const Method& method : references) {
-    if (method.id == "pins") reference.fallback = static_cast<double>(reference.options.size());
-    reference.options.push_back({method.id, method.label});
+    if (method.id == "pins") usual = followed.size();
+    followed.push_back({method.id, method.label});
   }
-  reference.highest = static_cast<double>(references.size()) - 1;
-  const auto number = [](const char* key, const char* label, const char* hint, double fallback,
-                         double lowest, double highest) {
-    ParameterSpec spec{key, label, hint};
-    spec.fallback = fallback;
-    spec.lowest = lowest;
-    spec.highest = highest;
-    return spec;
-  };
-  ParameterSpec space{"space", "Keeps", "What is kept first where the bounds do not allow all"};
-  space.kind = ParameterSpec::Kind::choice;
-  space.options = {{"nu", "shape (L_nu)"}, {"psi", "pins (L_psi)"}, {"h", "sizes (H)"}};
-  space.highest = 2;
-  ParameterSpec weight = number("pin_weight", "Pin weight",
-                                "How much pins count when they are to be met", 1000, 1, 1e6);
-  weight.logarithmic = true;
-  weight.used_when = {"space", 1};
-  Method method{
+  return {
       "bounded",
       "No folds",
       "Nothing folds and nothing is stretched more than allowed, proved for every frame.",
-      {reference, space,
+      {one_of("reference", "Follows", "The map that is kept within the bounds", followed, usual),
+       one_of("space", "Keeps", "What is kept first where the bounds do not allow all",
+              {{"nu", "shape (L_nu)"}, {"psi", "pins (L_psi)"}, {"h", "sizes (H)"}}),
        number("k", "Angle bound", "0 keeps all angles; towards 1 circles may turn flat", 0.7, 0,
               0.99),
        number("sigma", "Least stretch", "No length shrinks by more than this", 0.2, 0.01, 0.99),
-       number("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100),
-       weight},
+       by_decades("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100),
+       used_with("space", 1,
+                 by_decades("pin_weight", "Pin weight",
+                            "How much pins count when they are to be met", 1000, 1, 1e6))},
       true,
       true,
       false,
-      prepare};
-  method.parameters[4].logarithmic = true;
-  method.presets = {{"Conformal", {{"k", 0}}},
-                    {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
-                    {"Default", {}},
-                    {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}};
-  return method;
+      prepare,
+      {{"Conformal", {{"k", 0}}},
+       {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
+       {"Default", {}},
+       {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
 }
 
 }  // namespace holomorph

@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kBasis = 50, kMostBasis = 150, kSamplesPerVertex = 3;
+constexpr int kSamplesPerVertex = 3;
 constexpr size_t kInnerSamples = 400;
 constexpr int kMostIterations = 400, kDraftIterations = 30;
 constexpr double kSettled = 1e-9;
@@ -24,9 +24,8 @@ class HarArapDeformer final : public Deformer {
   explicit HarArapDeformer(const Rest& rest)
       : rest_(rest),
         handles_(rest_),
-        basis_(rest.cage, std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis),
-               kSamplesPerVertex *
-                   std::clamp(static_cast<int>(rest.cage.size()), kBasis, kMostBasis)) {
+        basis_(rest.cage, BoundaryBasis::usual_size(rest.cage.size()),
+               kSamplesPerVertex * BoundaryBasis::usual_size(rest.cage.size())) {
     size_ = box_of(rest.mesh->vertices).diagonal();
     take_energy();
     take_handles();

@@ -11,14 +11,15 @@
 
 #include "core/cauchy.h"
 #include "core/error.h"
+#include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
+#include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kBasisControls = 100;
-constexpr double kSpread = 1e-9;  ///< pins nearer than this, in units of L, are one pin
 
 /// The cage with long segments cut until it has about kBasisControls control points; straight ones
 /// keep two each.
@@ -118,7 +119,9 @@ class PinsDeformer final : public LinearDeformer<T> {
       basis_ = previous->basis_;
     else
       basis_ = std::make_shared<const PinBasis<T>>(rest, own);
-    choose_pins();
+    ActingPins acting = acting_pins(rest);
+    used_ = std::move(acting.used);
+    this->note_ = std::move(acting.note);
     cage_at_pins_.resize(0, rest.cage.control_count());
     if (used_.empty()) {
       this->value_ = basis_->cage_value;
@@ -207,39 +210,9 @@ class PinsDeformer final : public LinearDeformer<T> {
     return points;
   }
 
-  MatrixXc coefficients() const {
-    return coefficients_.re.template cast<double>() + kI * coefficients_.im.template cast<double>();
-  }
+  MatrixXc coefficients() const { return as_complex(coefficients_); }
 
   Index functionals() const { return cage_at_pins_.rows(); }
-
-  /// Pins outside the cage, or on the spot of an earlier one, are left out and named in the note.
-  void choose_pins() {
-    const auto& pins = this->rest_.pins;
-    std::string outside, doubled;
-    for (size_t i = 0; i < pins.size(); ++i) {
-      const Complex z = pins[i].position;
-      const auto name = [&](std::string& list) {
-        list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
-      };
-      if (!is_finite(z) || !contains(this->rest_.cage, z)) {
-        name(outside);
-        continue;
-      }
-      bool alone = true;
-      for (const size_t other : used_)
-        alone = alone && std::abs(pins[other].position - z) > kSpread * basis_->length;
-      if (alone)
-        used_.push_back(i);
-      else
-        name(doubled);
-    }
-    if (!outside.empty())
-      this->note_ = "pin " + outside + " lies outside the cage and does not act";
-    if (!doubled.empty())
-      this->note_ += (this->note_.empty() ? "" : "; ") +
-                     ("pin " + doubled + " lies on another pin and does not act");
-  }
 
   /// One solve for all unit data: coefficients of the basis and of the affine maps per functional.
   void solve(double ridge_per_pin) {
@@ -327,39 +300,27 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
 }  // namespace
 
 Method pins_method() {
-  return {
-      "pins",
-      "Cage and pins",
-      "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
-      {{"exact",
-        "Exact",
-        "The picture passes through every pin, whatever that takes; off: it yields a little "
-        "where pins contradict each other",
-        ParameterSpec::Kind::toggle,
-        0,
-        0,
-        1,
-        false,
-        {}},
-       {"smoothness", "Smoothness", "How much bending costs when pins are soft (dimensionless)",
-        ParameterSpec::Kind::number, 1e-5, 1e-8, 1e-1, true, ParameterSpec::Condition{"exact", 0}},
-       {"pin_weight", "Pin weight",
-        "How much missing a pin costs when pins are soft (dimensionless)",
-        ParameterSpec::Kind::number, 10, 1e-3, 1e3, true, ParameterSpec::Condition{"exact", 0}},
-       {"own_controls",
-        "Cage's own points",
-        "Pins move the cage's own control points, which show where they go; off: a finer boundary "
-        "of a hundred points follows",
-        ParameterSpec::Kind::toggle,
-        0,
-        0,
-        1,
-        false,
-        {}}},
-      true,
-      true,
-      true,
-      prepare};
+  return {"pins",
+          "Cage and pins",
+          "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
+          {toggle("exact", "Exact",
+                  "The picture passes through every pin, whatever that takes; off: it yields a "
+                  "little where pins contradict each other"),
+           used_with("exact", 0,
+                     by_decades("smoothness", "Smoothness",
+                                "How much bending costs when pins are soft (dimensionless)", 1e-5,
+                                1e-8, 1e-1)),
+           used_with("exact", 0,
+                     by_decades("pin_weight", "Pin weight",
+                                "How much missing a pin costs when pins are soft (dimensionless)",
+                                10, 1e-3, 1e3)),
+           toggle("own_controls", "Cage's own points",
+                  "Pins move the cage's own control points, which show where they go; off: a finer "
+                  "boundary of a hundred points follows")},
+          true,
+          true,
+          true,
+          prepare};
 }
 
 }  // namespace holomorph

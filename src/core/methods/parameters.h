@@ -1,0 +1,56 @@
+// Parameters of methods in the words of their tables.
+#pragma once
+
+#include "core/deformer.h"
+
+namespace holomorph {
+
+inline ParameterSpec number(std::string key, std::string label, std::string hint, double fallback,
+                            double lowest, double highest) {
+  ParameterSpec spec{std::move(key), std::move(label), std::move(hint)};
+  spec.fallback = fallback;
+  spec.lowest = lowest;
+  spec.highest = highest;
+  return spec;
+}
+
+/// A number whose slider goes by powers of ten.
+inline ParameterSpec by_decades(std::string key, std::string label, std::string hint,
+                                double fallback, double lowest, double highest) {
+  ParameterSpec spec =
+      number(std::move(key), std::move(label), std::move(hint), fallback, lowest, highest);
+  spec.logarithmic = true;
+  return spec;
+}
+
+inline ParameterSpec toggle(std::string key, std::string label, std::string hint,
+                            bool fallback = false) {
+  ParameterSpec spec = number(std::move(key), std::move(label), std::move(hint), fallback, 0, 1);
+  spec.kind = ParameterSpec::Kind::toggle;
+  return spec;
+}
+
+/// One of these; the first one unless told otherwise.
+inline ParameterSpec one_of(std::string key, std::string label, std::string hint,
+                            std::vector<ParameterSpec::Option> options, size_t fallback = 0) {
+  const double highest = static_cast<double>(options.size()) - 1;
+  ParameterSpec spec = number(std::move(key), std::move(label), std::move(hint),
+                              static_cast<double>(fallback), 0, highest);
+  spec.kind = ParameterSpec::Kind::choice;
+  spec.options = std::move(options);
+  return spec;
+}
+
+/// The parameter, used beside this value of another one only.
+inline ParameterSpec used_with(std::string key, double value, ParameterSpec spec) {
+  spec.used_when = ParameterSpec::Condition{std::move(key), value};
+  return spec;
+}
+
+/// The weight of mean |f_zbar|^2 for a softness from 0, which demands f_zbar = 0 (weight 0), to 1,
+/// which hardly minds: from nearly conformal down by decades.
+inline double stiffness_of(double softness) {
+  return softness > 0 ? std::pow(10.0, -3 * softness) : 0;
+}
+
+}  // namespace holomorph
