@@ -34,6 +34,20 @@ void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec&
   ImGui::EndCombo();
 }
 
+bool number_slider(const ParameterSpec& spec, double& value) {
+  // A logarithmic slider ends where its format has no more decimals.
+  const char* format = spec.logarithmic ? "%.9g" : "%.4g";
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (!ImGui::SliderScalar(
+          spec.label.c_str(), ImGuiDataType_Double, &value, &spec.lowest, &spec.highest, format,
+          ImGuiSliderFlags_AlwaysClamp | (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+    return false;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  value = std::clamp(std::strtod(text, nullptr), spec.lowest, spec.highest);
+  return true;
+}
+
 /// A button for each preset; the one that is set is pressed in.
 void preset_buttons(Workspace& workspace, const Scene& scene, const Method& method) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
@@ -83,14 +97,10 @@ void method_section(Workspace& workspace) {
       }
     } else {
       ImGui::BeginDisabled(!is_used(method, scene.parameters, spec));
-      float number = static_cast<float>(value);
-      ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-      if (ImGui::SliderFloat(spec.label.c_str(), &number, static_cast<float>(spec.lowest),
-                             static_cast<float>(spec.highest), "%.4g",
-                             ImGuiSliderFlags_AlwaysClamp |
-                                 (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) {
+      double number = value;
+      if (number_slider(spec, number)) {
         Scene after = workspace.document.scene();
-        after.parameters[spec.key] = std::clamp<double>(number, spec.lowest, spec.highest);
+        after.parameters[spec.key] = number;
         workspace.preview = after;
       }
       if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
@@ -111,6 +121,7 @@ void one_handle(Workspace& workspace, Handle handle) {
   const bool pin = handle.kind == Handle::Kind::pin;
   ImGui::Text("%s %d, %s",
               pin                                     ? "Pin"
+              : handle.kind == Handle::Kind::stroke   ? "Stroke"
               : handle.control > 0                    ? "Curve point of segment"
               : is_smooth(scene, handle.index, layer) ? "Smooth cage point"
                                                       : "Cage point",
@@ -124,6 +135,7 @@ void one_handle(Workspace& workspace, Handle handle) {
   edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
     return placed(s, handle, {position_of(s, handle, layer).real(), y}, layer);
   });
+  if (handle.kind == Handle::Kind::stroke) return;
   if (!pin) {
     ImGui::Text("Segment of degree %d", cage_of(scene, layer).degree(handle.index));
     for (const char* id : {"cage.raise", "cage.lower"}) {
@@ -194,12 +206,19 @@ void selection_section(Workspace& workspace) {
   ImGui::NewLine();
 }
 
+/// "2 pins", and whether the method has no use for them.
+std::string counted(size_t count, const std::string& what, bool used) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s") +
+         (count == 0 || used ? "" : " (at rest)");
+}
+
 void cage_section(Workspace& workspace) {
   const Scene& scene = workspace.scene();
   if (scene.has_cage())
-    ImGui::Text("%d cage points, %d %s%s", static_cast<int>(scene.rest.size()),
-                static_cast<int>(scene.pins.size()), scene.pins.size() == 1 ? "pin" : "pins",
-                scene.pins.empty() || method_named(scene.method).uses_pins ? "" : " (at rest)");
+    ImGui::Text(
+        "%d cage points, %s, %s", static_cast<int>(scene.rest.size()),
+        counted(scene.pins.size(), "pin", method_named(scene.method).uses_pins).c_str(),
+        counted(scene.strokes.size(), "stroke", method_named(scene.method).uses_strokes).c_str());
   else
     ImGui::TextDisabled("No cage yet.");
   points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);

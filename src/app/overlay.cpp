@@ -143,6 +143,26 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
 }
 
+/// A stroke with its start as a dot and its end as a ring, and faintly where the other layer has
+/// it.
+void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
+                 const OverlayStyle& style) {
+  const Layer layer = workspace.layer;
+  const Scene& scene = workspace.scene();
+  const bool selected = workspace.selection.contains(handle);
+  const ImU32 color = selected  ? style.colors.selected
+                      : hovered ? style.colors.hover
+                                : (layer == Layer::rest ? style.colors.rest : style.colors.pose);
+  std::vector<ImVec2> line;
+  for (const Complex& z : curve_of(scene, handle.index, layer)) line.push_back(px(workspace, z));
+  stroke(list, line, false, color, style);
+  const float s = static_cast<float>(style.scale);
+  list.AddCircleFilled(line.front(), 5.5f * s, style.colors.outline);
+  list.AddCircleFilled(line.front(), 4 * s, color);
+  list.AddCircle(line.back(), 4.5f * s, style.colors.outline, 0, 3.4f * s);
+  list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
+}
+
 }  // namespace
 
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
@@ -153,9 +173,10 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   const Layer layer = workspace.layer;
   if (workspace.show_cage && gesture.line.empty()) {
     const ImU32 color = layer == Layer::rest ? style.colors.rest : style.colors.pose;
-    // With pins the posed cage is only the start of the map: it steps back behind the picture.
-    const bool faint =
-        layer == Layer::pose && method_named(scene.method).uses_pins && !scene.pins.empty();
+    // With pins or strokes the posed cage is only the start of the map: it steps back behind the
+    // picture.
+    const Pose used = pose_of(scene);
+    const bool faint = layer == Layer::pose && (!used.pins.empty() || !used.strokes.empty());
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
@@ -190,6 +211,10 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         draw_zero(list, px(workspace, zero), style);
     }
     for (const Handle& handle : handles_of(scene, layer)) {
+      if (handle.kind == Handle::Kind::stroke) {
+        draw_stroke(list, workspace, handle, gesture.hover == handle, style);
+        continue;
+      }
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;
       if (handle.kind == Handle::Kind::pin)

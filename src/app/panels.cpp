@@ -101,8 +101,9 @@ void draw_toolbar(Workspace& workspace, double scale) {
   // Nine buttons and three lines fit into any height.
   const float room = ImGui::GetContentRegionAvail().y - 3 * 26 * s;
   const ImVec2 button(40 * s, std::min(38 * s, room / 9 - ImGui::GetStyle().ItemSpacing.y));
-  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "", "cage.from_picture",
-                         "cage.rest", "", "edit.undo", "edit.redo", "", "view.fit", "help.keys"}) {
+  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "tool.stroke", "tool.outline", "",
+                         "cage.from_picture", "cage.rest", "", "edit.undo", "edit.redo", "",
+                         "view.fit", "help.keys"}) {
     if (!*id) {
       ImGui::Dummy({0, 2 * s});
       ImGui::Separator();

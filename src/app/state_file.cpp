@@ -7,7 +7,7 @@
 namespace holomorph {
 
 void StateFile::write(const Workspace& workspace, bool gesture, int compared_rows) {
-  static constexpr const char* kTools[] = {"select", "pen", "pin", "outline"};
+  static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline"};
   const Viewport& view = workspace.viewport;
   char text[1200];
   std::snprintf(
@@ -15,7 +15,8 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
       " \"center\": [%.17g, %.17g], \"zoom\": %.17g,\n"
       " \"tool\": \"%s\", \"layer\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
-      " \"cage_points\": %d, \"pins\": %d, \"outline_points\": %d, \"selected\": %d, \"history\": "
+      " \"cage_points\": %d, \"pins\": %d, \"strokes\": %d, \"outline_points\": %d, \"selected\": "
+      "%d, \"history\": "
       "%d, \"step\": %d,\n"
       " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s,\n"
       " \"status\": \"%s\", \"boundary_turns\": %.6f, \"zeros\": %d, \"compared_rows\": %d}\n",
@@ -25,6 +26,7 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       kViewNames[static_cast<size_t>(workspace.view)], workspace.scene().method.c_str(),
       static_cast<int>(workspace.scene().rest.size()),
       static_cast<int>(workspace.scene().pins.size()),
+      static_cast<int>(workspace.scene().strokes.size()),
       static_cast<int>(workspace.scene().outline.size()),
       static_cast<int>(workspace.selection.size()),
       static_cast<int>(workspace.document.history().entries().size()),

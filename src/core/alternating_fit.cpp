@@ -1,4 +1,5 @@
-// Iterates are g = R x: Q g are the scaled values, Q* of the scaled targets is the next g.
+// Iterates are g = R x: Q g are the scaled values, Q* of the scaled targets is the next g. What
+// given targets cost follows from |Q g| = |g|, without their rows.
 #include "core/alternating_fit.h"
 
 #include <Eigen/QR>
@@ -15,30 +16,60 @@ constexpr double kAlong = 0.1;  ///< what going along the target's tangent costs
 
 }  // namespace
 
-AlternatingFit::AlternatingFit(std::vector<FitTerm> terms) : terms_(std::move(terms)) {
+AlternatingFit::AlternatingFit(std::vector<FitTerm> terms) {
   Index rows = 0;
-  for (const FitTerm& term : terms_) {
-    first_.push_back(rows);
-    rows += term.rows.rows();
-    scale_.push_back(std::sqrt(term.weight / static_cast<double>(term.rows.rows())));
-  }
-  const Index n = terms_.at(0).rows.cols();
-  MatrixXc all(rows, n);
-  for (size_t t = 0; t < terms_.size(); ++t)
-    all.middleRows(first_[t], terms_[t].rows.rows()) = scale_[t] * terms_[t].rows;
+  for (const FitTerm& term : terms) rows += term.rows.rows();
+  const Index n = terms.at(0).rows.cols();
   check(rows >= n, "alternating fit: as many rows as unknowns");
+  check(terms[0].project != nullptr, "alternating fit: a first term whose targets move");
+  MatrixXc all(rows, n);
+  Index first = 0;
+  for (FitTerm& term : terms) {
+    Term kept;
+    kept.scale = std::sqrt(term.weight / static_cast<double>(term.rows.rows()));
+    all.middleRows(first, term.rows.rows()) = kept.scale * term.rows;
+    first += term.rows.rows();
+    kept.targets = VectorXc::Zero(term.rows.rows());
+    kept.project = std::move(term.project);
+    kept.normals = std::move(term.normals);
+    terms_.push_back(std::move(kept));
+  }
   Orthonormal factors = orthonormal(std::move(all));
-  q_ = std::move(factors.q);
   r_ = std::move(factors.r);
-  values_.resize(terms_.size());
-  targets_.resize(terms_.size());
-  for (size_t t = 0; t < terms_.size(); ++t) targets_[t] = VectorXc::Zero(terms_[t].rows.rows());
+  first = 0;
+  for (Term& term : terms_) {
+    term.q = factors.q.middleRows(first, term.targets.size());
+    first += term.targets.size();
+  }
+  given_ = VectorXc::Zero(n);
+  given_square_ = 0;
+  reset();
+}
+
+void AlternatingFit::give(size_t term, const VectorXc& targets) {
+  check(!terms_[term].project, "alternating fit: given targets do not move");
+  terms_[term].targets = targets;
+  given_.setZero();
+  given_square_ = 0;
+  for (const Term& given : terms_) {
+    if (given.project || given.targets.isZero(0)) continue;
+    given_ += given.scale * (given.q.adjoint() * given.targets);
+    given_square_ += given.scale * given.scale * given.targets.squaredNorm();
+  }
+}
+
+void AlternatingFit::reset() {
+  g_ = VectorXc::Zero(r_.cols());
+}
+
+void AlternatingFit::reset(const VectorXc& unknowns) {
+  g_ = r_.triangularView<Eigen::Upper>() * unknowns;
 }
 
 void AlternatingFit::start(const VectorXc& first_targets) {
   memory_ = {};
-  evaluate(VectorXc::Zero(r_.cols()));
-  targets_[0] = first_targets;
+  evaluate(g_);
+  terms_[0].targets = first_targets;
   evaluate(zeroth());
 }
 
@@ -47,27 +78,30 @@ VectorXc AlternatingFit::unknowns() const {
 }
 
 double AlternatingFit::distance(size_t term) const {
-  return std::sqrt((values_[term] - targets_[term]).squaredNorm() /
-                   static_cast<double>(values_[term].size()));
+  const Term& moving = terms_[term];
+  return std::sqrt((moving.values - moving.targets).squaredNorm() /
+                   static_cast<double>(moving.values.size()));
 }
 
 /// Values, targets and the energy at g.
 void AlternatingFit::evaluate(const VectorXc& g) {
   g_ = g;
-  const VectorXc scaled = q_ * g;
-  energy_ = 0;
-  for (size_t t = 0; t < terms_.size(); ++t) {
-    values_[t] = scaled.segment(first_[t], terms_[t].rows.rows()) / scale_[t];
-    terms_[t].project(values_[t], targets_[t]);
-    energy_ += scale_[t] * scale_[t] * (values_[t] - targets_[t]).squaredNorm();
+  energy_ = g.squaredNorm() - 2 * given_.dot(g).real() + given_square_;
+  for (Term& term : terms_) {
+    if (!term.project) continue;
+    term.values.noalias() = term.q * g;
+    energy_ -= term.values.squaredNorm();
+    term.values /= term.scale;
+    term.project(term.values, term.targets);
+    energy_ += term.scale * term.scale * (term.values - term.targets).squaredNorm();
   }
 }
 
 VectorXc AlternatingFit::zeroth() const {
-  VectorXc right(q_.rows());
-  for (size_t t = 0; t < terms_.size(); ++t)
-    right.segment(first_[t], targets_[t].size()) = scale_[t] * targets_[t];
-  return q_.adjoint() * right;
+  VectorXc g = given_;
+  for (const Term& term : terms_)
+    if (term.project) g.noalias() += term.q.adjoint() * (term.scale * term.targets);
+  return g;
 }
 
 /// The combination of the last steps that should leave nothing to do (Anderson 1965).
@@ -93,26 +127,25 @@ VectorXc AlternatingFit::anderson() {
   return mixed;
 }
 
-/// Targets may slide along their curves (SB16 eq. 13): with P = real form of Q's rows with normals,
-/// M = I - (1 - along) P^T P + (1 - along) (n . P)^T (n . P).
+/// Targets may slide along their curves (SB16 eq. 13): what lies along the tangent counts `kAlong`
+/// only, M = I - (1 - along) A^T A with A the real form of the tangent's components of Q's rows.
 VectorXc AlternatingFit::first_order() const {
   const Index n = r_.cols();
   MatrixXd m = MatrixXd::Identity(2 * n, 2 * n);
   VectorXd right = stacked(zeroth());
-  for (size_t t = 0; t < terms_.size(); ++t) {
-    if (!terms_[t].normals) continue;
-    VectorXc normals(values_[t].size());
-    terms_[t].normals(values_[t], targets_[t], normals);
+  for (const Term& term : terms_) {
+    if (!term.normals) continue;
+    VectorXc normals(term.values.size());
+    term.normals(term.values, term.targets, normals);
     // Along the curve, with tangent i n: value and target need not agree.
     MatrixXd along(2 * n, normals.size());
     for (Index i = 0; i < normals.size(); ++i) {
-      const auto row = q_.row(first_[t] + i);
       const Complex tangent = std::conj(kI * normals[i]);
-      along.col(i).head(n) = (tangent * row).real().transpose();
-      along.col(i).tail(n) = -(tangent * row).imag().transpose();
+      along.col(i).head(n) = (tangent * term.q.row(i)).real().transpose();
+      along.col(i).tail(n) = -(tangent * term.q.row(i)).imag().transpose();
     }
     const VectorXd wanted =
-        scale_[t] * (targets_[t].array() * (kI * normals.array()).conjugate()).real().matrix();
+        term.scale * (term.targets.array() * (kI * normals.array()).conjugate()).real().matrix();
     const double relief = 1 - kAlong;
     MatrixXd gram = MatrixXd::Zero(2 * n, 2 * n);
     add_gram(along, along.cols(), 0, gram);
@@ -134,6 +167,17 @@ void AlternatingFit::step(Mode mode) {
     memory_ = {};
   }
   evaluate(zeroth());
+}
+
+std::vector<double> AlternatingFit::run(Mode mode, double settled, int most) {
+  std::vector<double> energies{energy_};
+  while (static_cast<int>(energies.size()) <= most) {
+    const double before = energy_;
+    step(mode);
+    energies.push_back(energy_);
+    if (before - energy_ <= settled * before) break;
+  }
+  return energies;
 }
 
 }  // namespace holomorph

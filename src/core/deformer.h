@@ -59,7 +59,8 @@ struct PosePin {
 struct Rest {
   Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
-  Points samples;  ///< where the map is wanted, inside or on the cage
+  std::vector<Points> strokes = {};  ///< open curves, two different points each at least
+  Points samples;                    ///< where the map is wanted, inside or on the cage
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
   Points derivative_samples;
@@ -69,11 +70,13 @@ struct Rest {
   Precision precision = Precision::single;
 };
 
-/// Everything that moves. Value type; as many segments, control points and pins as the Rest.
+/// Everything that moves. Value type; as many segments, control points, pins and strokes as the
+/// Rest.
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
-  Points outline = {};  ///< closed; where the cage's shape is to go, or none
+  Points outline = {};               ///< closed; where the cage's shape is to go, or none
+  std::vector<Points> strokes = {};  ///< where those of the rest go, run through the same way
   bool operator==(const Pose&) const = default;
 };
 
@@ -150,12 +153,17 @@ struct Method {
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
+  bool uses_strokes = false;
 };
 
 /// The table of methods, in menu order.
 const std::vector<Method>& methods();
 /// The row with this id; throws Error naming the ids that exist.
 const Method& method_named(const std::string& id);
+
+/// Without the handles that the method has no use for.
+Rest used_by(const Method& method, Rest rest);
+Pose used_by(const Method& method, Pose pose);
 
 /// The parameter's value, its default when missing.
 double parameter(const Method& method, const Parameters& values, const std::string& key);

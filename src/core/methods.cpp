@@ -7,8 +7,8 @@ namespace holomorph {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
-    std::vector<Method> rows{cage_method(), pins_method(), arap_method(), har_arap_method(),
-                             outline_method()};
+    std::vector<Method> rows{cage_method(),     pins_method(),    arap_method(),
+                             har_arap_method(), outline_method(), strokes_method()};
     rows.push_back(bounded_method(rows));
     return rows;
   }();
@@ -23,6 +23,18 @@ const Method& method_named(const std::string& id) {
   }
   throw Error(ErrorKind::bad_input,
               "method '" + id + "' is not available in this version; choose one of: " + known);
+}
+
+Rest used_by(const Method& method, Rest rest) {
+  if (!method.uses_pins) rest.pins.clear();
+  if (!method.uses_strokes) rest.strokes.clear();
+  return rest;
+}
+
+Pose used_by(const Method& method, Pose pose) {
+  if (!method.uses_pins) pose.pins.clear();
+  if (!method.uses_strokes) pose.strokes.clear();
+  return pose;
 }
 
 double parameter(const Method& method, const Parameters& values, const std::string& key) {

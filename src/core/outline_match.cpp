@@ -8,13 +8,13 @@
 #include "core/argument.h"
 #include "core/cauchy.h"
 #include "core/cauchy_array.h"
-#include "core/error.h"
 #include "core/outline_start.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerSegment = 4;
+constexpr size_t kPinTerm = 1;
 constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
 
 /// The loop cut at arc lengths of its flattened self, all its own vertices kept.
@@ -58,11 +58,7 @@ MatrixXc coordinates(const Cage& cage, std::span<const BoundaryPoint> places, in
   if (order > 1 || !is_straight(cage)) return cauchy_coordinates(cage, places, order);
   Points points;
   for (const BoundaryPoint& place : places) points.push_back(position_of(cage, place));
-  const PlanarMatrix<double> planar = planar_coordinates<double>(cage, points, order);
-  MatrixXc c(planar.rows(), planar.cols());
-  c.real() = planar.re;
-  c.imag() = planar.im;
-  return c;
+  return as_complex(planar_coordinates<double>(cage, points, order));
 }
 
 /// Rows of C phi + conj(C) psi.
@@ -77,13 +73,14 @@ class Matcher {
  public:
   Matcher(const OutlineTask& task, const OutlineSettings& settings)
       : settings_(settings),
-        cage_(signed_area(outline_of(task.source)) < 0 ? reversed(task.source) : task.source),
+        cage_(counter_clockwise(task.source)),
         flat_(flattened(cage_)),
         source_(flat_.points, true),
-        target_(counter_clockwise(task.outline), true),
+        target_(run_counter_clockwise(task.outline), true),
         pins_(task.pins),
         pinned_(task.pinned),
-        unit_(source_.length() / (2 * kPi)) {}
+        unit_(source_.length() / (2 * kPi)),
+        centre_(box_of(target_.points()).center()) {}
 
   OutlineMatch run() {
     OutlineMatch best;
@@ -95,19 +92,16 @@ class Matcher {
     prepare(best.basis);
     const bool soft = settings_.stiffness > 0;
     AlternatingFit fit(terms(best.basis));
+    if (!pins_.empty()) fit.give(kPinTerm, pin_targets());
     fit.start(start_targets(best.basis, start));
-    const double scale = 1 / (unit_ * unit_);
-    best.energies.push_back(scale * fit.energy());
-    for (; best.iterations < settings_.most_iterations; ++best.iterations) {
-      const double before = fit.energy();
-      fit.step(settings_.published ? AlternatingFit::Mode::zeroth
-                                   : AlternatingFit::Mode::first_order);
-      best.energies.push_back(scale * fit.energy());
-      if (before - fit.energy() <= kSettled * before) break;
-    }
+    best.energies = fit.run(
+        settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
+        kSettled, settings_.most_iterations);
+    best.iterations = static_cast<int>(best.energies.size()) - 1;
+    for (double& energy : best.energies) energy /= unit_ * unit_;
     const VectorXc x = fit.unknowns();
     const Index n = best.basis.control_count();
-    best.phi = x.head(n);
+    best.phi = x.head(n).array() + centre_;
     if (soft) best.psi = x.tail(n);
     best.rms = fit.distance(0);
     measure(fit.values(0), best);
@@ -116,7 +110,7 @@ class Matcher {
   }
 
  private:
-  static Points counter_clockwise(Points points) {
+  static Points run_counter_clockwise(Points points) {
     if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
     return points;
   }
@@ -198,26 +192,22 @@ class Matcher {
       take_normals(values, targets, normals);
     };
     terms.push_back(std::move(fit));
-    const auto zero = [](const VectorXc&, VectorXc& targets) { targets.setZero(); };
+    if (!pins_.empty())
+      terms.push_back(
+          {with_conjugate(cauchy_coordinates(basis, pins_), soft), settings_.pin_weight});
     if (settings_.smoothness > 0 && !settings_.published) {
       MatrixXc rows = with_conjugate(coordinates(basis, middles_, 2), soft);
       for (Index e = 0; e < rows.rows(); ++e)
         rows.row(e) *= sizes_[static_cast<size_t>(e)] * sizes_[static_cast<size_t>(e)];
-      terms.push_back({std::move(rows), settings_.smoothness, zero});
+      terms.push_back({std::move(rows), settings_.smoothness});
     }
-    if (!pins_.empty())
-      terms.push_back({with_conjugate(cauchy_coordinates(basis, pins_), soft), settings_.pin_weight,
-                       [this](const VectorXc&, VectorXc& targets) {
-                         for (Index i = 0; i < targets.size(); ++i)
-                           targets[i] = pinned_[static_cast<size_t>(i)];
-                       }});
     if (soft) {
       MatrixXc rows = MatrixXc::Zero(basis.size(), 2 * n);
       rows.rightCols(n) = unit_ * coordinates(basis, middles_, 1).conjugate();
-      terms.push_back({std::move(rows), settings_.stiffness, zero});
+      terms.push_back({std::move(rows), settings_.stiffness});
       MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
       constant.rightCols(n).setConstant(1 / static_cast<double>(n));
-      terms.push_back({std::move(constant), 1, zero});
+      terms.push_back({std::move(constant)});
     }
     return terms;
   }
@@ -225,9 +215,9 @@ class Matcher {
   void project(const VectorXc& values, VectorXc& targets) {
     for (Index i = 0; i < values.size(); ++i) {
       Index& hint = hints_[static_cast<size_t>(i)];
-      const Polyline::Nearest nearest = target_.nearest(values[i], hint);
+      const Polyline::Nearest nearest = target_.nearest(values[i] + centre_, hint);
       hint = nearest.segment;
-      targets[i] = nearest.point;
+      targets[i] = nearest.point - centre_;
     }
   }
 
@@ -243,18 +233,27 @@ class Matcher {
     }
   }
 
+  VectorXc pin_targets() const {
+    VectorXc targets(static_cast<Index>(pinned_.size()));
+    for (Index i = 0; i < targets.size(); ++i)
+      targets[i] = pinned_[static_cast<size_t>(i)] - centre_;
+    return targets;
+  }
+
   VectorXc start_targets(const Cage& basis, const Correspondence& start) const {
     VectorXc targets(static_cast<Index>(samples_.size()));
     for (Index i = 0; i < targets.size(); ++i) {
       const Polyline::Nearest at =
           source_.nearest(position_of(basis, samples_[static_cast<size_t>(i)]));
-      targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter)));
+      targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - centre_;
     }
     return targets;
   }
 
   void measure(const VectorXc& values, OutlineMatch& match) const {
-    const Polyline image(Points(values.begin(), values.end()), true);
+    Points points;
+    for (const Complex& z : values) points.push_back(z + centre_);
+    const Polyline image(std::move(points), true);
     match.hausdorff =
         std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
   }
@@ -277,7 +276,8 @@ class Matcher {
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
-  double unit_;  ///< L
+  double unit_;     ///< L
+  Complex centre_;  ///< what is fitted is f less this
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
   std::vector<Index> hints_;

@@ -92,6 +92,21 @@ double Polyline::diagonal() const {
   return std::hypot(box.right - box.left, box.top - box.bottom);
 }
 
+Points without_repeats(const Points& points) {
+  Points kept;
+  for (const Complex& z : points)
+    if (kept.empty() || z != kept.back()) kept.push_back(z);
+  return kept;
+}
+
+void check_stroke(std::span<const Complex> points) {
+  for (const Complex& z : points)
+    if (!is_finite(z))
+      throw Error(ErrorKind::bad_input, "the stroke has a point that is not finite");
+  if (std::ranges::all_of(points, [&](Complex z) { return z == points[0]; }))
+    throw Error(ErrorKind::bad_input, "the stroke has no length; draw it through two places");
+}
+
 Points with_steps(const Polyline& line, double step) {
   Points points;
   const Points& from = line.points();

@@ -51,6 +51,12 @@ class Polyline {
   std::vector<Box> boxes_;       ///< a binary tree over consecutive segments
 };
 
+/// The points without those that repeat the one before.
+Points without_repeats(const Points& points);
+
+/// Throws Error unless the points are finite, and at two places at least.
+void check_stroke(std::span<const Complex> points);
+
 /// A curve with the same shape whose points are `step` apart at most along it, its corners kept.
 Points with_steps(const Polyline& line, double step);
 

@@ -139,8 +139,9 @@ void redo(Workspace& w) {
 // Glyphs of Font Awesome 4.
 constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
                      *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
-                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf040", *kMagic = "\uf0d0",
-                     *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
+                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kStroke = "\uf1fc",
+                     *kMagic = "\uf0d0", *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2",
+                     *kSearch = "\uf002";
 
 /// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
@@ -257,6 +258,14 @@ std::vector<Action> table() {
        choose<ToolId::pen>,
        chosen<ToolId::pen>},
       {"tool.pin", "Pin", kPin, "Tools", {'N'}, always, choose<ToolId::pin>, chosen<ToolId::pin>},
+      {"tool.stroke",
+       "Stroke: draw lines on the picture and reshape them",
+       kStroke,
+       "Tools",
+       {'S'},
+       always,
+       choose<ToolId::stroke>,
+       chosen<ToolId::stroke>},
       {"tool.outline",
        "Outline: draw the shape that the picture goes onto",
        kOutline,

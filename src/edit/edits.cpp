@@ -17,7 +17,12 @@ Cage& cage_of(Scene& scene, Layer layer) {
   return layer == Layer::rest ? scene.rest : scene.pose;
 }
 
-/// A handle's place, to read in a const scene and to change in another.
+Points& curve(Scene& scene, Index stroke, Layer layer) {
+  Stroke& found = scene.strokes[static_cast<size_t>(stroke)];
+  return layer == Layer::rest ? found.rest : found.pose;
+}
+
+/// The place of a pin or control point, to read in a const scene and to change in another.
 template <class AnyScene>
 auto& place(AnyScene& scene, Handle handle, Layer layer) {
   if (handle.kind == Handle::Kind::pin)
@@ -27,7 +32,16 @@ auto& place(AnyScene& scene, Handle handle, Layer layer) {
 
 }  // namespace
 
+const Points& curve_of(const Scene& scene, Index stroke, Layer layer) {
+  const Stroke& found = scene.strokes[static_cast<size_t>(stroke)];
+  return layer == Layer::rest ? found.rest : found.pose;
+}
+
 Complex position_of(const Scene& scene, Handle handle, Layer layer) {
+  if (handle.kind == Handle::Kind::stroke) {
+    const Points& points = curve_of(scene, handle.index, layer);
+    return points[points.size() / 2];
+  }
   return place(scene, handle, layer);
 }
 
@@ -35,6 +49,9 @@ bool exists(const Scene& scene, Handle handle, Layer layer) {
   if (handle.kind == Handle::Kind::pin)
     return method_named(scene.method).uses_pins &&
            handle.index < static_cast<Index>(scene.pins.size());
+  if (handle.kind == Handle::Kind::stroke)
+    return method_named(scene.method).uses_strokes &&
+           handle.index < static_cast<Index>(scene.strokes.size());
   const Cage& cage = cage_of(scene, layer);
   return handle.index < cage.size() && handle.control < cage.degree(handle.index);
 }
@@ -47,6 +64,9 @@ std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
   if (method_named(scene.method).uses_pins)
     for (Index i = 0; i < static_cast<Index>(scene.pins.size()); ++i)
       handles.push_back({Handle::Kind::pin, i, 0});
+  if (method_named(scene.method).uses_strokes)
+    for (Index i = 0; i < static_cast<Index>(scene.strokes.size()); ++i)
+      handles.push_back({Handle::Kind::stroke, i, 0});
   return handles;
 }
 
@@ -59,8 +79,13 @@ Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer) {
     if (cage.degree(handle.index) > 1) all.insert({Handle::Kind::cage, handle.index, 1});
     if (cage.degree(before) > 1) all.insert({Handle::Kind::cage, before, cage.degree(before) - 1});
   }
-  for (const Handle& handle : all)
-    if (exists(scene, handle, layer)) place(scene, handle, layer) += by;
+  for (const Handle& handle : all) {
+    if (!exists(scene, handle, layer)) continue;
+    if (handle.kind == Handle::Kind::stroke)
+      for (Complex& z : curve(scene, handle.index, layer)) z += by;
+    else
+      place(scene, handle, layer) += by;
+  }
   return scene;
 }
 
@@ -92,6 +117,8 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
   for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::pin) {
       scene.pins.erase(scene.pins.begin() + handle.index);
+    } else if (handle.kind == Handle::Kind::stroke) {
+      scene.strokes.erase(scene.strokes.begin() + handle.index);
     } else if (handle.control == 0) {
       const double joint = joint_parameter(scene.rest, handle.index);
       erase_vertex(scene.rest, handle.index, joint, refit);
@@ -104,6 +131,43 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
 Scene with_pin(Scene scene, Complex rest, Complex pose) {
   if (!method_named(scene.method).uses_pins) scene = with_method(std::move(scene), "pins");
   scene.pins.push_back({rest, pose, {}, {}});
+  return scene;
+}
+
+Scene with_stroke(Scene scene, Points rest, Points pose) {
+  if (!method_named(scene.method).uses_strokes) scene = with_method(std::move(scene), "strokes");
+  scene.strokes.push_back({std::move(rest), std::move(pose), {}});
+  return scene;
+}
+
+Scene redrawn(Scene scene, Index stroke, Points drawn, Layer layer) {
+  Points& points = curve(scene, stroke, layer);
+  const double kept = std::abs(drawn.front() - points.front()) +
+                      std::abs(drawn.back() - points.back()),
+               turned = std::abs(drawn.front() - points.back()) +
+                        std::abs(drawn.back() - points.front());
+  if (turned < kept) std::ranges::reverse(drawn);
+  points = std::move(drawn);
+  return scene;
+}
+
+Scene pulled(Scene scene, Index stroke, size_t point, Complex by, double reach, Layer layer) {
+  Points& points = curve(scene, stroke, layer);
+  const Points before = points;
+  const auto pull = [&](size_t i, double distance) {
+    const double off = std::min(distance / reach, 1.0);
+    points[i] += (1 - off * off) * (1 - off * off) * by;
+  };
+  double distance = 0;
+  for (size_t i = point; i < points.size(); ++i) {
+    if (i > point) distance += std::abs(before[i] - before[i - 1]);
+    pull(i, distance);
+  }
+  distance = 0;
+  for (size_t i = point; i-- > 0;) {
+    distance += std::abs(before[i] - before[i + 1]);
+    pull(i, distance);
+  }
   return scene;
 }
 
@@ -145,6 +209,8 @@ Scene reset(Scene scene, const Selection& selection) {
       pin.pose = pin.rest;
       if (pin.angle) pin.angle = 0.0;
       pin.scale = 1;
+    } else if (handle.kind == Handle::Kind::stroke) {
+      curve(scene, handle.index, Layer::pose) = curve_of(scene, handle.index, Layer::rest);
     } else if (handle.control > 0 && exists(scene, handle, Layer::pose)) {
       place(scene, handle, Layer::pose) = rest_control(scene, handle);
     }

@@ -9,11 +9,11 @@
 
 namespace holomorph {
 
-/// What can be picked: a control point of the cage (control 0 is a vertex) or a pin.
+/// What can be picked: a control point of the cage (control 0 is a vertex), a pin or a stroke.
 struct Handle {
-  enum class Kind { cage, pin };
+  enum class Kind { cage, pin, stroke };
   Kind kind = Kind::cage;
-  Index index = 0;  ///< segment or pin
+  Index index = 0;  ///< segment, pin or stroke
   int control = 0;
   auto operator<=>(const Handle&) const = default;
 };
@@ -24,14 +24,14 @@ enum class Layer { pose, rest };
 
 /// The cage of a layer.
 const Cage& cage_of(const Scene& scene, Layer layer);
-/// A handle's place in a layer.
+/// A handle's place in a layer; a stroke's is its middle.
 Complex position_of(const Scene& scene, Handle handle, Layer layer);
 bool exists(const Scene& scene, Handle handle, Layer layer);
-/// Every handle of a layer: cage control points, then pins where the method uses them.
+/// Every handle of a layer: cage control points, then pins and strokes where the method uses them.
 std::vector<Handle> handles_of(const Scene& scene, Layer layer);
 
-/// Moves handles; a moved rest point leaves the pose where it is. Moving a vertex takes the control
-/// points next to it along.
+/// Moves handles, strokes as a whole; a moved rest point leaves the pose where it is. Moving a
+/// vertex takes the control points next to it along.
 Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer);
 
 /// Puts one handle at a place.
@@ -43,11 +43,22 @@ Complex center_of(const Scene& scene, const Selection& selection, Layer layer);
 /// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
 Scene inserted(Scene scene, Index segment, double t);
 
-/// Without these handles: vertices and pins. At least three segments stay: throws Error otherwise.
+/// Without these handles: vertices, pins and strokes. At least three segments stay: throws Error
+/// otherwise.
 Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve);
 
 /// With a pin more; the method becomes one that uses pins.
 Scene with_pin(Scene scene, Complex rest, Complex pose);
+
+/// With a stroke more; the method becomes one that uses strokes.
+Scene with_stroke(Scene scene, Points rest, Points pose);
+/// The points of a stroke.
+const Points& curve_of(const Scene& scene, Index stroke, Layer layer);
+/// A stroke's layer redrawn, run through from the end that is nearer to its old start.
+Scene redrawn(Scene scene, Index stroke, Points curve, Layer layer);
+/// A stroke pulled at one of its points: what is within `reach` of arc length follows the less the
+/// farther it is.
+Scene pulled(Scene scene, Index stroke, size_t point, Complex by, double reach, Layer layer);
 
 /// A pin turned to an angle in radians; the pin turns the picture from then on.
 Scene turned(Scene scene, Index pin, double angle);

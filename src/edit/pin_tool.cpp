@@ -37,7 +37,7 @@ class PinTool final : public Tool {
     }
     const bool switches = !method_named(workspace.scene().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
-    const Complex pose = workspace.at_rest() ? posed(*rest, workspace) : input.position;
+    const Complex pose = workspace.at_rest() ? workspace.posed_at(*rest) : input.position;
     if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose))) return;
     if (switches)
       workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
@@ -77,13 +77,6 @@ class PinTool final : public Tool {
   }
 
  private:
-  static Complex posed(Complex rest, const Workspace& workspace) {
-    const Mesh& mesh = *workspace.map.prepared()->mesh;
-    const auto found = locate(mesh, mesh.vertices, rest);
-    const VectorXc& f = workspace.map.map().f;
-    return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
-  }
-
   HandleDrag drag_;
   PinRing ring_;
   std::optional<Handle> hover_;

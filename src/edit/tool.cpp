@@ -24,14 +24,12 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!input.released && input.down) return false;
   active_ = false;
   if (!workspace.preview) return true;
-  const bool pins = std::ranges::all_of(
-      what_, [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });
   if (amends_)
     workspace.amend(*workspace.preview);
   else
     workspace.commit(workspace.layer == Layer::rest ? "Move at rest"
-                     : pins                         ? "Move pin"
-                                                    : "Move",
+                     : kind_of(what_) == "point"    ? "Move"
+                                                    : "Move " + kind_of(what_),
                      *workspace.preview);
   return true;
 }
@@ -47,7 +45,7 @@ void toggle_corners(Workspace& workspace) {
 
 bool edits_point(const Input& input, Handle handle, Workspace& workspace) {
   const bool vertex = handle.kind == Handle::Kind::cage && handle.control == 0;
-  if (input.mods.alt && (vertex || handle.kind == Handle::Kind::pin)) {
+  if (input.mods.alt && (vertex || handle.kind != Handle::Kind::cage)) {
     workspace.erase({handle});
     return true;
   }

@@ -45,6 +45,7 @@ class Tool {
 std::unique_ptr<Tool> select_tool();
 std::unique_ptr<Tool> pen_tool();
 std::unique_ptr<Tool> pin_tool();
+std::unique_ptr<Tool> stroke_tool();
 std::unique_ptr<Tool> outline_tool();
 
 /// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/polyline.h"
 #include "scene/scene_json.h"
 
 namespace holomorph {
@@ -50,17 +51,18 @@ void Workspace::go_to(size_t entry) {
   document.go_to(entry);
   // Numbers mean other points in another structure.
   const bool other_cage = before.rest.size() != scene().rest.size(),
-             other_pins = before.pins.size() != scene().pins.size();
+             other_pins = before.pins.size() != scene().pins.size(),
+             other_strokes = before.strokes.size() != scene().strokes.size();
   std::erase_if(selection, [&](const Handle& handle) {
-    return handle.kind == Handle::Kind::pin ? other_pins : other_cage;
+    return handle.kind == Handle::Kind::pin      ? other_pins
+           : handle.kind == Handle::Kind::stroke ? other_strokes
+                                                 : other_cage;
   });
   prune_selection();
 }
 
 void Workspace::erase(const Selection& handles, Refit refit) {
-  const bool pins = std::ranges::all_of(
-      handles, [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });
-  const std::string what = pins ? "Delete pin" : "Delete point";
+  const std::string what = "Delete " + kind_of(handles);
   try {
     Scene after = erased(scene(), handles, refit);
     selection.clear();
@@ -94,6 +96,14 @@ std::optional<Complex> Workspace::rest_at(Complex z) const {
   return found->in(mesh, mesh.vertices);
 }
 
+Complex Workspace::posed_at(Complex rest) const {
+  if (!map.has_map()) return rest;
+  const Mesh& mesh = *map.prepared()->mesh;
+  const VectorXc& f = map.map().f;
+  const auto found = locate(mesh, mesh.vertices, rest);
+  return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
+}
+
 std::optional<Cage> Workspace::solved_cage() const {
   if (!map.has_map() || !map.posed()) return {};
   return map.prepared()->deformer->solved_cage(pose_of(*map.posed()));
@@ -108,6 +118,9 @@ Box Workspace::content_box() const {
   for (const Complex& z : outline_of(cage_of(scene(), layer))) box.include(z);
   if (!at_rest())
     for (const Complex& z : scene().outline) box.include(z);
+  if (method_named(scene().method).uses_strokes)
+    for (size_t i = 0; i < scene().strokes.size(); ++i)
+      for (const Complex& z : curve_of(scene(), static_cast<Index>(i), layer)) box.include(z);
   if (!at_rest() && map.has_map())
     for (const Complex& z : map.map().f)
       if (is_finite(z)) box.include(z);
@@ -143,12 +156,20 @@ bool insert_at(Workspace& workspace, const CageHit& hit) {
   return true;
 }
 
+std::string kind_of(const Selection& handles) {
+  const auto all = [&](Handle::Kind kind) {
+    return std::ranges::all_of(handles, [&](const Handle& h) { return h.kind == kind; });
+  };
+  return all(Handle::Kind::pin) ? "pin" : all(Handle::Kind::stroke) ? "stroke" : "point";
+}
+
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   std::optional<Handle> best;
   if (!workspace.show_cage || workspace.hide_overlays) return best;
   double distance = workspace.handle_px;
   const Scene& scene = workspace.scene();
   for (const Handle& handle : handles_of(scene, workspace.layer)) {
+    if (handle.kind == Handle::Kind::stroke) continue;
     const double here =
         std::abs(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer)) - px);
     // A pin on a cage point's spot is picked first: it lies on top.
@@ -156,6 +177,17 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
       best = handle;
       distance = here;
     }
+  }
+  if (best) return best;
+  // Points lie on top of strokes.
+  for (const Handle& handle : handles_of(scene, workspace.layer)) {
+    if (handle.kind != Handle::Kind::stroke) continue;
+    const double here =
+        workspace.viewport.zoom *
+        Polyline(without_repeats(curve_of(scene, handle.index, workspace.layer)), false)
+            .nearest(workspace.viewport.plane_at_px(px))
+            .distance;
+    if (here < distance) best = handle, distance = here;
   }
   return best;
 }

@@ -29,7 +29,7 @@ enum class Request {
   compare
 };
 
-enum class ToolId { select, pen, pin, outline };
+enum class ToolId { select, pen, pin, stroke, outline };
 
 /// A short message over the canvas; `where` can be shown.
 struct Toast {
@@ -83,6 +83,8 @@ struct Workspace {
 
   /// The rest place under a place of the shown picture; none outside it or before there is a map.
   std::optional<Complex> rest_at(Complex z) const;
+  /// Where the map takes a rest place; the place itself outside the mesh or before there is a map.
+  Complex posed_at(Complex rest) const;
   /// The cage that alone gives the shown map, where the method knows one.
   std::optional<Cage> solved_cage() const;
   /// The box of picture and cage as shown.
@@ -94,6 +96,9 @@ struct Workspace {
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };
+
+/// "pin", "stroke" or "point": what these are, in the words of the history.
+std::string kind_of(const Selection& handles);
 
 /// The nearest handle of the shown layer within picking distance.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);

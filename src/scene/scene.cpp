@@ -11,19 +11,19 @@ Rest rest_of(const Scene& scene, Precision precision) {
                 "the scene has no cage yet; draw one, or make one with 'holomorph new'");
   Rest rest;
   rest.cage = elevated_to(scene.rest, scene.pose);
-  if (method_named(scene.method).uses_pins)
-    for (const Pin& pin : scene.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
+  for (const Pin& pin : scene.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
+  for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
   rest.parameters = scene.parameters;
   rest.precision = precision;
-  return rest;
+  return used_by(method_named(scene.method), std::move(rest));
 }
 
 Pose pose_of(const Scene& scene) {
   Pose pose{scene.pose, {}, scene.outline};
-  if (method_named(scene.method).uses_pins)
-    for (const Pin& pin : scene.pins)
-      pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
-  return pose;
+  for (const Pin& pin : scene.pins)
+    pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
+  for (const Stroke& stroke : scene.strokes) pose.strokes.push_back(stroke.pose);
+  return used_by(method_named(scene.method), std::move(pose));
 }
 
 Scene at_rest(Scene scene) {
@@ -33,6 +33,7 @@ Scene at_rest(Scene scene) {
     if (pin.angle) pin.angle = 0.0;
     pin.scale = 1;
   }
+  for (Stroke& stroke : scene.strokes) stroke.pose = stroke.rest;
   return scene;
 }
 

@@ -29,12 +29,20 @@ struct Pin {
   bool operator==(const Pin&) const = default;
 };
 
+/// A line on the picture and where it goes; both run the same way.
+struct Stroke {
+  Points rest, pose;
+  Extra extra;
+  bool operator==(const Stroke&) const = default;
+};
+
 /// All that is saved. rest and pose of the cage have the same number of segments; both are empty
 /// until a cage is drawn.
 struct Scene {
   std::optional<ImageReference> image;
   Cage rest, pose;
   std::vector<Pin> pins;
+  std::vector<Stroke> strokes;
   Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::string method = "cage";
   Parameters parameters;
@@ -50,7 +58,8 @@ Rest rest_of(const Scene& scene, Precision precision);
 Pose pose_of(const Scene& scene);
 /// The scene with everything posed as it rests.
 Scene at_rest(Scene scene);
-/// The scene with this cage, everything at rest: pins keep their rest and return to it.
+/// The scene with this cage, everything at rest: pins and strokes keep their rest and
+/// return to it.
 Scene with_cage(Scene scene, Cage cage);
 Scene with_cage(Scene scene, const Points& polygon);
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/outline_match.h"
+#include "core/polyline.h"
 #include "core/segment.h"
 
 namespace holomorph {
@@ -198,30 +199,44 @@ void read_method(const Reader& reader, Scene& scene) {
   scene.method_extra = reader.others({"id", "parameters"});
 }
 
-Points read_outline(const Reader& reader) {
+/// Points that a check, which throws Error, accepts.
+Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>)) {
   reader.array();
   constexpr size_t kMostPoints = 20000;
   if (reader.size() > kMostPoints) reader.fail("more than 20000 points");
-  Points outline;
-  for (size_t i = 0; i < reader.size(); ++i) outline.push_back(reader[i].point());
+  Points curve;
+  for (size_t i = 0; i < reader.size(); ++i) curve.push_back(reader[i].point());
   try {
-    check_outline(outline);
+    check(curve);
   } catch (const Error& error) {
-    reader.fail(error.what());
+    reader.fail(error.what(), error.where());
   }
-  return outline;
+  return curve;
+}
+
+Stroke read_stroke(const Reader& reader) {
+  reader.object();
+  Stroke stroke;
+  stroke.rest = read_curve(reader["rest"], check_stroke);
+  stroke.pose = reader.has("pose") ? read_curve(reader["pose"], check_stroke) : stroke.rest;
+  stroke.extra = reader.others({"rest", "pose"});
+  return stroke;
 }
 
 Json point_json(Complex z) {
   return Json::array({z.real(), z.imag()});
 }
 
+Json curve_json(const Points& curve) {
+  Json list = Json::array();
+  for (const Complex& z : curve) list.push_back(point_json(z));
+  return list;
+}
+
 Json loop_json(const Cage& cage) {
   Json list = Json::array();
   for (const Points& controls : cage.segments) {
-    Json segment = Json::array();
-    for (const Complex& z : controls) segment.push_back(point_json(z));
-    list.push_back(std::move(segment));
+    list.push_back(curve_json(controls));
   }
   return list;
 }
@@ -301,9 +316,15 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     if (pins.size() > 2000) pins.fail("more than 2000 pins");
     for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
   }
-  if (reader.has("outline")) scene.outline = read_outline(reader["outline"]);
+  if (reader.has("strokes")) {
+    const Reader strokes = reader["strokes"].array();
+    if (strokes.size() > 200) strokes.fail("more than 200 strokes");
+    for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
+  }
+  if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("method")) read_method(reader["method"], scene);
-  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "outline", "method"});
+  scene.extra =
+      reader.others({"format", "version", "image", "cage", "pins", "strokes", "outline", "method"});
   return scene;
 }
 
@@ -337,10 +358,17 @@ std::string json_of(const Scene& scene) {
       document["pins"].push_back(std::move(item));
     }
   }
-  if (!scene.outline.empty()) {
-    document["outline"] = Json::array();
-    for (const Complex& z : scene.outline) document["outline"].push_back(point_json(z));
+  if (!scene.strokes.empty()) {
+    document["strokes"] = Json::array();
+    for (const Stroke& stroke : scene.strokes) {
+      Json item;
+      item["rest"] = curve_json(stroke.rest);
+      item["pose"] = curve_json(stroke.pose);
+      add_extra(item, stroke.extra);
+      document["strokes"].push_back(std::move(item));
+    }
   }
+  if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
   Json method;
   method["id"] = scene.method;
   method["parameters"] = Json::object();

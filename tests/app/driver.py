@@ -97,6 +97,14 @@ class Editor:
             self.move(start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
         self.xdotool("mouseup", 1)
 
+    def draw(self, line):
+        """Moves along these points with the button down."""
+        self.move(*line[0])
+        self.xdotool("mousedown", 1)
+        for point in line[1:]:
+            self.move(*point)
+        self.xdotool("mouseup", 1)
+
     def drop(self, path, x, y):
         """Drops a file on the window as a file manager does (the XDND protocol, version 5)."""
         from Xlib import X, Xatom

@@ -336,11 +336,7 @@ class WindowTest(unittest.TestCase):
             editor.key("o")
             around = [(400 + 330 * math.cos(t / 24 * 2 * math.pi), 400 + 220 * math.sin(t / 24 * 2 * math.pi))
                       for t in range(24)]
-            editor.move(*around[0])
-            editor.xdotool("mousedown", 1)
-            for point in around[1:]:
-                editor.move(*point)
-            editor.xdotool("mouseup", 1)
+            editor.draw(around)
             editor.wait(lambda s: s["outline_points"] > 24 and s["method"] == "outline", "an outline")
             time.sleep(0.5)
             self.screenshot(editor, "outline")
@@ -351,6 +347,32 @@ class WindowTest(unittest.TestCase):
         self.assertLessEqual(report["flipped_triangles"], 16)  # specks at the corners
         self.assertIn("met to", report["note"])
         self.assertNotIn("folds", report["note"])
+
+    def test_a_stroke_is_drawn_and_its_pose_dragged(self):
+        with Editor(PROGRAM, [self.picture]) as editor:
+            editor.wait(lambda s: not s["empty"], "the picture")
+            editor.key("p")
+            for x, y in ((50, 50), (750, 50), (750, 750), (50, 750)):
+                editor.click(x, y)
+            editor.key("Return")
+            editor.wait(lambda s: s["cage_points"] == 4 and not s["busy"], "a cage")
+            editor.key("s")
+            editor.wait(lambda s: s["tool"] == "stroke", "the tool")
+            editor.draw([(150 + 20 * i, 400) for i in range(26)])
+            editor.wait(lambda s: s["strokes"] == 1 and s["method"] == "strokes" and not s["busy"], "a stroke")
+            editor.drag((400, 400), (400, 500))
+            editor.drag((650, 500), (640, 620))
+            time.sleep(0.5)
+            self.screenshot(editor, "strokes")
+            path = os.path.join(self.work, "strokes.json")
+            self.save_as(editor, path)
+        with open(path) as file:
+            stroke = json.load(file)["strokes"][0]
+        self.assertAlmostEqual(stroke["pose"][0][1] - stroke["rest"][0][1], 100, delta=2)
+        self.assertAlmostEqual(stroke["pose"][-1][1] - stroke["rest"][-1][1], 220, delta=3)
+        report = json.loads(subprocess.run([PROGRAM, "info", path, "--json"], check=True,
+                                           capture_output=True, text=True).stdout)
+        self.assertEqual(report["flipped_triangles"], 0)
 
     def test_curves_are_bent_broken_and_cut(self):
         with Editor(PROGRAM, [self.picture]) as editor:

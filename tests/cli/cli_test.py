@@ -18,7 +18,7 @@ from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
-SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus"]
+SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake"]
 
 
 def run(*words, **options):
@@ -175,6 +175,23 @@ class CommandLine(unittest.TestCase):
             self.assertLess(abs(math.hypot((u - 400) / 300, (v - 300) / 200) - 1), 0.03)
         scene["outline"] = [[0, 0], [10, 0], [0, 10], [10, 10]]
         self.bad("info", self.write("bad.json", scene), says="/outline: the outline crosses itself")
+
+    def test_strokes_are_kept_in_the_file_and_what_is_none_is_named(self):
+        scene = {"format": "holomorph", "version": 1,
+                 "cage": {"rest": [[[0, 0]], [[400, 0]], [[400, 80]], [[0, 80]]]},
+                 "strokes": [{"rest": [[30, 40], [370, 40]], "pose": [[30, 80], [200, 40], [370, 80]], "by": "hand"}],
+                 "method": {"id": "strokes", "parameters": {"rigidity": 0.1}}}
+        jsonschema.validate(scene, SCHEMA)
+        path = self.write("scene.json", scene)
+        report = json.loads(self.good("info", path, "--json").stdout)
+        self.assertEqual(report["flipped_triangles"], 0)
+        out = self.good("map", path, "--points", self.write("p.csv", "30,40\n200,40\n370,40")).stdout
+        for (u, v), wanted in zip((map(float, line.split(",")[:2]) for line in out.strip().split("\n")[1:]), (80, 40, 80)):
+            self.assertLess(abs(v - wanted), 8)
+        scene["strokes"][0]["pose"] = [[5, 5], [5, 5]]
+        self.bad("info", self.write("bad.json", scene), says="/strokes/0/pose: the stroke has no length")
+        scene["strokes"] = [{"pose": [[5, 5], [6, 5]]}]
+        self.bad("info", self.write("bad.json", scene), says="/strokes/0: the key 'rest' is missing")
 
     def test_golden_pictures(self):
         for name in SAMPLES:

@@ -39,7 +39,8 @@ Cage cage_of(Shape shape) {
   return cubic;
 }
 
-/// A cage with three pins (one of them turning) where the method uses pins; posed by a bend.
+/// A cage with three pins (one of them turning) and two strokes where the method uses them; posed
+/// by a bend.
 Setup setup(const Method& method, Precision precision, Shape shape = Shape::straight) {
   Setup s;
   s.rest.cage = cage_of(shape);
@@ -49,9 +50,15 @@ Setup setup(const Method& method, Precision precision, Shape shape = Shape::stra
   s.rest.mesh = std::make_shared<const Mesh>(mesh);
   s.rest.derivative_samples = derivative_samples(mesh);
   if (method.uses_pins) s.rest.pins = {{{40, 40}, false}, {{150, 60}, true}, {{50, 160}, false}};
+  if (method.uses_strokes)
+    s.rest.strokes = {{{20, 20}, {60, 30}, {110, 25}}, {{30, 90}, {30, 150}}};
   s.pose.cage = s.rest.cage;
   for (Points& segment : s.pose.cage.segments)
     for (Complex& z : segment) z = bend(z);
+  for (const Points& stroke : s.rest.strokes) {
+    s.pose.strokes.emplace_back();
+    for (const Complex& z : stroke) s.pose.strokes.back().push_back(bend(z) + Complex(2, 4));
+  }
   for (const RestPin& pin : s.rest.pins)
     s.pose.pins.push_back({bend(pin.position) + Complex(5, -3), 0.3});
   return s;
@@ -63,6 +70,10 @@ Pose mapped(const Rest& rest, Complex a, Complex b) {
     for (Complex& z : segment) z = a * z + b;
   for (const RestPin& pin : rest.pins)
     pose.pins.push_back({a * pin.position + b, std::arg(a), std::abs(a)});
+  for (const Points& stroke : rest.strokes) {
+    pose.strokes.emplace_back();
+    for (const Complex& z : stroke) pose.strokes.back().push_back(a * z + b);
+  }
   return pose;
 }
 
@@ -134,6 +145,9 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else")
     scale_cage(s.rest.cage), scale_cage(s.pose.cage);
     for (RestPin& pin : s.rest.pins) pin.position *= scale;
     for (PosePin& pin : s.pose.pins) pin.position *= scale;
+    for (auto* strokes : {&s.rest.strokes, &s.pose.strokes})
+      for (Points& stroke : *strokes)
+        for (Complex& z : stroke) z *= scale;
     for (Complex& z : s.rest.samples) z *= scale;
     for (Complex& z : s.rest.derivative_samples) z *= scale;
     Mesh mesh = *s.rest.mesh;

@@ -15,6 +15,7 @@ struct Desk {
     tools.push_back(select_tool());
     tools.push_back(pen_tool());
     tools.push_back(pin_tool());
+    tools.push_back(stroke_tool());
     tools.push_back(outline_tool());
     workspace.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
     if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
@@ -61,6 +62,12 @@ struct Desk {
     move(0.5 * (from + to), mods);
     move(to, mods);
     release(to, mods);
+  }
+  /// With the button down along a line.
+  void draw(const Points& line, Modifiers mods = {}) {
+    press(line.front(), mods);
+    for (const Complex& z : line) move(z, mods);
+    release(line.back(), mods);
   }
   const Scene& scene() const { return workspace.scene(); }
   size_t steps() const { return workspace.document.history().entries().size(); }

@@ -116,6 +116,118 @@ TEST_CASE("Pen: draw, take back, close by the first point, by Enter and by doubl
   }
 }
 
+TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::stroke;
+  size_t steps = desk.steps();
+  const Points line{{20, 75}, {60, 76}, {100, 74}, {140, 75}, {180, 75}};
+  desk.draw(line);
+  desk.settle();
+  REQUIRE(desk.scene().strokes.size() == 1);
+  CHECK(desk.scene().method == "strokes");
+  CHECK(desk.steps() == ++steps);
+  const Points rest = desk.scene().strokes[0].rest;
+  for (size_t i = 0; i < rest.size(); ++i)
+    CHECK(std::abs(desk.scene().strokes[0].pose[i] - rest[i]) < 1e-9);
+  CHECK(std::abs(rest.front() - line.front()) < 1e-9);
+  CHECK(std::abs(rest.back() - line.back()) < 1e-9);
+
+  desk.drag({100, 75}, {120, 135});  // by its middle: as a whole
+  CHECK(desk.steps() == ++steps);
+  for (size_t i = 0; i < rest.size(); ++i)
+    CHECK(std::abs(desk.scene().strokes[0].pose[i] - rest[i] - Complex(20, 60)) < 1e-9);
+  CHECK(desk.scene().strokes[0].rest == rest);
+  desk.settle();
+  const Complex middle{100, 75};
+  CHECK(std::abs(desk.workspace.posed_at(middle) - middle - Complex(20, 60)) < 1);
+
+  desk.drag({200, 135}, {210, 175});  // by its end: bent, the other end stays
+  CHECK(desk.steps() == ++steps);
+  CHECK(std::abs(desk.scene().strokes[0].pose.back() - Complex(210, 175)) < 1e-9);
+  CHECK(std::abs(desk.scene().strokes[0].pose.front() - Complex(40, 135)) < 1e-9);
+
+  // Redrawn from the other end it does not turn around.
+  desk.draw({{200, 40}, {120, 60}, {30, 40}}, kShift);
+  CHECK(desk.steps() == ++steps);
+  CHECK(std::abs(desk.scene().strokes[0].pose.front() - Complex(30, 40)) < 1e-9);
+  CHECK(std::abs(desk.scene().strokes[0].pose.back() - Complex(200, 40)) < 1e-9);
+  run(action_named("edit.reset"), desk.workspace);
+  CHECK(desk.scene().strokes[0].pose == rest);
+  CHECK(desk.steps() == ++steps);
+
+  desk.settle();
+  desk.click({100, 75}, kAlt);
+  CHECK(desk.scene().strokes.empty());
+  CHECK(desk.steps() == ++steps);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.scene().strokes.size() == 1);
+}
+
+TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::stroke;
+  desk.draw({{20, 75}, {180, 75}});
+  desk.settle();
+  const Points before = desk.scene().strokes[0].pose;
+  desk.press({100, 75}, {true, false, false});
+  desk.move({100, 85});
+  desk.move({100, 105});
+  desk.release({100, 105});
+  const Points& after = desk.scene().strokes[0].pose;
+  double most = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const Complex by = after[i] - before[i];
+    CHECK(std::abs(by.real()) < 1e-12);
+    most = std::max(most, by.imag());
+    if (std::abs(before[i].real() - 100) > 82) CHECK(by == Complex(0));
+  }
+  CHECK(most > 29.9);
+  CHECK(std::abs(after.front() - before.front()) < 0.5);
+}
+
+TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape leave nothing") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::stroke;
+  const size_t steps = desk.steps();
+  desk.press({20, 75});
+  desk.move({100, 75});
+  CHECK(desk.tool().busy());
+  CHECK(desk.tool().key(Key::escape, desk.workspace));
+  desk.release({100, 75});
+  desk.click({50, 50});
+  desk.draw({{300, 75}, {400, 75}});
+  CHECK(desk.steps() == steps);
+  CHECK(desk.workspace.toasts.size() == 1);  // it starts on the picture
+  desk.draw({{100, 75}, {300, 75}});
+  REQUIRE(desk.scene().strokes.size() == 1);
+  CHECK(desk.scene().strokes[0].rest.back().real() <= 200);
+  CHECK_THAT(desk.workspace.toasts[1].text, Catch::Contains("left out"));
+  // At rest it is drawn where the picture rests, and nothing moves by it.
+  desk.workspace.layer = Layer::rest;
+  desk.settle();
+  desk.draw({{30, 30}, {100, 30}});
+  REQUIRE(desk.scene().strokes.size() == 2);
+  CHECK(std::abs(desk.scene().strokes[1].rest.front() - Complex(30, 30)) < 1e-9);
+  CHECK(std::abs(desk.scene().strokes[1].pose.front() - Complex(30, 30)) < 1e-6);
+}
+
+TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like other handles") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.commit(
+      "Stroke", with_stroke(desk.scene(), {{40, 75}, {160, 75}}, {{40, 75}, {100, 75}, {160, 75}}));
+  desk.settle();
+  const Handle handle{Handle::Kind::stroke, 0, 0};
+  desk.click({60, 77});
+  CHECK(desk.workspace.selection == Selection{handle});
+  desk.click({100, 120});
+  CHECK(desk.workspace.selection.empty());
+  desk.drag({-20, 60}, {110, 100});
+  CHECK(desk.workspace.selection == Selection{handle});
+  run(action_named("edit.delete"), desk.workspace);
+  CHECK(desk.scene().strokes.empty());
+  CHECK(desk.workspace.document.history().entries().back().label == "Delete stroke");
+}
+
 TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's target, as one step") {
   Desk desk(shapes::rectangle(200, 150));
   desk.workspace.tool = ToolId::outline;

@@ -3,6 +3,7 @@
 
 #include "core/cauchy.h"
 #include "core/error.h"
+#include "core/polyline.h"
 
 namespace holomorph {
 template <class T>
@@ -41,6 +42,11 @@ PointMap::Value SumMap::at(Complex z) const {
     value.f += part.f;
     value.fz += part.df;
   }
+  for (const CauchySum& term : conjugates) {
+    const CauchySum::Value part = term.at(z);
+    value.f += std::conj(part.f);
+    value.fzbar += std::conj(part.df);
+  }
   return value;
 }
 
@@ -55,6 +61,9 @@ void check_pose(const Rest& rest, const Pose& pose) {
                                             " has a higher degree than the rest was prepared for");
   if (pose.pins.size() != rest.pins.size())
     throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
+  if (pose.strokes.size() != rest.strokes.size())
+    throw Error(ErrorKind::bad_input, "there must be as many posed strokes as strokes at rest");
+  for (const Points& stroke : pose.strokes) check_stroke(stroke);
   for (const Points& segment : pose.cage.segments)
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");

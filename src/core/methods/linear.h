@@ -34,10 +34,10 @@ class LinearDeformer : public Deformer {
   PlanarMatrix<T> derivative_;
 };
 
-/// f(z) = z + constant + slope (z - center) + a sum of Cauchy integrals.
+/// f(z) = z + constant + slope (z - center) + a sum of Cauchy integrals and conjugates of others.
 class SumMap final : public PointMap {
  public:
-  std::vector<CauchySum> terms;
+  std::vector<CauchySum> terms, conjugates;
   Complex constant = 0, slope = 0, center = 0;
 
   Value at(Complex z) const override;

@@ -3,8 +3,9 @@
 
 #include "core/cauchy_array.h"
 #include "core/cauchy_map.h"
-#include "core/error.h"
+#include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
+#include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 #include "core/outline_match.h"
 
@@ -13,30 +14,10 @@ namespace {
 
 constexpr int kDraftVertices = 100;
 
-/// F and conj(G) by Cauchy sums over the basis.
-class OutlinePointMap final : public PointMap {
- public:
-  explicit OutlinePointMap(const OutlineMatch& match) : phi_(match.basis, displacement(match)) {
-    if (match.psi.size() > 0) psi_.emplace(match.basis, match.psi.conjugate());
-  }
-
-  Value at(Complex z) const override {
-    const CauchySum::Value phi = phi_.at(z);
-    const CauchySum::Value psi = psi_ ? psi_->at(z) : CauchySum::Value{};
-    return {z + phi.f + std::conj(psi.f), 1.0 + phi.df, std::conj(psi.df)};
-  }
-
- private:
-  static VectorXc displacement(const OutlineMatch& match) {
-    return match.phi - controls_of(match.basis);
-  }
-  CauchySum phi_;
-  std::optional<CauchySum> psi_;
-};
-
 class OutlineDeformer final : public Deformer {
  public:
-  explicit OutlineDeformer(const Rest& rest) : rest_(rest), method_(method_named("outline")) {
+  explicit OutlineDeformer(const Rest& rest)
+      : rest_(rest), method_(method_named("outline")), pins_(acting_pins(rest)) {
     Rest free = rest;
     free.parameters.clear();
     free_ = method_named("pins").prepare(free, nullptr);
@@ -64,12 +45,17 @@ class OutlineDeformer final : public Deformer {
     }
     out.iterations = match_.iterations;
     out.note = note(Polyline(pose.outline, true).diagonal());
+    if (!pins_.note.empty()) out.note += "; " + pins_.note;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     if (pose.outline.empty()) return free_->point_map(pose);
-    return std::make_unique<OutlinePointMap>(
-        pose == posed_ && !draft_ ? match_ : matched(task(pose), settings(false)));
+    const OutlineMatch match =
+        pose == posed_ && !draft_ ? match_ : matched(task(pose), settings(false));
+    auto map = std::make_unique<SumMap>();
+    map->terms.emplace_back(match.basis, match.phi - controls_of(match.basis));
+    if (match.psi.size() > 0) map->conjugates.emplace_back(match.basis, match.psi.conjugate());
+    return map;
   }
 
  private:
@@ -85,9 +71,7 @@ class OutlineDeformer final : public Deformer {
     settings.vertices = static_cast<int>(value("vertices"));
     settings.smoothness = value("smoothness");
     settings.pin_weight = value("pin_weight");
-    // From a stiffness that is nearly conformal to one that hardly counts, by decades.
-    const double softness = value("softness");
-    settings.stiffness = softness > 0 ? std::pow(10.0, -3 * softness) : 0;
+    settings.stiffness = stiffness_of(value("softness"));
     if (value("upright") == 0) settings.upright = 0;
     if (settings.published) settings.most_iterations = 200;
     if (draft) settings.vertices = std::min(settings.vertices, kDraftVertices);
@@ -96,7 +80,7 @@ class OutlineDeformer final : public Deformer {
 
   OutlineTask task(const Pose& pose) const {
     OutlineTask task{rest_.cage, pose.outline, {}, {}};
-    for (size_t i = 0; i < rest_.pins.size(); ++i) {
+    for (const size_t i : pins_.used) {
       task.pins.push_back(rest_.pins[i].position);
       task.pinned.push_back(pose.pins[i].position);
     }
@@ -127,6 +111,7 @@ class OutlineDeformer final : public Deformer {
 
   Rest rest_;
   const Method& method_;
+  ActingPins pins_;
   std::unique_ptr<Deformer> free_;  ///< cage and pins, until there is an outline
   OutlineMatch match_;
   std::optional<Pose> posed_;
@@ -141,37 +126,22 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method outline_method() {
-  const auto number = [](const char* key, const char* label, const char* hint, double fallback,
-                         double lowest, double highest) {
-    ParameterSpec spec{key, label, hint};
-    spec.fallback = fallback;
-    spec.lowest = lowest;
-    spec.highest = highest;
-    return spec;
-  };
-  ParameterSpec published{"published", "As published",
-                          "The method of the paper: equal steps along the outline, closest points "
-                          "from there, no smoothing"};
-  published.kind = ParameterSpec::Kind::toggle;
-  ParameterSpec upright{"upright", "Upright", "Turn the picture as little as is worth it"};
-  upright.kind = ParameterSpec::Kind::toggle;
-  upright.fallback = 1;
-  upright.used_when = {"published", 0};
-  ParameterSpec smoothness =
-      number("smoothness", "Smoothness", "How much bending costs; large values round the corners",
-             0.01, 1e-4, 10);
-  smoothness.logarithmic = true;
-  smoothness.used_when = {"published", 0};
-  ParameterSpec weight =
-      number("pin_weight", "Pin weight", "How much missing a pin costs", 0.1, 1e-3, 1e3);
-  weight.logarithmic = true;
   return {
       "outline",
       "Onto an outline",
       "The shape of the cage goes onto a drawn outline, inside and all.",
-      {number("softness", "Softness", "0 keeps all angles; 1 hardly any", 0, 0, 1), smoothness,
-       weight, number("vertices", "Vertices", "How finely the outline is followed", 200, 50, 400),
-       upright, published},
+      {number("softness", "Softness", "0 keeps all angles; 1 hardly any", 0, 0, 1),
+       used_with(
+           "published", 0,
+           by_decades("smoothness", "Smoothness",
+                      "How much bending costs; large values round the corners", 0.01, 1e-4, 10)),
+       by_decades("pin_weight", "Pin weight", "How much missing a pin costs", 0.1, 1e-3, 1e3),
+       number("vertices", "Vertices", "How finely the outline is followed", 200, 50, 400),
+       used_with("published", 0,
+                 toggle("upright", "Upright", "Turn the picture as little as is worth it", true)),
+       toggle("published", "As published",
+              "The method of the paper: equal steps along the outline, closest points from "
+              "there, no smoothing")},
       true,
       true,
       false,

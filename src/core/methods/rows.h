@@ -21,6 +21,9 @@ Method har_arap_method();
 /// `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
 Method outline_method();
 
+/// `strokes`: curves inside go onto other curves, free to slide (Segall, Ben-Chen 2016).
+Method strokes_method();
+
 /// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
 Method bounded_method(const std::vector<Method>& references);
 

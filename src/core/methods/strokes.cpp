@@ -1,0 +1,334 @@
+// Method `strokes`: curves drawn inside go onto curves drawn elsewhere, their points free to slide
+// along them (Segall, Ben-Chen 2016, E_s2s); between them the map is as smooth (E_s), as rigid
+// (E_r) and as conformal as wanted.
+//
+// f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
+// minimised by alternating least squares. Without strokes it is method `pins`.
+#include "core/alternating_fit.h"
+#include "core/boundary_basis.h"
+#include "core/cauchy.h"
+#include "core/error.h"
+#include "core/methods/acting_pins.h"
+#include "core/methods/linear.h"
+#include "core/methods/parameters.h"
+#include "core/methods/rows.h"
+#include "core/polyline.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kSamplesPerVertex = 2;
+constexpr double kInset = 1;       ///< of rigidity's and smoothness's samples, in their distances
+constexpr double kPerLength = 10;  ///< samples of a stroke for each L of it
+constexpr double kLittle = 1e-3;   ///< of rigidity, in the start
+constexpr int kFewest = 8, kMost = 40;
+constexpr int kDraftSteps = 20, kSteps = 300;
+constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
+
+/// A stroke's samples at rest and what part of its length each is at.
+struct Samples {
+  Points places;
+  std::vector<double> shares;
+  Index first = 0;       ///< among all strokes' samples
+  size_t stroke = 0;     ///< of the rest
+  bool clipped = false;  ///< not all of the stroke lies inside
+};
+
+Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
+  const Polyline line(without_repeats(stroke), false);
+  const Index count = static_cast<Index>(
+      std::clamp<double>(std::round(kPerLength * line.length() / unit), kFewest, kMost));
+  Samples samples;
+  for (Index i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    const Complex z = line.at(share * line.length());
+    if (contains(cage, z))
+      samples.places.push_back(z), samples.shares.push_back(share);
+    else
+      samples.clipped = true;
+  }
+  return samples;
+}
+
+template <class T>
+class StrokesDeformer final : public Deformer {
+ public:
+  explicit StrokesDeformer(const Rest& rest)
+      : rest_(rest), method_(method_named("strokes")), pins_(acting_pins(rest)) {
+    for (const Points& stroke : rest.strokes) check_stroke(stroke);
+    take_free();
+    const double unit = perimeter(outline_of(rest.cage)) / (2 * kPi);
+    Index count = 0;
+    for (size_t i = 0; i < rest.strokes.size(); ++i) {
+      Samples samples = samples_of(rest.strokes[i], rest.cage, unit);
+      if (samples.clipped)
+        note_ += (note_.empty() ? "" : "; ") + ("stroke " + std::to_string(i + 1)) +
+                 (samples.places.empty() ? " lies outside the cage and does not act"
+                                         : " leaves the cage: what is inside acts");
+      samples.stroke = i;
+      samples.first = count;
+      count += static_cast<Index>(samples.places.size());
+      if (!samples.places.empty()) strokes_.push_back(std::move(samples));
+    }
+    if (!strokes_.empty()) prepare(unit, count);
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    check_pose(rest_, pose);
+    if (strokes_.empty()) {
+      free_->deform(without_strokes(pose), out, wanted);
+      if (!note_.empty()) out.note = note_ + (out.note.empty() ? "" : "; ") + out.note;
+      return;
+    }
+    cage_->deform(without_handles(pose), out, wanted);
+    out.note = note_;
+    if (is_at_rest(pose)) {
+      moved_ = Moved{};
+      posed_.reset();
+      return;
+    }
+    if (pose != posed_ || wanted.draft != draft_) {
+      solve(pose, wanted.draft);
+      posed_ = pose;
+      draft_ = wanted.draft;
+    }
+    out.iterations = moved_.iterations;
+    if (moved_.iterations == kSteps) out.status = SampledMap::Status::iterating;
+    out.f += product(value_, moved_.phi);
+    if (soft_) out.f += product(value_, moved_.psi).conjugate();
+    if (!wanted.derivatives || rest_.samples.empty()) return;
+    if (slope_.rows() == 0)
+      slope_ = planar_coordinates<T>(
+          polygon_cage(basis_->polygon()),
+          rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
+    out.fz += product(slope_, moved_.phi);
+    if (soft_) out.fzbar += product(slope_, moved_.psi).conjugate();
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(rest_, pose);
+    if (strokes_.empty()) return free_->point_map(without_strokes(pose));
+    auto map = std::make_unique<SumMap>();
+    map->terms.emplace_back(rest_.cage, cage_displacement(rest_, pose));
+    if (is_at_rest(pose)) return map;
+    StrokesDeformer solver(*this);
+    if (pose != posed_ || draft_) solver.solve(pose, false);
+    const Cage polygon = polygon_cage(basis_->polygon());
+    map->terms.emplace_back(polygon, solver.moved_.phi);
+    if (soft_) map->conjugates.emplace_back(polygon, solver.moved_.psi);
+    return map;
+  }
+
+ private:
+  /// h = C phi + conj(C psi) over the basis' polygon.
+  struct Moved {
+    VectorXc phi, psi;
+    int iterations = 0;
+    std::vector<double> shares;  ///< of each sample on its posed stroke
+  };
+  enum Term : size_t { on_strokes, rigid, on_pins };
+
+  StrokesDeformer(const StrokesDeformer&) = default;
+
+  double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
+
+  static Pose without_handles(const Pose& pose) { return {pose.cage, {}}; }
+  static Pose without_strokes(const Pose& pose) { return {pose.cage, pose.pins}; }
+
+  void take_free() {
+    Rest rest = rest_;
+    rest.parameters.clear();
+    rest.strokes.clear();
+    free_ = method_named("pins").prepare(rest, nullptr);
+    rest.pins.clear();
+    cage_ = method_named("cage").prepare(rest, nullptr);
+  }
+
+  void prepare(double unit, Index count) {
+    const int vertices = BoundaryBasis::usual_size(rest_.cage.size());
+    basis_ =
+        std::make_shared<const BoundaryBasis>(rest_.cage, vertices, kSamplesPerVertex * vertices);
+    soft_ = value("softness") > 0;
+    value_ = planar_coordinates<T>(polygon_cage(basis_->polygon()), rest_.samples, 0);
+    Points on, held, turning;
+    for (const Samples& stroke : strokes_)
+      on.insert(on.end(), stroke.places.begin(), stroke.places.end());
+    for (const size_t i : pins_.used) {
+      held.push_back(rest_.pins[i].position);
+      if (rest_.pins[i].turns) turning.push_back(rest_.pins[i].position);
+    }
+    const Points inner = basis_->inset(kInset);
+    cage_on_ = as_complex(planar_coordinates<double>(rest_.cage, on));
+    cage_inner_ = unit * as_complex(planar_coordinates<double>(rest_.cage, inner, 1));
+    const Index n = basis_->size(), p = static_cast<Index>(held.size()),
+                q = static_cast<Index>(turning.size());
+    MatrixXc pins(p + q, n);
+    pins.topRows(p) = basis_->values(held);
+    pins.bottomRows(q) = unit * basis_->values(turning, 1);
+    cage_at_pins_.resize(p + q, rest_.cage.control_count());
+    cage_at_pins_.topRows(p) = as_complex(planar_coordinates<double>(rest_.cage, held));
+    cage_at_pins_.bottomRows(q) =
+        unit * as_complex(planar_coordinates<double>(rest_.cage, turning, 1));
+    unit_ = unit;
+    const MatrixXc bent =
+        unit * unit * cauchy_coordinates(polygon_cage(basis_->polygon()), inner, 2);
+    const MatrixXc slopes = unit * basis_->values(inner, 1);
+
+    std::vector<FitTerm> terms;
+    const auto follows_values = [](const VectorXc&, VectorXc&) {};
+    terms.push_back({with_psi(basis_->values(on), Psi::added), 1});
+    terms[on_strokes].project = follows_values;
+    terms.push_back({with_psi(slopes, Psi::none), value("rigidity")});
+    terms[rigid].project = follows_values;
+    if (p + q > 0) terms.push_back({with_psi(pins, Psi::added, p), value("pin_weight")});
+    terms.push_back({with_psi(bent, Psi::none), value("smoothness")});
+    if (soft_) {
+      terms.push_back({with_psi(bent, Psi::alone), value("smoothness")});
+      terms.push_back({with_psi(slopes, Psi::alone), stiffness_of(value("softness"))});
+      MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
+      constant.rightCols(n) = basis_->one().transpose();
+      terms.push_back({std::move(constant)});
+    }
+    shares_.assign(static_cast<size_t>(count), 0);
+    fit_.emplace(terms);
+    terms[rigid].weight *= kLittle;
+    terms[rigid].project = nullptr;
+    loose_.emplace(std::move(terms));
+  }
+
+  /// Rows for whitened unknowns: of phi alone, of phi and conj(psi), or of conj(psi) alone. Rows
+  /// from `holomorphic` on are of f_z, that psi has no part in.
+  enum class Psi { none, added, alone };
+  MatrixXc with_psi(const MatrixXc& values, Psi psi, Index holomorphic = -1) const {
+    const MatrixXc rows = basis_->whitened(values);
+    if (!soft_) return rows;
+    MatrixXc both = MatrixXc::Zero(rows.rows(), 2 * rows.cols());
+    if (psi != Psi::alone) both.leftCols(rows.cols()) = rows;
+    const Index count = holomorphic < 0 ? rows.rows() : holomorphic;
+    if (psi != Psi::none) both.topRightCorner(count, rows.cols()) = rows.topRows(count).conjugate();
+    return both;
+  }
+
+  bool is_at_rest(const Pose& pose) const {
+    if (pose.strokes != rest_.strokes || pose.cage != rest_.cage) return false;
+    for (size_t i = 0; i < rest_.pins.size(); ++i) {
+      const PosePin& pin = pose.pins[i];
+      if (pin.position != rest_.pins[i].position) return false;
+      if (rest_.pins[i].turns && (pin.angle != 0 || pin.scale != 1)) return false;
+    }
+    return true;
+  }
+
+  void solve(const Pose& pose, bool draft) {
+    const VectorXc cage = cage_displacement(rest_, pose);
+    const VectorXc on = cage_on_ * cage, inner = cage_inner_ * cage;
+    std::vector<Polyline> curves;
+    for (const Samples& stroke : strokes_)
+      curves.emplace_back(without_repeats(pose.strokes[stroke.stroke]), false);
+    std::vector<Index> hints(shares_.size(), 0);
+    const auto for_each_sample = [&](const auto& take) {
+      for (size_t s = 0; s < strokes_.size(); ++s)
+        for (size_t i = 0; i < strokes_[s].places.size(); ++i) {
+          const Index row = strokes_[s].first + static_cast<Index>(i);
+          take(row, curves[s], strokes_[s].places[i] + on[row], strokes_[s].shares[i]);
+        }
+    };
+    AlternatingFit& fit = *fit_;
+    fit.project_by(on_strokes, [&](const VectorXc& values, VectorXc& targets) {
+      for_each_sample([&](Index row, const Polyline& curve, Complex base, double) {
+        Index& hint = hints[static_cast<size_t>(row)];
+        const auto nearest = curve.nearest(base + values[row], hint);
+        hint = nearest.segment;
+        shares_[static_cast<size_t>(row)] =
+            curve.length_at(nearest.segment, nearest.parameter) / curve.length();
+        targets[row] = nearest.point - base;
+      });
+    });
+    fit.project_by(rigid, [&](const VectorXc& values, VectorXc& targets) {
+      for (Index i = 0; i < values.size(); ++i) {
+        const Complex base = unit_ + inner[i], slope = base + values[i];
+        const double size = std::abs(slope);
+        targets[i] = (size > 0 ? unit_ * slope / size : Complex(unit_)) - base;
+      }
+    });
+    const bool warm = draft && moved_.shares.size() == shares_.size();
+    VectorXc first(static_cast<Index>(shares_.size()));
+    for_each_sample([&](Index row, const Polyline& curve, Complex base, double share) {
+      if (warm) share = moved_.shares[static_cast<size_t>(row)];
+      first[row] = curve.at(share * curve.length()) - base;
+    });
+    if (!pins_.used.empty()) fit.give(on_pins, pin_targets(pose, cage));
+    if (!warm) {
+      // Without rigidity first: what is turned far would be held by where it was.
+      if (!pins_.used.empty()) loose_->give(on_pins, pin_targets(pose, cage));
+      loose_->start(first);
+      fit.reset(loose_->unknowns());
+    }
+    fit.start(first);
+    const auto energies = fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled,
+                                  draft ? kDraftSteps : kSteps);
+    moved_.iterations = static_cast<int>(energies.size()) - 1;
+    moved_.shares = shares_;
+    const VectorXc x = fit.unknowns();
+    const Index n = basis_->size();
+    moved_.phi = basis_->coefficients(x.head(n));
+    if (soft_) moved_.psi = basis_->coefficients(x.tail(n).conjugate());
+  }
+
+  VectorXc pin_targets(const Pose& pose, const VectorXc& cage) const {
+    VectorXc targets = -(cage_at_pins_ * cage);
+    Index row = 0;
+    for (const size_t i : pins_.used)
+      targets[row++] += pose.pins[i].position - rest_.pins[i].position;
+    for (const size_t i : pins_.used)
+      if (rest_.pins[i].turns)
+        targets[row++] += unit_ * (std::polar(pose.pins[i].scale, pose.pins[i].angle) - 1.0);
+    return targets;
+  }
+
+  Rest rest_;
+  const Method& method_;
+  ActingPins pins_;
+  std::shared_ptr<Deformer> free_, cage_;
+  std::string note_;
+  std::vector<Samples> strokes_;
+  std::shared_ptr<const BoundaryBasis> basis_;
+  bool soft_ = false;
+  double unit_ = 1;                               ///< L
+  MatrixXc cage_on_, cage_inner_, cage_at_pins_;  ///< cage coordinates at strokes, inside, at pins
+  PlanarMatrix<T> value_, slope_;
+  std::optional<AlternatingFit> fit_, loose_;  ///< the second one hardly minds growing
+  std::vector<double> shares_;
+  Moved moved_;
+  std::optional<Pose> posed_;
+  bool draft_ = false;
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  if (rest.precision == Precision::full) return std::make_unique<StrokesDeformer<double>>(rest);
+  return std::make_unique<StrokesDeformer<float>>(rest);
+}
+
+}  // namespace
+
+Method strokes_method() {
+  Method method{
+      "strokes",
+      "Strokes",
+      "Draw lines on the picture and reshape them: it slides along them as smoothly as it can.",
+      {by_decades("smoothness", "Smoothness", "How much bending costs", 1e-5, 1e-8, 1e-1),
+       by_decades("rigidity", "Rigidity",
+                  "How much growing and shrinking costs; strokes slide along their lines for it",
+                  1e-2, 1e-5, 1),
+       number("softness", "Softness", "0 keeps all angles; 1 hardly any", 0, 0, 1),
+       by_decades("pin_weight", "Pin weight", "How much missing a pin costs", 1, 1e-3, 1e3)},
+      true,
+      true,
+      false,
+      prepare};
+  method.uses_strokes = true;
+  return method;
+}
+
+}  // namespace holomorph
