@@ -11,6 +11,7 @@
 #include "app/panels.h"
 #include "app/state_file.h"
 #include "app/toasts.h"
+#include "core/clock.h"
 #include "core/error.h"
 
 namespace holomorph {
@@ -63,8 +64,10 @@ class Editor {
     open_context_menu(input);
     answer(std::exchange(workspace_.request, Request::none));
     if (workspace_.map.update(workspace_.scene(),
-                              {is_heat(workspace_.view), workspace_.preview.has_value()}))
+                              {is_heat(workspace_.view), workspace_.preview.has_value(),
+                               workspace_.playback.iteration}))
       window_.wake();
+    if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
     update_title();
     files_.autosave();
     draw_canvas();
@@ -221,7 +224,7 @@ class Editor {
       if (canvas_.heat_values().size() > 0)
         draw_legend(workspace_, canvas_.heat_scale(), canvas_.heat_values(), style);
       draw_toolbar(workspace_, scale);
-      draw_inspector(workspace_, canvas_.heat_scale(), scale);
+      draw_inspector(workspace_, canvas_.heat_scale(), scale, window_.light());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);

@@ -1,6 +1,7 @@
 // The panel on the right: method, selection, cage, heat map, history.
 #include <utility>
 
+#include "app/map_panel.h"
 #include "app/panels.h"
 #include "edit/curve_edits.h"
 #include "scene/auto_cage.h"
@@ -256,19 +257,6 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
     ImGui::TextDisabled("%.3g to %.3g", heat.low, heat.high);
   }
   ImGui::Checkbox("Mesh", &workspace.show_mesh);
-  if (!workspace.map.has_map()) return;
-  const double turns = workspace.map.boundary_turns();
-  const bool once = std::abs(turns - 1) < 0.01;
-  ImGui::TextColored(once ? ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)
-                          : ImGui::ColorConvertU32ToFloat4(canvas_colors(false).warning),
-                     "Boundary turns %.2f times", turns);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "The turning number of the picture's outline: 1 unless the picture\n"
-        "winds around a branch point or lies on its back.");
-  if (const Points& zeros = workspace.map.map().zeros; !zeros.empty())
-    ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(zeros.size()),
-                        zeros.size() == 1 ? "place" : "places");
 }
 
 void history_section(Workspace& workspace) {
@@ -298,7 +286,7 @@ void history_section(Workspace& workspace) {
 
 }  // namespace
 
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale) {
+void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, bool light) {
   const PanelSizes sizes = PanelSizes::at(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(
@@ -317,10 +305,14 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale) {
     ImGui::Separator();
     ImGui::Spacing();
   };
-  section("METHOD", [&] { method_section(workspace); });
+  section("METHOD", [&] {
+    method_section(workspace);
+    convergence_section(workspace, scale);
+  });
   section("SELECTION", [&] { selection_section(workspace); });
   section("CAGE", [&] { cage_section(workspace); });
   section("VIEW", [&] { heat_section(workspace, heat); });
+  if (workspace.map.has_map()) section("FOLDS", [&] { injectivity_section(workspace, light); });
   ImGui::TextDisabled("HISTORY");
   history_section(workspace);
   ImGui::End();

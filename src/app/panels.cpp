@@ -165,7 +165,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     } else if (map.has_map() && state == SampledMap::Status::infeasible) {
       note = map.map().note;
       note_color = {1.0f, 0.45f, 0.4f, 1};
-    } else if (const auto fold = map.fold()) {
+    } else if (const auto fold = map.injectivity().fold) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) {

@@ -34,7 +34,7 @@ struct PanelSizes {
 /// One menu per name in the action table. Returns recent files to open and style changes.
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences);
 void draw_toolbar(Workspace& workspace, double scale);
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale);
+void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, bool light);
 
 /// What the status bar says besides the workspace.
 struct StatusLine {

@@ -9,7 +9,7 @@ namespace holomorph {
 void StateFile::write(const Workspace& workspace, bool gesture, int compared_rows) {
   static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline"};
   const Viewport& view = workspace.viewport;
-  char text[1200];
+  char text[1400];
   std::snprintf(
       text, sizeof text,
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
@@ -19,7 +19,9 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       "%d, \"history\": "
       "%d, \"step\": %d,\n"
       " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s,\n"
-      " \"status\": \"%s\", \"boundary_turns\": %.6f, \"zeros\": %d, \"compared_rows\": %d}\n",
+      " \"status\": \"%s\", \"boundary_turns\": %.6f, \"folds\": %s, \"iteration\": %d, "
+      "\"iterations\": %d, \"playing\": %s,\n"
+      "  \"zeros\": %d, \"compared_rows\": %d}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.layer == Layer::rest ? "rest" : "pose",
@@ -34,8 +36,11 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       workspace.document.modified() ? "true" : "false", workspace.map.busy() ? "true" : "false",
       gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
       workspace.map.error() ? "true" : "false", name_of(workspace.map.map().status),
-      workspace.map.boundary_turns(), static_cast<int>(workspace.map.map().zeros.size()),
-      compared_rows);
+      workspace.map.injectivity().boundary_turns,
+      workspace.map.injectivity().folds() ? "true" : "false", workspace.map.map().iterations,
+      static_cast<int>(workspace.map.map().energies.size()),
+      workspace.playback.playing ? "true" : "false",
+      static_cast<int>(workspace.map.map().zeros.size()), compared_rows);
   if (text == last_) return;
   last_ = text;
   try {

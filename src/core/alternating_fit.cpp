@@ -67,8 +67,7 @@ void AlternatingFit::reset(const VectorXc& unknowns) {
 }
 
 void AlternatingFit::start(const VectorXc& first_targets) {
-  memory_ = {};
-  evaluate(g_);
+  resume();
   terms_[0].targets = first_targets;
   evaluate(zeroth());
 }
@@ -169,15 +168,21 @@ void AlternatingFit::step(Mode mode) {
   evaluate(zeroth());
 }
 
-std::vector<double> AlternatingFit::run(Mode mode, double settled, int most) {
-  std::vector<double> energies{energy_};
-  while (static_cast<int>(energies.size()) <= most) {
+void AlternatingFit::resume() {
+  memory_ = {};
+  evaluate(VectorXc(g_));
+}
+
+int AlternatingFit::run(Mode mode, double settled, int most, const std::function<void()>& see) {
+  see();
+  for (int steps = 0; steps < most;) {
     const double before = energy_;
     step(mode);
-    energies.push_back(energy_);
-    if (before - energy_ <= settled * before) break;
+    ++steps;
+    see();
+    if (before - energy_ <= settled * before) return steps;
   }
-  return energies;
+  return most;
 }
 
 }  // namespace holomorph

@@ -49,9 +49,12 @@ class AlternatingFit {
   /// products of moving rows x unknowns; first order, (2 unknowns)^2 rows and a Cholesky
   /// factorisation.
   void step(Mode mode);
-  /// Steps until one lowers the energy by less than this share of it, `most` at most; the energies,
-  /// the first one before any step.
-  std::vector<double> run(Mode mode, double settled, int most);
+  /// Goes on from the last map with targets that were given anew.
+  void resume();
+  /// Steps until one lowers the energy by less than this share of it, `most` at most; `see` is
+  /// called before the first one and after each. Returns the number of steps.
+  int run(
+      Mode mode, double settled, int most, const std::function<void()>& see = [] {});
 
   double energy() const { return energy_; }
   VectorXc unknowns() const;

@@ -60,6 +60,7 @@ struct Rest {
   Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
   std::vector<Points> strokes = {};  ///< open curves, two different points each at least
+  Points outline = {};               ///< closed; where the cage's shape is to go, or none
   Points samples;                    ///< where the map is wanted, inside or on the cage
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
@@ -75,7 +76,6 @@ struct Rest {
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
-  Points outline = {};               ///< closed; where the cage's shape is to go, or none
   std::vector<Points> strokes = {};  ///< where those of the rest go, run through the same way
   bool operator==(const Pose&) const = default;
 };
@@ -88,6 +88,9 @@ struct SampledMap {
   Status status = Status::exact;
   std::string note;  ///< what the user should know, such as a pin that could not be used
   int iterations = 0;
+  /// Of methods whose convergence is worth watching: after each iteration of the whole solve, the
+  /// first one before any.
+  std::vector<double> energies;
   Points zeros;  ///< where the derivative of a map that was projected vanishes, at rest
   bool ignores_pins = false;  ///< the method uses pins, but had no use for these
 };
@@ -98,6 +101,8 @@ struct Wanted {
   /// While something is dragged: methods that iterate may go on from their last answer and stop
   /// early. Without it the map depends on rest and pose alone.
   bool draft = false;
+  /// The map after so many iterations, of methods that give energies; others take no notice.
+  std::optional<int> iteration = {};
 
   bool operator==(const Wanted&) const = default;
 };
@@ -153,7 +158,7 @@ struct Method {
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
-  bool uses_strokes = false;
+  bool uses_strokes = false, uses_outline = false;
 };
 
 /// The table of methods, in menu order.

@@ -28,6 +28,7 @@ const Method& method_named(const std::string& id) {
 Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_pins) rest.pins.clear();
   if (!method.uses_strokes) rest.strokes.clear();
+  if (!method.uses_outline) rest.outline.clear();
   return rest;
 }
 

@@ -2,19 +2,19 @@
 #include "core/outline_match.h"
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 
-#include "core/alternating_fit.h"
 #include "core/argument.h"
 #include "core/cauchy.h"
-#include "core/cauchy_array.h"
-#include "core/outline_start.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerSegment = 4;
 constexpr size_t kPinTerm = 1;
+constexpr double kInset = 0.02;  ///< of the loop that zeros are counted in, in edges
+constexpr double kRoughlySettled = 1e-2;
+constexpr int kMostRough = 10;
 constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
 
 /// The loop cut at arc lengths of its flattened self, all its own vertices kept.
@@ -69,221 +69,222 @@ MatrixXc with_conjugate(const MatrixXc& c, bool soft) {
   return both;
 }
 
-class Matcher {
- public:
-  Matcher(const OutlineTask& task, const OutlineSettings& settings)
-      : settings_(settings),
-        cage_(counter_clockwise(task.source)),
-        flat_(flattened(cage_)),
-        source_(flat_.points, true),
-        target_(run_counter_clockwise(task.outline), true),
-        pins_(task.pins),
-        pinned_(task.pinned),
-        unit_(source_.length() / (2 * kPi)),
-        centre_(box_of(target_.points()).center()) {}
+Points run_counter_clockwise(Points points) {
+  if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
+  return points;
+}
 
-  OutlineMatch run() {
-    OutlineMatch best;
-    const Correspondence start =
-        settings_.published ? by_arc_length()
-                            : conformal_correspondence(source_, target_, settings_.upright);
-    best.log_stretch = start.log_stretch;
-    best.basis = basis(start);
-    prepare(best.basis);
-    const bool soft = settings_.stiffness > 0;
-    AlternatingFit fit(terms(best.basis));
-    if (!pins_.empty()) fit.give(kPinTerm, pin_targets());
-    fit.start(start_targets(best.basis, start));
-    best.energies = fit.run(
-        settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
-        kSettled, settings_.most_iterations);
-    best.iterations = static_cast<int>(best.energies.size()) - 1;
-    for (double& energy : best.energies) energy /= unit_ * unit_;
-    const VectorXc x = fit.unknowns();
-    const Index n = best.basis.control_count();
-    best.phi = x.head(n).array() + centre_;
-    if (soft) best.psi = x.tail(n);
-    best.rms = fit.distance(0);
-    measure(fit.values(0), best);
-    best.zeros = zeros_of(best);
-    return best;
-  }
+Complex mean(const Points& points) {
+  Complex sum = 0;
+  for (const Complex& z : points) sum += z;
+  return sum / static_cast<double>(points.size());
+}
 
- private:
-  static Points run_counter_clockwise(Points points) {
-    if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
-    return points;
+/// Equal shares of both lengths, from the pair of starts that moves the least.
+Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
+  constexpr Index kPoints = 200;
+  const Points from = at_equal_lengths(source, kPoints), to = at_equal_lengths(target, kPoints);
+  const Complex centre_from = mean(from), centre_to = mean(to);
+  Index best = 0;
+  double least = -1;
+  for (Index shift = 0; shift < kPoints; ++shift) {
+    double sum = 0;
+    for (Index i = 0; i < kPoints; ++i)
+      sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
+                       to[static_cast<size_t>((i + shift) % kPoints)] + centre_to);
+    if (least < 0 || sum < least) least = sum, best = shift;
   }
-
-  /// Equal shares of both lengths, from the pair of starts that moves the least.
-  Correspondence by_arc_length() const {
-    constexpr Index kPoints = 200;
-    const Points from = at_equal_lengths(source_, kPoints), to = at_equal_lengths(target_, kPoints);
-    const Complex centre_from = mean(from), centre_to = mean(to);
-    Index best = 0;
-    double least = -1;
-    for (Index shift = 0; shift < kPoints; ++shift) {
-      double sum = 0;
-      for (Index i = 0; i < kPoints; ++i)
-        sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
-                         to[static_cast<size_t>((i + shift) % kPoints)] + centre_to);
-      if (least < 0 || sum < least) least = sum, best = shift;
-    }
-    Correspondence result;
-    result.source_length = source_.length();
-    result.target_length = target_.length();
-    result.source = {0, 0.5 * source_.length()};
-    const double offset = target_.length() * static_cast<double>(best) / kPoints;
-    result.target = {offset, offset + 0.5 * target_.length()};
-    return result;
-  }
-  static Complex mean(const Points& points) {
-    Complex sum = 0;
-    for (const Complex& z : points) sum += z;
-    return sum / static_cast<double>(points.size());
-  }
-
-  /// Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
-  /// own, which stay, so that each of its segments is cut into parts of its own.
-  Cage basis(const Correspondence& start) const {
-    const double own = settings_.published ? 1 : 0.3;
-    const auto share = [&](double s) {
-      return own * s / start.source_length +
-             (1 - own) * (start(s) - start(0)) / start.target_length;
-    };
-    std::vector<double> ends, cuts;
-    for (size_t i = 0; i < flat_.places.size(); ++i)
-      if (flat_.places[i].t == 0) ends.push_back(source_.length_at(static_cast<Index>(i), 0));
-    ends.push_back(source_.length());
-    for (size_t e = 0; e + 1 < ends.size(); ++e) {
-      const double from = share(ends[e]), to = share(ends[e + 1]);
-      const int parts =
-          std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices)));
-      for (int k = 1; k < parts; ++k) {
-        const double wanted = from + (to - from) * k / parts;
-        double low = ends[e], high = ends[e + 1];
-        for (int halving = 0; halving < 50; ++halving) {
-          const double middle = 0.5 * (low + high);
-          (share(middle) < wanted ? low : high) = middle;
-        }
-        cuts.push_back(0.5 * (low + high));
-      }
-    }
-    return cut_at(cage_, flat_, source_, std::move(cuts));
-  }
-
-  void prepare(const Cage& basis) {
-    for (Index e = 0; e < basis.size(); ++e) {
-      for (int k = 0; k < kSamplesPerSegment; ++k)
-        samples_.push_back({e, static_cast<double>(k) / kSamplesPerSegment});
-      middles_.push_back({e, 0.5});
-      sizes_.push_back(std::abs(basis.vertex(e + 1) - basis.vertex(e)));
-    }
-    hints_.assign(samples_.size(), 0);
-  }
-
-  std::vector<FitTerm> terms(const Cage& basis) {
-    const bool soft = settings_.stiffness > 0;
-    const Index n = basis.control_count();
-    std::vector<FitTerm> terms;
-    FitTerm fit{with_conjugate(coordinates(basis, samples_, 0), soft)};
-    fit.project = [this](const VectorXc& values, VectorXc& targets) { project(values, targets); };
-    fit.normals = [this](const VectorXc& values, const VectorXc& targets, VectorXc& normals) {
-      take_normals(values, targets, normals);
-    };
-    terms.push_back(std::move(fit));
-    if (!pins_.empty())
-      terms.push_back(
-          {with_conjugate(cauchy_coordinates(basis, pins_), soft), settings_.pin_weight});
-    if (settings_.smoothness > 0 && !settings_.published) {
-      MatrixXc rows = with_conjugate(coordinates(basis, middles_, 2), soft);
-      for (Index e = 0; e < rows.rows(); ++e)
-        rows.row(e) *= sizes_[static_cast<size_t>(e)] * sizes_[static_cast<size_t>(e)];
-      terms.push_back({std::move(rows), settings_.smoothness});
-    }
-    if (soft) {
-      MatrixXc rows = MatrixXc::Zero(basis.size(), 2 * n);
-      rows.rightCols(n) = unit_ * coordinates(basis, middles_, 1).conjugate();
-      terms.push_back({std::move(rows), settings_.stiffness});
-      MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
-      constant.rightCols(n).setConstant(1 / static_cast<double>(n));
-      terms.push_back({std::move(constant)});
-    }
-    return terms;
-  }
-
-  void project(const VectorXc& values, VectorXc& targets) {
-    for (Index i = 0; i < values.size(); ++i) {
-      Index& hint = hints_[static_cast<size_t>(i)];
-      const Polyline::Nearest nearest = target_.nearest(values[i] + centre_, hint);
-      hint = nearest.segment;
-      targets[i] = nearest.point - centre_;
-    }
-  }
-
-  void take_normals(const VectorXc& values, const VectorXc& targets, VectorXc& normals) const {
-    const double near = 1e-9 * target_.diagonal();
-    for (Index i = 0; i < values.size(); ++i) {
-      Complex across = values[i] - targets[i];
-      if (std::abs(across) <= near) {
-        const size_t s = static_cast<size_t>(hints_[static_cast<size_t>(i)]);
-        across = kI * (target_.points()[(s + 1) % target_.points().size()] - target_.points()[s]);
-      }
-      normals[i] = across / std::abs(across);
-    }
-  }
-
-  VectorXc pin_targets() const {
-    VectorXc targets(static_cast<Index>(pinned_.size()));
-    for (Index i = 0; i < targets.size(); ++i)
-      targets[i] = pinned_[static_cast<size_t>(i)] - centre_;
-    return targets;
-  }
-
-  VectorXc start_targets(const Cage& basis, const Correspondence& start) const {
-    VectorXc targets(static_cast<Index>(samples_.size()));
-    for (Index i = 0; i < targets.size(); ++i) {
-      const Polyline::Nearest at =
-          source_.nearest(position_of(basis, samples_[static_cast<size_t>(i)]));
-      targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - centre_;
-    }
-    return targets;
-  }
-
-  void measure(const VectorXc& values, OutlineMatch& match) const {
-    Points points;
-    for (const Complex& z : values) points.push_back(z + centre_);
-    const Polyline image(std::move(points), true);
-    match.hausdorff =
-        std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
-  }
-
-  /// At the vertices themselves f_z has logarithms.
-  int zeros_of(const OutlineMatch& match) const {
-    constexpr double kInset = 0.02;
-    Points inset;
-    for (Index e = 0; e < match.basis.size(); ++e) {
-      const Complex way = match.basis.vertex(e + 1) - match.basis.vertex(e);
-      for (int k = 0; k < kSamplesPerSegment; ++k)
-        inset.push_back(position_of(match.basis, {e, (k + 0.5) / kSamplesPerSegment}) +
-                        kInset * kI * way);
-    }
-    return turns_of(product(planar_coordinates<double>(match.basis, inset, 1), match.phi));
-  }
-
-  const OutlineSettings& settings_;
-  Cage cage_;
-  FlatCage flat_;
-  Polyline source_, target_;
-  Points pins_, pinned_;
-  double unit_;     ///< L
-  Complex centre_;  ///< what is fitted is f less this
-  std::vector<BoundaryPoint> samples_, middles_;
-  std::vector<double> sizes_;
-  std::vector<Index> hints_;
-};
+  Correspondence result;
+  result.source_length = source.length();
+  result.target_length = target.length();
+  result.source = {0, 0.5 * source.length()};
+  const double offset = target.length() * static_cast<double>(best) / kPoints;
+  result.target = {offset, offset + 0.5 * target.length()};
+  return result;
+}
 
 }  // namespace
+
+OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& pins,
+                       const OutlineSettings& settings)
+    : settings_(settings),
+      cage_(counter_clockwise(source)),
+      flat_(flattened(cage_)),
+      source_(flat_.points, true),
+      target_((check_outline(outline), run_counter_clockwise(outline)), true),
+      pins_(pins),
+      unit_(source_.length() / (2 * kPi)),
+      centre_(box_of(target_.points()).center()) {
+  const Correspondence start = settings_.published
+                                   ? by_arc_length(source_, target_)
+                                   : conformal_correspondence(source_, target_, settings_.upright);
+  take_basis(start);
+  take_samples();
+  first_ = start_targets(start);
+  fit_.emplace(terms());
+}
+
+void OutlineFit::solve(const Points& pinned) {
+  fit_->reset();
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(pinned));
+  std::ranges::fill(hints_, 0);
+  fit_->start(first_);
+  run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
+      kSettled, settings_.most_iterations);
+}
+
+void OutlineFit::follow(const Points& pinned) {
+  if (iterates_.empty()) return solve(pinned);
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(pinned));
+  fit_->resume();
+  run(AlternatingFit::Mode::anderson, kRoughlySettled, kMostRough);
+  iterates_ = {iterates_.back()};
+  energies_ = {energies_.back()};
+}
+
+void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
+  iterates_.clear();
+  energies_.clear();
+  fit_->run(mode, settled, most, [this] {
+    iterates_.push_back(fit_->unknowns());
+    energies_.push_back(fit_->energy() / (unit_ * unit_));
+  });
+}
+
+OutlineMatch OutlineFit::after(int iteration) const {
+  OutlineMatch match;
+  match.basis = basis_;
+  match.iterations = iteration;
+  match.energies = energies_;
+  const VectorXc& x = iterates_.at(static_cast<size_t>(iteration));
+  const Index n = basis_.control_count();
+  match.phi = x.head(n).array() + centre_;
+  VectorXc values = at_samples_ * match.phi;
+  if (settings_.stiffness > 0) {
+    match.psi = x.tail(n);
+    values += at_samples_.conjugate() * match.psi;
+  }
+  double sum = 0;
+  for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
+  match.rms = std::sqrt(sum / static_cast<double>(values.size()));
+  const Polyline image(Points(values.begin(), values.end()), true);
+  match.hausdorff =
+      std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
+  match.zeros = turns_of(product(slopes_inside_, match.phi));
+  return match;
+}
+
+// Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
+// own, which stay, so that each of its segments is cut into parts of its own.
+void OutlineFit::take_basis(const Correspondence& start) {
+  const double own = settings_.published ? 1 : 0.3;
+  const auto share = [&](double s) {
+    return own * s / start.source_length + (1 - own) * (start(s) - start(0)) / start.target_length;
+  };
+  std::vector<double> ends, cuts;
+  for (size_t i = 0; i < flat_.places.size(); ++i)
+    if (flat_.places[i].t == 0) ends.push_back(source_.length_at(static_cast<Index>(i), 0));
+  ends.push_back(source_.length());
+  for (size_t e = 0; e + 1 < ends.size(); ++e) {
+    const double from = share(ends[e]), to = share(ends[e + 1]);
+    const int parts = std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices)));
+    for (int k = 1; k < parts; ++k) {
+      const double wanted = from + (to - from) * k / parts;
+      double low = ends[e], high = ends[e + 1];
+      for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (share(middle) < wanted ? low : high) = middle;
+      }
+      cuts.push_back(0.5 * (low + high));
+    }
+  }
+  basis_ = cut_at(cage_, flat_, source_, std::move(cuts));
+}
+
+void OutlineFit::take_samples() {
+  Points inset;
+  for (Index e = 0; e < basis_.size(); ++e) {
+    const Complex way = basis_.vertex(e + 1) - basis_.vertex(e);
+    for (int k = 0; k < kSamplesPerSegment; ++k) {
+      samples_.push_back({e, static_cast<double>(k) / kSamplesPerSegment});
+      // At the vertices themselves f_z has logarithms.
+      inset.push_back(position_of(basis_, {e, (k + 0.5) / kSamplesPerSegment}) + kInset * kI * way);
+    }
+    middles_.push_back({e, 0.5});
+    sizes_.push_back(std::abs(way));
+  }
+  hints_.assign(samples_.size(), 0);
+  at_samples_ = coordinates(basis_, samples_, 0);
+  slopes_inside_ = planar_coordinates<double>(basis_, inset, 1);
+}
+
+std::vector<FitTerm> OutlineFit::terms() {
+  const bool soft = settings_.stiffness > 0;
+  const Index n = basis_.control_count();
+  std::vector<FitTerm> terms;
+  FitTerm fit{with_conjugate(at_samples_, soft)};
+  fit.project = [this](const VectorXc& values, VectorXc& targets) { project(values, targets); };
+  fit.normals = [this](const VectorXc& values, const VectorXc& targets, VectorXc& normals) {
+    take_normals(values, targets, normals);
+  };
+  terms.push_back(std::move(fit));
+  if (!pins_.empty())
+    terms.push_back(
+        {with_conjugate(cauchy_coordinates(basis_, pins_), soft), settings_.pin_weight});
+  if (settings_.smoothness > 0 && !settings_.published) {
+    MatrixXc rows = with_conjugate(coordinates(basis_, middles_, 2), soft);
+    for (Index e = 0; e < rows.rows(); ++e)
+      rows.row(e) *= sizes_[static_cast<size_t>(e)] * sizes_[static_cast<size_t>(e)];
+    terms.push_back({std::move(rows), settings_.smoothness});
+  }
+  if (soft) {
+    MatrixXc rows = MatrixXc::Zero(basis_.size(), 2 * n);
+    rows.rightCols(n) = unit_ * coordinates(basis_, middles_, 1).conjugate();
+    terms.push_back({std::move(rows), settings_.stiffness});
+    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
+    constant.rightCols(n).setConstant(1 / static_cast<double>(n));
+    terms.push_back({std::move(constant)});
+  }
+  return terms;
+}
+
+void OutlineFit::project(const VectorXc& values, VectorXc& targets) {
+  for (Index i = 0; i < values.size(); ++i) {
+    Index& hint = hints_[static_cast<size_t>(i)];
+    const Polyline::Nearest nearest = target_.nearest(values[i] + centre_, hint);
+    hint = nearest.segment;
+    targets[i] = nearest.point - centre_;
+  }
+}
+
+void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
+                              VectorXc& normals) const {
+  const double near = 1e-9 * target_.diagonal();
+  for (Index i = 0; i < values.size(); ++i) {
+    Complex across = values[i] - targets[i];
+    if (std::abs(across) <= near) {
+      const size_t s = static_cast<size_t>(hints_[static_cast<size_t>(i)]);
+      across = kI * (target_.points()[(s + 1) % target_.points().size()] - target_.points()[s]);
+    }
+    normals[i] = across / std::abs(across);
+  }
+}
+
+VectorXc OutlineFit::pin_targets(const Points& pinned) const {
+  VectorXc targets(static_cast<Index>(pinned.size()));
+  for (Index i = 0; i < targets.size(); ++i) targets[i] = pinned[static_cast<size_t>(i)] - centre_;
+  return targets;
+}
+
+VectorXc OutlineFit::start_targets(const Correspondence& start) const {
+  VectorXc targets(static_cast<Index>(samples_.size()));
+  for (Index i = 0; i < targets.size(); ++i) {
+    const Polyline::Nearest at =
+        source_.nearest(position_of(basis_, samples_[static_cast<size_t>(i)]));
+    targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - centre_;
+  }
+  return targets;
+}
 
 void check_outline(std::span<const Complex> outline) {
   if (outline.size() < 3)
@@ -304,9 +305,10 @@ void check_outline(std::span<const Complex> outline) {
 }
 
 OutlineMatch matched(const OutlineTask& task, const OutlineSettings& settings) {
-  check_outline(task.outline);
   check(task.pins.size() == task.pinned.size(), "outline: a place for each pin");
-  return Matcher(task, settings).run();
+  OutlineFit fit(task.source, task.outline, task.pins, settings);
+  fit.solve(task.pinned);
+  return fit.after(fit.iterations());
 }
 
 }  // namespace holomorph

@@ -115,6 +115,9 @@ void free_pin_angles(Workspace& w) {
     if (handle.kind == Handle::Kind::pin) scene.pins[handle.index].angle.reset();
   w.commit("Free pin angle", scene);
 }
+bool converges(const Workspace& w) {
+  return w.map.map().energies.size() > 1;
+}
 bool has_turned_pin(const Workspace& w) {
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.layer) &&
@@ -316,6 +319,47 @@ std::vector<Action> table() {
        {},
        has_cage,
        [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.layer)); }},
+
+      {"map.fold_free",
+       "Make it fold-free",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) {
+         return w.document.scene().has_cage() && w.scene().method != "bounded";
+       },
+       [](Workspace& w) { w.commit("Make fold-free", fold_free(w.scene())); }},
+      {"map.play",
+       "Watch the map converge",
+       "",
+       "Cage",
+       {},
+       converges,
+       [](Workspace& w) {
+         Playback& p = w.playback;
+         p.playing = !p.playing;
+         if (p.playing && !p.iteration) p.iteration = 0;
+       },
+       [](const Workspace& w) { return w.playback.playing; }},
+      {"map.step",
+       "One iteration more",
+       "",
+       "Cage",
+       {},
+       converges,
+       [](Workspace& w) {
+         const int last = static_cast<int>(w.map.map().energies.size()) - 1,
+                   next = w.playback.iteration.value_or(-1) + 1;
+         w.playback = {};
+         if (next < last) w.playback.iteration = next;
+       }},
+      {"map.restart",
+       "Back to the first iteration",
+       "",
+       "Cage",
+       {},
+       converges,
+       [](Workspace& w) { w.playback = {0}; }},
 
       {"view.image", "Picture", "", "View", {'1'}, always, look<View::image>, looks<View::image>},
       {"view.angle",

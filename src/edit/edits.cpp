@@ -244,6 +244,16 @@ Scene with_method(Scene scene, const std::string& id) {
   return scene;
 }
 
+Scene fold_free(Scene scene) {
+  const ParameterSpec& reference = method_named("bounded").parameters[0];
+  const auto followed =
+      std::ranges::find(reference.options, scene.method, &ParameterSpec::Option::id);
+  check(followed != reference.options.end(), "fold_free: a method that can be followed");
+  scene = with_method(std::move(scene), "bounded");
+  scene.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
+  return scene;
+}
+
 CageHit nearest_on_cage(const Cage& cage, Complex z) {
   CageHit best;
   for (Index i = 0; i < cage.size(); ++i) {

@@ -75,6 +75,9 @@ Scene reset(Scene scene, const Selection& selection);
 /// own_controls).
 Scene baked(Scene scene);
 
+/// With method `bounded`, which follows the method that the scene has now.
+Scene fold_free(Scene scene);
+
 /// With another method; parameters that it does not know are dropped.
 Scene with_method(Scene scene, const std::string& id);
 

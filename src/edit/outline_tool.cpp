@@ -57,7 +57,7 @@ class OutlineTool final : public Tool {
     }
     if (scene.method != "outline") scene = with_method(std::move(scene), "outline");
     workspace.layer = Layer::pose;
-    workspace.commit("Draw outline", scene);
+    if (workspace.commit("Draw outline", scene)) workspace.playback = {0, true};
   }
 
   Freehand drawing_;

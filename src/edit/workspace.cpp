@@ -8,6 +8,25 @@
 
 namespace holomorph {
 
+bool advance(Playback& playback, const LiveMap& map, double now_ms) {
+  if (!playback.playing || map.busy()) return playback.playing;
+  const int last = static_cast<int>(map.map().energies.size()) - 1;
+  if (last < 1) {
+    playback = {};
+    return false;
+  }
+  if (now_ms < playback.due_ms) return true;
+  // Two seconds and a half in all, but no iteration longer than a third of a second.
+  constexpr double kAll = 2500, kLongest = 330;
+  playback.due_ms = now_ms + std::min(kLongest, kAll / last);
+  const int next = playback.iteration.value_or(-1) + 1;
+  if (next >= last)
+    playback = {};
+  else
+    playback.iteration = next;
+  return true;
+}
+
 bool Workspace::accepts(const Scene& scene) {
   if (!scene.has_cage()) return true;
   try {
@@ -133,6 +152,7 @@ void Workspace::open(Document opened) {
   preview.reset();
   selection.clear();
   carried_on.clear();
+  playback = {};
   layer = Layer::pose;
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;

@@ -29,6 +29,15 @@ enum class Request {
   compare
 };
 
+/// The iterations of a method that gives energies, watched one by one.
+struct Playback {
+  std::optional<int> iteration = {};  ///< shown; none: the last one
+  bool playing = false;
+  double due_ms = 0;  ///< when the next one is
+};
+/// Shows the next iteration when it is due. Returns whether it goes on playing.
+bool advance(Playback& playback, const LiveMap& map, double now_ms);
+
 enum class ToolId { select, pen, pin, stroke, outline };
 
 /// A short message over the canvas; `where` can be shown.
@@ -53,6 +62,7 @@ struct Workspace {
   bool automatic_range = false, show_mesh = false, show_cage = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
+  Playback playback;
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
   bool auto_cage_curved = false;

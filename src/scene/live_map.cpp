@@ -18,6 +18,7 @@ bool same_rest(const Scene& a, const Scene& b) {
   };
   const auto same_stroke = [](const Stroke& s, const Stroke& t) { return s.rest == t.rest; };
   if (method.uses_pins && !std::ranges::equal(a.pins, b.pins, same_pin)) return false;
+  if (method.uses_outline && a.outline != b.outline) return false;
   if (method.uses_strokes && !std::ranges::equal(a.strokes, b.strokes, same_stroke)) return false;
   return true;
 }
@@ -116,26 +117,6 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   pose(same_rest(*requested_, scene) ? scene : *requested_, wanted);
 }
 
-namespace {
-
-/// The largest turned triangle, when they add up to more than 1e-4 of the picture: next to the
-/// corners of a basis on the boundary, where derivatives have poles, a few always turn.
-std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
-  constexpr double kVisible = 1e-4;
-  double turned = 0, total = 0, largest = 0;
-  Complex place;
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const double twice = cross(f[j] - f[i], f[k] - f[i]);
-    total += std::abs(twice);
-    if (twice >= 0) continue;
-    turned -= twice;
-    if (-twice > largest) largest = -twice, place = (f[i] + f[j] + f[k]) / 3.0;
-  }
-  return turned > kVisible * total ? std::optional(place) : std::nullopt;
-}
-
-}  // namespace
-
 bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   if (!shown_ || (posed_ == scene && posed_wanted_ == wanted)) return false;
   const double start = now_ms();
@@ -164,10 +145,7 @@ std::optional<Complex> LiveMap::pin_place(const Scene& scene, size_t i) const {
 /// What there is to say of a map that was just posed.
 void LiveMap::describe() {
   const Mesh& mesh = *shown_->mesh;
-  fold_ = visible_fold(mesh, map_.f);
-  Points image;
-  for (const int v : mesh.boundary) image.push_back(map_.f[v]);
-  boundary_turns_ = turning_number(image);
+  injectivity_ = injectivity_of(mesh, map_.f);
   zero_places_.clear();
   for (const Complex& zero : map_.zeros)
     if (const auto at = locate(mesh, mesh.vertices, zero))
@@ -181,8 +159,7 @@ void LiveMap::clear() {
   requested_.reset();
   error_.reset();
   failed_ = false;
-  fold_.reset();
-  boundary_turns_ = 1;
+  injectivity_ = {};
   zero_places_.clear();
   const std::lock_guard lock(mutex_);
   ++wanted_;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/mesh.h"
+#include "scene/injectivity.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -55,11 +56,8 @@ class LiveMap {
   bool has_map() const { return shown_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }
-  /// Where the shown map turns the picture over most, in the posed picture; none when that is less
-  /// than 1e-4 of its area.
-  std::optional<Complex> fold() const { return fold_; }
-  /// How often the boundary's image turns: 1 for pictures that do not fold over branch points.
-  double boundary_turns() const { return boundary_turns_; }
+  /// Of the shown map.
+  const Injectivity& injectivity() const { return injectivity_; }
   /// Where the map takes the place that pin `i` of a scene holds at rest; none when pins have no
   /// say or the scene has other pins by now.
   std::optional<Complex> pin_place(const Scene& scene, size_t i) const;
@@ -82,8 +80,7 @@ class LiveMap {
   std::shared_ptr<PreparedMap> shown_;
   SampledMap map_;
   std::optional<Error> error_;
-  std::optional<Complex> fold_;
-  double boundary_turns_ = 1;
+  Injectivity injectivity_;
   Points zero_places_;
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
   Wanted posed_wanted_;

@@ -13,13 +13,14 @@ Rest rest_of(const Scene& scene, Precision precision) {
   rest.cage = elevated_to(scene.rest, scene.pose);
   for (const Pin& pin : scene.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
   for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
+  rest.outline = scene.outline;
   rest.parameters = scene.parameters;
   rest.precision = precision;
   return used_by(method_named(scene.method), std::move(rest));
 }
 
 Pose pose_of(const Scene& scene) {
-  Pose pose{scene.pose, {}, scene.outline};
+  Pose pose{scene.pose, {}};
   for (const Pin& pin : scene.pins)
     pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
   for (const Stroke& stroke : scene.strokes) pose.strokes.push_back(stroke.pose);

@@ -338,8 +338,19 @@ class WindowTest(unittest.TestCase):
                       for t in range(24)]
             editor.draw(around)
             editor.wait(lambda s: s["outline_points"] > 24 and s["method"] == "outline", "an outline")
-            time.sleep(0.5)
+            editor.wait(lambda s: s["playing"] and s["iterations"] > 2, "the animation")
+            editor.wait(lambda s: not s["playing"] and s["iteration"] == s["iterations"] - 1, "its end")
             self.screenshot(editor, "outline")
+            for text, iteration in (("back to the first iter", 0), ("one iteration more", 1)):
+                editor.key("ctrl+shift+p")
+                editor.type(text)
+                editor.key("Return")
+                editor.wait(lambda s: s["iteration"] == iteration, f"iteration {iteration}")
+            self.screenshot(editor, "outline-iteration")
+            editor.key("ctrl+shift+p")
+            editor.type("watch the map")
+            editor.key("Return")
+            editor.wait(lambda s: s["iteration"] == s["iterations"] - 1, "the end again")
             path = os.path.join(self.work, "outline.json")
             self.save_as(editor, path)
         report = json.loads(subprocess.run([PROGRAM, "info", path, "--json"], check=True,

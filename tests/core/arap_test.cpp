@@ -79,7 +79,7 @@ TEST_CASE("As rigid as possible: no small change of the answer is more rigid") {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
     // A smooth bump between the held ends, which leaves the pins alone.
-    const Complex center(120 + 360 * std::abs(unit(random)), 50), by(unit(random), unit(random));
+    const Complex center(120 + 360 * std::abs(unit(random)), 50), by{unit(random), unit(random)};
     VectorXc moved = map.f;
     for (Index i = 0; i < moved.size(); ++i) {
       const double far = std::abs(bar.rest.mesh->vertices[static_cast<size_t>(i)] - center) / 60;

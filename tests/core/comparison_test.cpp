@@ -157,7 +157,7 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
 }
 
 TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says how well") {
-  const Folded bar(250);
+  const Folded bar(100);
   std::vector<ComparedMap> rows;
   compare(bar.rest, bar.pose, [&](const ComparedMap& row) { rows.push_back(row); });
   REQUIRE(rows.size() == 6);

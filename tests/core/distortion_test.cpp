@@ -14,7 +14,8 @@ namespace {
 template <class F, class Fz, class Fzbar>
 SampledMap sampled(const Points& points, F f, Fz fz, Fzbar fzbar) {
   const Index n = static_cast<Index>(points.size());
-  SampledMap map{VectorXc(n), VectorXc(n), VectorXc(n), {}, "", 0, {}};
+  SampledMap map;
+  map.f = map.fz = map.fzbar = VectorXc(n);
   for (Index i = 0; i < n; ++i)
     map.f[i] = f(points[i]), map.fz[i] = fz(points[i]), map.fzbar[i] = fzbar(points[i]);
   return map;

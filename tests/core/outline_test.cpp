@@ -41,7 +41,9 @@ struct Onto {
     rest.samples = rest.mesh->vertices;
     rest.derivative_samples = derivative_samples(*rest.mesh);
     rest.parameters = parameters;
-    pose = {cage, {}, outline};
+    rest.precision = Precision::full;
+    rest.outline = outline;
+    pose = {cage, {}};
     deformer = method_named("outline").prepare(rest, nullptr);
     deformer->deform(pose, map, {true, false});
   }

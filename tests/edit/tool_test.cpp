@@ -253,6 +253,76 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   CHECK(desk.scene().outline.empty());
 }
 
+TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") {
+  Desk desk(shapes::rectangle(200, 150));
+  desk.workspace.tool = ToolId::outline;
+  Points around;
+  for (int i = 0; i < 60; ++i)
+    around.push_back(Complex(300, 300) +
+                     Complex(140 * std::cos(kPi * i / 30), 60 * std::sin(kPi * i / 30)));
+  desk.draw(around);
+  Playback& playback = desk.workspace.playback;
+  CHECK(playback.playing);
+  const auto pose = [&] {
+    desk.workspace.map.finish(desk.scene(), {false, false, playback.iteration});
+    return desk.workspace.map.map().f;
+  };
+  const VectorXc first = pose();
+  const LiveMap& map = desk.workspace.map;
+  const int last = static_cast<int>(map.map().energies.size()) - 1;
+  REQUIRE(last > 2);
+  CHECK(map.map().iterations == 0);
+  double now = 0;
+  int shown = 0;
+  for (; advance(playback, map, now); now += 10) {
+    pose();
+    CHECK(map.map().iterations >= shown);
+    shown = map.map().iterations;
+  }
+  CHECK(now > 300);
+  CHECK(now < 4000);
+  const VectorXc end = pose();
+  CHECK(map.map().iterations == last);
+  CHECK((end - first).cwiseAbs().maxCoeff() > 1e-3);
+  for (int i = 0; i < last; ++i)
+    CHECK(map.map().energies[static_cast<size_t>(i) + 1] <=
+          map.map().energies[static_cast<size_t>(i)]);
+
+  run(action_named("map.restart"), desk.workspace);
+  CHECK(pose() == first);
+  CHECK_FALSE(playback.playing);
+  run(action_named("map.step"), desk.workspace);
+  pose();
+  CHECK(map.map().iterations == 1);
+  run(action_named("map.play"), desk.workspace);
+  CHECK(playback.playing);
+  run(action_named("map.play"), desk.workspace);
+  CHECK_FALSE(playback.playing);
+  for (int i = 1; i < last; ++i) run(action_named("map.step"), desk.workspace);
+  CHECK(pose() == end);
+}
+
+TEST_CASE("What folds is told with its places, and made fold-free by the method that is asked") {
+  Desk desk(shapes::rectangle(200, 150));
+  CHECK_FALSE(desk.workspace.map.injectivity().folds());
+  CHECK_FALSE(desk.workspace.map.injectivity().crossing);
+  // Two corners change places.
+  Scene scene = desk.scene();
+  std::swap(scene.pose.segments[0], scene.pose.segments[1]);
+  desk.workspace.commit("Twist", scene);
+  desk.settle();
+  const Injectivity& found = desk.workspace.map.injectivity();
+  CHECK(found.folds());
+  CHECK(found.fold);
+  CHECK(found.crossing);
+  CHECK(found.boundary_turns == Approx(2).margin(0.01));  // around a zero of f'
+  run(action_named("map.fold_free"), desk.workspace);
+  CHECK(desk.scene().method == "bounded");
+  CHECK(choice(method_named("bounded"), desk.scene().parameters, "reference") == "cage");
+  desk.settle();
+  CHECK_FALSE(desk.workspace.map.injectivity().folds());
+}
+
 TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
   Desk desk(shapes::rectangle(200, 150));
   desk.workspace.tool = ToolId::outline;

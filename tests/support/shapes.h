@@ -36,10 +36,10 @@ inline Cage curved_star(int n, int degree, double bulge, unsigned seed) {
   Cage cage = polygon_cage(polygon);
   for (Index e = 0; e < cage.size(); ++e) {
     const Complex a = polygon[e], side = polygon[(e + 1) % polygon.size()] - a;
-    for (int m = 1; m < degree; ++m)
-      cage.segments[e].push_back(
-          a + side * Complex(static_cast<double>(m) / degree + 0.2 * off(random) / degree,
-                             off(random)));
+    for (int m = 1; m < degree; ++m) {
+      const double across = off(random), along = (m + 0.2 * off(random)) / degree;
+      cage.segments[e].push_back(a + side * Complex(along, across));
+    }
   }
   return cage;
 }

@@ -12,46 +12,60 @@
 namespace holomorph {
 namespace {
 
-constexpr int kDraftVertices = 100;
-
+template <class T>
 class OutlineDeformer final : public Deformer {
  public:
   explicit OutlineDeformer(const Rest& rest)
       : rest_(rest), method_(method_named("outline")), pins_(acting_pins(rest)) {
-    Rest free = rest;
-    free.parameters.clear();
-    free_ = method_named("pins").prepare(free, nullptr);
+    if (rest.outline.empty()) {
+      Rest free = rest;
+      free.parameters.clear();
+      free_ = method_named("pins").prepare(free, nullptr);
+      return;
+    }
+    fit_ = new_fit();
+    value_ = planar_coordinates<T>(fit_->basis(), rest.samples);
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
     check_pose(rest_, pose);
-    if (pose.outline.empty()) {
+    if (free_) {
       free_->deform(pose, out, wanted);
       out.note = "Draw an outline: the picture's shape goes onto it.";
       return;
     }
     out = SampledMap{};
-    if (pose != posed_ || wanted.draft != draft_) {
-      match_ = matched(task(pose), settings(wanted.draft));
-      posed_ = pose;
-      draft_ = wanted.draft;
-    }
-    out.f = values(rest_.samples, 0).f;
+    solve(pose, wanted.draft);
+    const int last = fit_->iterations();
+    const OutlineMatch match = fit_->after(std::min(wanted.iteration.value_or(last), last));
+    out.f = image(value_, match);
     if (wanted.derivatives) {
-      const Values slopes =
-          values(rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
-      out.fz = slopes.phi;
-      out.fzbar = slopes.psi;
+      if (slope_.rows() != value_.rows())
+        slope_ = planar_coordinates<T>(
+            fit_->basis(),
+            rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
+      out.fz = product(slope_, match.phi);
+      out.fzbar = match.psi.size() > 0
+                      ? VectorXc(product(slope_, match.psi.conjugate()).conjugate())
+                      : VectorXc(VectorXc::Zero(out.fz.size()));
     }
-    out.iterations = match_.iterations;
-    out.note = note(Polyline(pose.outline, true).diagonal());
+    out.iterations = match.iterations;
+    out.energies = match.energies;
+    if (match.iterations < last) out.status = SampledMap::Status::iterating;
+    out.note = note(match);
     if (!pins_.note.empty()) out.note += "; " + pins_.note;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
-    if (pose.outline.empty()) return free_->point_map(pose);
-    const OutlineMatch match =
-        pose == posed_ && !draft_ ? match_ : matched(task(pose), settings(false));
+    check_pose(rest_, pose);
+    if (free_) return free_->point_map(pose);
+    std::unique_ptr<OutlineFit> other;
+    if (pinned(pose) != solved_ || draft_) {
+      other = new_fit();
+      other->solve(pinned(pose));
+    }
+    const OutlineFit& fit = other ? *other : *fit_;
+    const OutlineMatch match = fit.after(fit.iterations());
     auto map = std::make_unique<SumMap>();
     map->terms.emplace_back(match.basis, match.phi - controls_of(match.basis));
     if (match.psi.size() > 0) map->conjugates.emplace_back(match.basis, match.psi.conjugate());
@@ -59,13 +73,9 @@ class OutlineDeformer final : public Deformer {
   }
 
  private:
-  struct Values {
-    VectorXc f, phi, psi;
-  };
-
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
-  OutlineSettings settings(bool draft) const {
+  OutlineSettings settings() const {
     OutlineSettings settings;
     settings.published = value("published") != 0;
     settings.vertices = static_cast<int>(value("vertices"));
@@ -74,38 +84,48 @@ class OutlineDeformer final : public Deformer {
     settings.stiffness = stiffness_of(value("softness"));
     if (value("upright") == 0) settings.upright = 0;
     if (settings.published) settings.most_iterations = 200;
-    if (draft) settings.vertices = std::min(settings.vertices, kDraftVertices);
     return settings;
   }
 
-  OutlineTask task(const Pose& pose) const {
-    OutlineTask task{rest_.cage, pose.outline, {}, {}};
-    for (const size_t i : pins_.used) {
-      task.pins.push_back(rest_.pins[i].position);
-      task.pinned.push_back(pose.pins[i].position);
-    }
-    return task;
+  std::unique_ptr<OutlineFit> new_fit() const {
+    Points pins;
+    for (const size_t i : pins_.used) pins.push_back(rest_.pins[i].position);
+    return std::make_unique<OutlineFit>(rest_.cage, rest_.outline, pins, settings());
   }
 
-  Values values(const Points& samples, int order) const {
-    const PlanarMatrix<double> c = planar_coordinates<double>(match_.basis, samples, order);
-    Values values;
-    values.phi = product(c, match_.phi);
-    values.psi = VectorXc::Zero(values.phi.size());
-    if (match_.psi.size() > 0) values.psi = product(c, match_.psi.conjugate()).conjugate();
-    values.f = values.phi + values.psi;
-    return values;
+  Points pinned(const Pose& pose) const {
+    Points pinned;
+    for (const size_t i : pins_.used) pinned.push_back(pose.pins[i].position);
+    return pinned;
   }
 
-  std::string note(double size) const {
+  void solve(const Pose& pose, bool draft) {
+    Points wanted = pinned(pose);
+    if (wanted == solved_ && (draft || !draft_)) return;
+    if (draft)
+      fit_->follow(wanted);
+    else
+      fit_->solve(wanted);
+    solved_ = std::move(wanted);
+    draft_ = draft;
+  }
+
+  static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
+    VectorXc f = product(c, match.phi);
+    if (match.psi.size() > 0) f += product(c, match.psi.conjugate()).conjugate();
+    return f;
+  }
+
+  std::string note(const OutlineMatch& match) const {
     constexpr double kReached = 0.01;
+    const double size = Polyline(rest_.outline, true).diagonal();
     char text[240];
     std::snprintf(text, sizeof text,
-                  "The outline is met to %.2g %% of its size, %.2g %% at worst, in %d steps%s",
-                  100 * match_.rms / size, 100 * match_.hausdorff / size, match_.iterations,
-                  match_.zeros > 0                     ? "; the picture folds: f' has zeros"
-                  : match_.hausdorff > kReached * size ? ": more softness reaches farther"
-                                                       : "");
+                  "The outline is met to %.2g %% of its size, %.2g %% at worst, in %d %s%s",
+                  100 * match.rms / size, 100 * match.hausdorff / size, match.iterations, match.iterations == 1 ? "step" : "steps",
+                  match.zeros > 0                     ? "; the picture folds: f' has zeros"
+                  : match.hausdorff > kReached * size ? ": more softness reaches farther"
+                                                      : "");
     return text;
   }
 
@@ -113,20 +133,22 @@ class OutlineDeformer final : public Deformer {
   const Method& method_;
   ActingPins pins_;
   std::unique_ptr<Deformer> free_;  ///< cage and pins, until there is an outline
-  OutlineMatch match_;
-  std::optional<Pose> posed_;
-  bool draft_ = false;
+  std::unique_ptr<OutlineFit> fit_;
+  PlanarMatrix<T> value_, slope_;
+  std::optional<Points> solved_;  ///< pins' places
+  bool draft_ = false;            ///< roughly
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
   check_rest_cage(rest.cage);
-  return std::make_unique<OutlineDeformer>(rest);
+  if (rest.precision == Precision::full) return std::make_unique<OutlineDeformer<double>>(rest);
+  return std::make_unique<OutlineDeformer<float>>(rest);
 }
 
 }  // namespace
 
 Method outline_method() {
-  return {
+  Method method{
       "outline",
       "Onto an outline",
       "The shape of the cage goes onto a drawn outline, inside and all.",
@@ -146,6 +168,8 @@ Method outline_method() {
       true,
       false,
       prepare};
+  method.uses_outline = true;
+  return method;
 }
 
 }  // namespace holomorph

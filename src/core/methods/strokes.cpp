@@ -265,9 +265,8 @@ class StrokesDeformer final : public Deformer {
       fit.reset(loose_->unknowns());
     }
     fit.start(first);
-    const auto energies = fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled,
-                                  draft ? kDraftSteps : kSteps);
-    moved_.iterations = static_cast<int>(energies.size()) - 1;
+    moved_.iterations = fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled,
+                                draft ? kDraftSteps : kSteps);
     moved_.shares = shares_;
     const VectorXc x = fit.unknowns();
     const Index n = basis_->size();

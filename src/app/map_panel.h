@@ -1,0 +1,13 @@
+// What the inspector says of the map itself.
+#pragma once
+
+#include "edit/workspace.h"
+
+namespace holomorph {
+
+/// Energy over iterations, both logarithmic, and what plays them; nothing for maps without.
+void convergence_section(Workspace& workspace, double scale);
+/// Whether the picture lies over itself, where, and what to do about it.
+void injectivity_section(Workspace& workspace, bool light);
+
+}  // namespace holomorph

@@ -1,0 +1,27 @@
+// What can be seen of a map on a mesh: whether, and where, the picture lies over itself.
+#pragma once
+
+#include <optional>
+
+#include "core/mesh.h"
+
+namespace holomorph {
+
+struct Injectivity {
+  /// How often the boundary's image turns: 1, and 1 more for each zero of f' of a conformal map,
+  /// around which the picture folds; -1 for a picture on its back.
+  double boundary_turns = 1;
+  /// Where the picture is turned over most, posed; none when that is less than 1e-4 of its area. If
+  /// nothing is turned over and the boundary still turns more than once, where most is pressed to
+  /// nothing: near a zero of f'.
+  std::optional<Complex> fold;
+  /// Where the boundary's image crosses itself: parts may lie over each other without a fold.
+  std::optional<Complex> crossing;
+
+  bool folds() const { return fold || std::abs(boundary_turns - 1) > 0.01; }
+};
+
+/// Of the map that takes the mesh's vertices to f. Cost: linear, and n log n in the boundary.
+Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f);
+
+}  // namespace holomorph
