@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "edit/tool.h"
 #include "raster/picture.h"
 #include "scene/export.h"
+#include "scene/outline_import.h"
 #include "scene/svg_path.h"
 
 namespace holomorph {
@@ -152,7 +154,8 @@ void Files::ask_svg(bool pose) {
 std::string Files::import_svg(const Path& path, bool pose) {
   try {
     const Image* image = workspace_.document.image();
-    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0, !pose);
+    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0,
+                            pose ? PathUse::pose : PathUse::rest);
     Scene scene = workspace_.document.scene();
     if (pose && cage.size() != scene.rest.size())
       return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
@@ -164,6 +167,18 @@ std::string Files::import_svg(const Path& path, bool pose) {
     if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene))) return "";
     workspace_.layer = Layer::pose;
     workspace_.tool = ToolId::select;
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string Files::import_outline(const Path& path) {
+  try {
+    const Image* image = workspace_.document.image();
+    const Scene& scene = workspace_.document.scene();
+    take_outline(workspace_, "Outline from file",
+                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))));
   } catch (const Error& error) {
     return error.what();
   }
@@ -244,6 +259,15 @@ void Files::answer(Request request) {
       break;
     case Request::import_pose:
       ask_svg(true);
+      break;
+    case Request::import_outline:
+      dialog_.ask({FileQuestion::Mode::open,
+                   "Outline from an SVG path or a picture's alpha",
+                   "Open",
+                   {".svg", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd"},
+                   {},
+                   false},
+                  [this](const Path& path, double) { return import_outline(path); });
       break;
     case Request::export_svg:
       ask_export_svg();

@@ -49,6 +49,7 @@ class Files {
   void ask_export();
   void ask_svg(bool pose);
   std::string import_svg(const Path& path, bool pose);
+  std::string import_outline(const Path& path);
   void ask_export_svg();
   void draw_question(double scale);
 

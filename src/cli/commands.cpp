@@ -16,6 +16,7 @@
 #include "scene/auto_cage.h"
 #include "scene/document.h"
 #include "scene/export.h"
+#include "scene/outline_import.h"
 #include "scene/report.h"
 #include "scene/scene_json.h"
 #include "scene/svg_path.h"
@@ -161,21 +162,25 @@ void run(const InfoCommand& command) {
 void run(const NewCommand& command) {
   LoadedScene loaded = scene_of_image(command.image);
   const double height = loaded.image->height;
-  const auto from_svg = [&](const Path& path, bool for_rest) {
-    return cage_of_svg(read_file(path), path.string(), height, for_rest);
+  const auto from_svg = [&](const Path& path, PathUse use) {
+    return cage_of_svg(read_file(path), path.string(), height, use);
   };
   Scene scene =
       command.cage
-          ? with_cage(std::move(loaded.scene), from_svg(*command.cage, true))
+          ? with_cage(std::move(loaded.scene), from_svg(*command.cage, PathUse::rest))
           : with_cage(std::move(loaded.scene),
                       auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
   check_rest_cage(scene.rest);
-  if (command.pose) scene.pose = from_svg(*command.pose, false);
+  if (command.pose) scene.pose = from_svg(*command.pose, PathUse::pose);
   if (scene.pose.size() != scene.rest.size())
     throw Error(ErrorKind::bad_input, command.pose->string() + ": the posed cage has " +
                                           std::to_string(scene.pose.size()) +
                                           " segments and the cage " +
                                           std::to_string(scene.rest.size()) + "; they must agree");
+  if (command.outline) {
+    scene.outline = outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)));
+    scene.method = "outline";
+  }
   const Path folder = std::filesystem::absolute(command.out).lexically_normal().parent_path();
   const Path relative =
       std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);

@@ -36,6 +36,7 @@ struct NewCommand {
   double margin = -1;
   bool curved = false;
   std::optional<Path> cage, pose;  ///< SVG files
+  std::optional<Path> outline;     ///< SVG file or picture
 };
 struct ExportCommand {
   Path scene, out;

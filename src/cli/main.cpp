@@ -89,6 +89,9 @@ int run_program(int argc, char** argv) {
          "--pose", fresh.pose,
          "An SVG file whose path \"pose\", else the first, is the posed cage; needs --cage")
       ->needs("--cage");
+  sub->add_option(
+      "--outline", fresh.outline,
+      "An SVG file's path, or another picture's alpha, that the cage's shape goes onto");
   on_run(sub, fresh, done);
 
   ExportCommand out;

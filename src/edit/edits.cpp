@@ -151,24 +151,36 @@ Scene redrawn(Scene scene, Index stroke, Points drawn, Layer layer) {
   return scene;
 }
 
-Scene pulled(Scene scene, Index stroke, size_t point, Complex by, double reach, Layer layer) {
-  Points& points = curve(scene, stroke, layer);
-  const Points before = points;
-  const auto pull = [&](size_t i, double distance) {
-    const double off = std::min(distance / reach, 1.0);
-    points[i] += (1 - off * off) * (1 - off * off) * by;
-  };
-  double distance = 0;
-  for (size_t i = point; i < points.size(); ++i) {
-    if (i > point) distance += std::abs(before[i] - before[i - 1]);
-    pull(i, distance);
+Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach) {
+  Points points = curve;
+  const size_t n = curve.size();
+  points[point] += by;
+  for (const bool forwards : {true, false}) {
+    double distance = 0;
+    size_t at = point;
+    for (size_t steps = 1; steps < n; ++steps) {
+      if (!closed && at == (forwards ? n - 1 : 0)) break;
+      const size_t next = (at + (forwards ? 1 : n - 1)) % n;
+      distance += std::abs(curve[next] - curve[at]);
+      if (distance >= reach) break;
+      const double off = distance / reach;
+      points[next] += (1 - off * off) * (1 - off * off) * by;
+      at = next;
+    }
   }
-  distance = 0;
-  for (size_t i = point; i-- > 0;) {
-    distance += std::abs(before[i] - before[i + 1]);
-    pull(i, distance);
-  }
+  return points;
+}
+
+Scene with_curve(Scene scene, Index stroke, Points drawn, Layer layer) {
+  curve(scene, stroke, layer) = std::move(drawn);
   return scene;
+}
+
+Scene with_outline(Scene scene, Points outline) {
+  scene.outline = std::move(outline);
+  const bool follows = scene.method == "bounded" &&
+                       choice(method_named("bounded"), scene.parameters, "reference") == "outline";
+  return follows || scene.method == "outline" ? scene : with_method(std::move(scene), "outline");
 }
 
 Scene turned(Scene scene, Index pin, double angle) {

@@ -56,9 +56,13 @@ Scene with_stroke(Scene scene, Points rest, Points pose);
 const Points& curve_of(const Scene& scene, Index stroke, Layer layer);
 /// A stroke's layer redrawn, run through from the end that is nearer to its old start.
 Scene redrawn(Scene scene, Index stroke, Points curve, Layer layer);
-/// A stroke pulled at one of its points: what is within `reach` of arc length follows the less the
+/// A curve pulled at one of its points: what is within `reach` of arc length follows the less the
 /// farther it is.
-Scene pulled(Scene scene, Index stroke, size_t point, Complex by, double reach, Layer layer);
+Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
+/// With another curve in place of a stroke's.
+Scene with_curve(Scene scene, Index stroke, Points curve, Layer layer);
+/// With an outline, and the method that takes the cage's shape onto it or follows that.
+Scene with_outline(Scene scene, Points outline);
 
 /// A pin turned to an angle in radians; the pin turns the picture from then on.
 Scene turned(Scene scene, Index pin, double angle);

@@ -1,6 +1,9 @@
-// O: an outline is drawn in one go, closed and smoothed when it is let go; the picture's shape goes
-// onto it.
+// O: an outline is drawn in one go, closed and smoothed when it is let go, and the picture's shape
+// goes onto it; on the outline itself a drag bends it.
+#include <algorithm>
+
 #include "core/outline_match.h"
+#include "core/polyline.h"
 #include "edit/freehand.h"
 #include "edit/tool.h"
 
@@ -8,6 +11,7 @@ namespace holomorph {
 namespace {
 
 constexpr double kStepPx = 4, kShortestPx = 60;
+constexpr double kReach = 0.12;  ///< of a pull, in lengths of the outline
 
 class OutlineTool final : public Tool {
  public:
@@ -18,19 +22,30 @@ class OutlineTool final : public Tool {
       if (drawing_.follow(input)) finish(workspace);
       return;
     }
+    if (pull_) return follow_pull(input, workspace);
+    hovered_ = input.inside && is_near(input, workspace);
     if (!input.pressed) return;
     if (!workspace.scene().has_cage())
       return workspace.say("The outline is for the cage's shape: make a cage first.");
-    drawing_.start(input);
+    if (!hovered_) return drawing_.start(input);
+    const Points& outline = workspace.scene().outline;
+    const auto nearest = std::ranges::min_element(
+        outline, {}, [&](Complex z) { return std::abs(z - input.position); });
+    pull_ = Pull{static_cast<size_t>(nearest - outline.begin()), input.mods.ctrl, input.position,
+                 input.px, workspace.scene()};
   }
 
-  void cancel(Workspace&) override { drawing_.cancel(); }
+  void cancel(Workspace& workspace) override {
+    drawing_.cancel();
+    if (pull_) workspace.preview.reset();
+    pull_.reset();
+  }
   bool key(Key key, Workspace& workspace) override {
-    if (key != Key::escape || !drawing_.active()) return false;
+    if (key != Key::escape || !busy()) return false;
     cancel(workspace);
     return true;
   }
-  bool busy() const override { return drawing_.active(); }
+  bool busy() const override { return drawing_.active() || pull_.has_value(); }
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
     overlay.line = drawing_.line();
@@ -39,31 +54,69 @@ class OutlineTool final : public Tool {
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return "Make a cage first: its shape goes onto the outline";
-    return drawing_.active() ? "Let go to close the outline; Esc gives it up"
-                             : "Drag to draw the outline that the picture's shape goes onto";
+    if (drawing_.active()) return "Let go to close the outline; Esc gives it up";
+    if (hovered_ || pull_) return "Drag to bend the outline, with Ctrl to move all of it";
+    return "Drag to draw the outline that the picture's shape goes onto";
   }
 
  private:
+  struct Pull {
+    size_t point;
+    bool whole;  ///< the outline is moved
+    Complex start, start_px;
+    Scene scene;
+  };
+
+  static bool is_near(const Input& input, const Workspace& workspace) {
+    const Points& outline = workspace.scene().outline;
+    if (outline.empty() || workspace.layer != Layer::pose) return false;
+    const double distance = nearest_on_polygon(outline, input.position).distance;
+    return distance * workspace.viewport.zoom <= workspace.handle_px;
+  }
+
   void finish(Workspace& workspace) {
-    Scene scene = workspace.scene();
-    scene.outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.viewport);
-    if (scene.outline.empty())
+    Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.viewport);
+    if (outline.empty())
       return workspace.say("Keep the button down and draw all around the new shape.");
-    try {
-      check_outline(scene.outline);
-    } catch (const Error& error) {
-      workspace.complain(error);
-      return;
+    take_outline(workspace, "Draw outline", std::move(outline));
+  }
+
+  void follow_pull(const Input& input, Workspace& workspace) {
+    if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx) {
+      const Points& before = pull_->scene.outline;
+      const Complex by = input.position - pull_->start;
+      Scene scene = pull_->scene;
+      if (pull_->whole)
+        for (Complex& z : scene.outline) z += by;
+      else
+        scene.outline =
+            pulled(before, true, pull_->point, by, kReach * Polyline(before, true).length());
+      workspace.preview = std::move(scene);
     }
-    if (scene.method != "outline") scene = with_method(std::move(scene), "outline");
-    workspace.layer = Layer::pose;
-    if (workspace.commit("Draw outline", scene)) workspace.playback = {0, true};
+    if (input.down && !input.released) return;
+    const bool whole = pull_->whole;
+    pull_.reset();
+    if (workspace.preview)
+      workspace.commit(whole ? "Move outline" : "Bend outline", *workspace.preview);
   }
 
   Freehand drawing_;
+  std::optional<Pull> pull_;
+  bool hovered_ = false;
 };
 
 }  // namespace
+
+void take_outline(Workspace& workspace, const std::string& label, Points outline) {
+  try {
+    check_outline(outline);
+  } catch (const Error& error) {
+    return workspace.complain(error);
+  }
+  workspace.layer = Layer::pose;
+  if (workspace.commit(label, with_outline(workspace.document.scene(), std::move(outline))))
+    workspace.playback = {0, true};
+}
 
 std::unique_ptr<Tool> outline_tool() {
   return std::make_unique<OutlineTool>();

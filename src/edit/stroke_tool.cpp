@@ -141,8 +141,11 @@ class StrokeTool final : public Tool {
 
   void follow_pull(const Input& input, Workspace& workspace) {
     if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx)
-      workspace.preview = pulled(pull_->scene, pull_->stroke, pull_->point,
-                                 input.position - pull_->start, pull_->reach, workspace.layer);
+      workspace.preview =
+          with_curve(pull_->scene, pull_->stroke,
+                     pulled(curve_of(pull_->scene, pull_->stroke, workspace.layer), false,
+                            pull_->point, input.position - pull_->start, pull_->reach),
+                     workspace.layer);
     if (input.down && !input.released) return;
     pull_.reset();
     if (workspace.preview) workspace.commit("Bend stroke", *workspace.preview);

@@ -82,6 +82,9 @@ class HandleDrag {
   bool active_ = false, moving_ = false, amends_ = false;
 };
 
+/// A new outline as one step, with its convergence played; refused with a toast when it is none.
+void take_outline(Workspace& workspace, const std::string& label, Points outline);
+
 /// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
 void toggle_corners(Workspace& workspace);
 

@@ -22,6 +22,7 @@ enum class Request {
   export_again,
   import_cage,
   import_pose,
+  import_outline,
   export_svg,
   quit,
   help,

@@ -203,12 +203,13 @@ void free_handles(Cage& cage) {
 
 }  // namespace
 
-Cage cage_of_svg(const std::string& text, const std::string& name, double height, bool for_rest) {
+Cage cage_of_svg(const std::string& text, const std::string& name, double height, PathUse use) {
+  static constexpr const char* kIds[] = {"rest", "pose", "outline"};
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
     throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
-  const pugi::xml_node path = path_of(document, for_rest ? "rest" : "pose");
+  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
   if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
   for (pugi::xml_node node = path; node; node = node.parent())
     if (is_transformed(node))
@@ -220,13 +221,14 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
     height = root.attribute("height").as_double(0);
   }
   Cage cage;
-  cage.segments = PathReader(path.attribute("d").as_string(), name, !for_rest).segments();
+  cage.segments =
+      PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {z.real(), height - z.imag()};
-  if (cage.size() < 3)
+  if (cage.size() < 3 && use != PathUse::outline)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; a cage needs at least three");
-  if (for_rest) free_handles(cage);
+  if (use == PathUse::rest) free_handles(cage);
   return cage;
 }
 

@@ -176,6 +176,26 @@ class CommandLine(unittest.TestCase):
         scene["outline"] = [[0, 0], [10, 0], [0, 10], [10, 10]]
         self.bad("info", self.write("bad.json", scene), says="/outline: the outline crosses itself")
 
+    def test_outlines_from_svg_and_from_a_picture(self):
+        gecko, fish = (os.path.join(SOURCE, "assets", name) for name in ("gecko.png", "fish.png"))
+        scene = self.path("onto.json")
+        svg = self.write("egg.svg", '<svg><path d="M300 500 C300 200 800 200 800 500 C800 800 300 800 300 500 Z"/></svg>')
+        self.good("new", gecko, "--out", scene, "--outline", svg)
+        outline = numpy.array(json.load(open(scene))["outline"])
+        self.assertAlmostEqual(outline[:, 0].min(), 300, delta=0.1)
+        self.assertAlmostEqual(outline[:, 1].mean(), 400, delta=2)  # the picture is 900 high
+        self.good("new", gecko, "--out", scene, "--outline", fish)
+        made = json.load(open(scene))
+        outline, cage = numpy.array(made["outline"]), numpy.array([s[0] for s in made["cage"]["rest"]])
+        size = lambda p: numpy.linalg.norm(p.max(axis=0) - p.min(axis=0))
+        self.assertAlmostEqual(size(outline), size(cage), delta=1e-6 * size(cage))
+        report = json.loads(self.good("info", scene, "--json").stdout)
+        self.assertEqual(report["method"], "outline")
+        self.assertIn("met to", report["note"])
+        line = self.write("line.svg", '<svg><path d="M0 0 L10 10 L20 20 Z"/></svg>')
+        self.bad("new", gecko, "--out", scene, "--outline", line, says="line.svg: ")
+        self.bad("new", gecko, "--out", scene, "--outline", self.write("no.png", "none"), says="no.png")
+
     def test_strokes_are_kept_in_the_file_and_what_is_none_is_named(self):
         scene = {"format": "holomorph", "version": 1,
                  "cage": {"rest": [[[0, 0]], [[400, 0]], [[400, 80]], [[0, 80]]]},

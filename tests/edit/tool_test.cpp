@@ -323,6 +323,34 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   CHECK_FALSE(desk.workspace.map.injectivity().folds());
 }
 
+TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it moves") {
+  Desk desk(shapes::rectangle(200, 150));
+  Points round;
+  for (int i = 0; i < 90; ++i)
+    round.push_back(Complex(300, 300) + std::polar(100.0, 2 * kPi * i / 90));
+  desk.workspace.commit("Outline", with_outline(desk.scene(), round));
+  desk.workspace.tool = ToolId::outline;
+  const size_t steps = desk.steps();
+  desk.drag({400, 300}, {430, 300});
+  CHECK(desk.steps() == steps + 1);
+  const Points bent = desk.scene().outline;
+  CHECK(std::abs(bent[0] - Complex(430, 300)) < 1e-9);
+  CHECK(bent[1].real() > round[1].real() + 25);
+  CHECK(bent[89].real() > round[89].real() + 25);
+  CHECK(bent[45] == round[45]);
+  desk.press({200, 300}, {true, false, false});
+  desk.move({190, 310});
+  desk.move({180, 320});
+  desk.release({180, 320});
+  for (size_t i = 0; i < bent.size(); ++i)
+    CHECK(std::abs(desk.scene().outline[i] - bent[i] - Complex(-20, 20)) < 1e-9);
+  // Bent through itself it is refused.
+  desk.drag({410, 320}, {-100, 320});
+  CHECK_FALSE(desk.workspace.toasts.empty());
+  CHECK(std::abs(desk.scene().outline[45] - bent[45] - Complex(-20, 20)) < 1e-9);
+  CHECK(desk.steps() == steps + 2);
+}
+
 TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
   Desk desk(shapes::rectangle(200, 150));
   desk.workspace.tool = ToolId::outline;

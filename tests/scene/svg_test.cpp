@@ -37,8 +37,9 @@ TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") 
   const Cage freed = loop("M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z");
   CHECK(freed.segments[0][1] != freed.segments[0][0]);
   check_rest_cage(freed);
-  const Cage posed = cage_of_svg(
-      "<svg height='100'><path d='M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z'/></svg>", "p.svg", 0, false);
+  const Cage posed =
+      cage_of_svg("<svg height='100'><path d='M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z'/></svg>",
+                  "p.svg", 0, PathUse::pose);
   CHECK(posed.segments[0][1] == posed.segments[0][0]);  // a pose may do anything
 }
 
@@ -94,15 +95,15 @@ TEST_CASE("A cage goes through SVG and back to 1e-9, at rest and posed, with and
   scene.pose.segments[3].resize(1);
   for (const int picture : {0, 400}) {
     if (picture) scene.image = ImageReference{"x.png", picture, picture, "", ""};
-    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, false), scene.pose);
-    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, true), scene.rest);
+    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::pose), scene.pose);
+    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::rest), scene.rest);
   }
 }
 
 TEST_CASE("A pose whose points coincide keeps all its segments through SVG") {
   Scene scene = with_cage(Scene{}, shapes::l_shape());
   for (const Index v : {1, 2, 5}) scene.pose.segments[v][0] = scene.pose.segments[0][0];
-  check_equal(cage_of_svg(svg_of(scene), "p.svg", 0, false), scene.pose);
+  check_equal(cage_of_svg(svg_of(scene), "p.svg", 0, PathUse::pose), scene.pose);
 }
 
 TEST_CASE("Curves of high degree leave as cubics that follow them, rest and pose in equal pieces") {
@@ -115,7 +116,8 @@ TEST_CASE("Curves of high degree leave as cubics that follow them, rest and pose
   for (int m = 0; m < 7; ++m) bent[static_cast<size_t>(m)] += off[m];
   scene.pose.segments[1] = bent;
   const std::string svg = svg_of(scene);
-  const Cage rest = cage_of_svg(svg, "p.svg", 0, true), pose = cage_of_svg(svg, "p.svg", 0, false);
+  const Cage rest = cage_of_svg(svg, "p.svg", 0, PathUse::rest),
+             pose = cage_of_svg(svg, "p.svg", 0, PathUse::pose);
   REQUIRE(rest.size() == pose.size());
   CHECK(vertices_of(rest).front() == vertices_of(scene.rest).front());
   const Points fine = outline_of(pose, 256);

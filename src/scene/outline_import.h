@@ -1,0 +1,15 @@
+// Outlines that others drew: an SVG's path, or what is opaque in a picture.
+#pragma once
+
+#include "core/mesh.h"
+#include "scene/file.h"
+
+namespace holomorph {
+
+/// The closed curve in a file, fit for Scene::outline. Of an SVG it is the path that cage_of_svg
+/// reads, in plane coordinates for a picture of this height. Of a picture it is the outline of the
+/// largest connected part that is not transparent, moved and scaled so that its box has the middle
+/// and the diagonal of `onto`. Throws Error{bad_input} for what cannot be read or is no outline.
+Points outline_of_file(const Path& path, double height, const Box& onto);
+
+}  // namespace holomorph
