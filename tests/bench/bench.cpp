@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "bench/measures.h"
 #include "core/cauchy.h"
 #include "core/clock.h"
 #include "core/compared/comparison.h"
@@ -12,28 +13,13 @@
 #include "core/error.h"
 #include "core/inverse.h"
 #include "core/methods/linear.h"
-#include "core/outline_match.h"
 #include "raster/raster.h"
 #include "scene/auto_cage.h"
 #include "scene/live_map.h"
 #include "support/known_maps.h"
-#include "support/outlines.h"
 
 namespace holomorph::bench {
 namespace {
-
-/// The median time of `work` in milliseconds, after one run that does not count.
-double median_ms(int runs, const std::function<void()>& work) {
-  work();
-  std::vector<double> times;
-  for (int i = 0; i < runs; ++i) {
-    const double start = now_ms();
-    work();
-    times.push_back(now_ms() - start);
-  }
-  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-  return times[runs / 2];
-}
 
 /// A wavy closed cage of n vertices.
 Points wavy(int n, Complex center, double radius) {
@@ -243,39 +229,6 @@ double bounded_cold_ms(int runs) {
   return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
 }
 
-/// 30 random pairs of smooth and limbed outlines: how many are reached without folds (no zero
-/// of f', turning number 1, both Hausdorff distances below 1 % of the diameter), and the median
-/// time.
-struct OutlineFigures {
-  double reached = 0, median_ms = 0;
-};
-
-OutlineFigures outline_figures(const OutlineSettings& settings) {
-  constexpr unsigned kPairs = 30;
-  OutlineFigures figures;
-  std::vector<double> times;
-  for (unsigned seed = 1; seed <= kPairs; ++seed) {
-    const Cage cage = polygon_cage(outlines::random(seed, seed % 2, 50));
-    const Points outline = outlines::random(seed + 100, seed % 3 == 0, 400);
-    const double start = now_ms();
-    const OutlineMatch match = matched({cage, outline, {}, {}}, settings);
-    times.push_back(now_ms() - start);
-    figures.reached +=
-        match.zeros == 0 && match.hausdorff < 0.01 * Polyline(outline, true).diagonal();
-  }
-  std::nth_element(times.begin(), times.begin() + kPairs / 2, times.end());
-  figures.median_ms = times[kPairs / 2];
-  return figures;
-}
-
-OutlineSettings published_outline() {
-  OutlineSettings settings;
-  settings.published = true;
-  settings.vertices = 100;
-  settings.most_iterations = 200;
-  return settings;
-}
-
 double prepare_ms(int runs) {
   const Scene scene = scene_with(wavy(100, {500, 500}, 350));
   return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
@@ -393,13 +346,16 @@ const Entry kEntries[] = {
      }},
     {"bounded: a folded pose from nothing, end to end", "ms", 0, 9, bounded_cold_ms},
     {"outline: of 30 random pairs, not reached", "pairs", 1, 1,
-     [](int) { return 30 - outline_figures({}).reached; }},
+     [](int) { return kOutlinePairs - outline_figures(false).reached; }},
     {"outline: the same, median time from nothing", "ms", 150, 1,
-     [](int) { return outline_figures({}).median_ms; }},
+     [](int) { return outline_figures(false).median_ms; }},
     {"outline: the same as published, not reached (for comparison)", "pairs", 0, 1,
-     [](int) { return 30 - outline_figures(published_outline()).reached; }},
+     [](int) { return kOutlinePairs - outline_figures(true).reached; }},
     {"outline: the same as published, median time", "ms", 0, 1,
-     [](int) { return outline_figures(published_outline()).median_ms; }},
+     [](int) { return outline_figures(true).median_ms; }},
+    {"outline: iterations to 1.01 of the last distance, 100 vertices, slowest of 30 pairs", "ms",
+     16, 3, outline_iterations_ms},
+    {"strokes: drag, 5 strokes of 20 samples, without the map", "ms", 2, 101, strokes_drag_ms},
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
      [](int runs) { return export_ms(runs, 2); }},
     {"export: the same, one core", "ms", 0, 9, [](int runs) { return export_ms(runs, 1); }},

@@ -1,0 +1,26 @@
+// What is measured of outlines and strokes, and how anything is timed.
+#pragma once
+
+#include <functional>
+
+namespace holomorph::bench {
+
+/// The median time of `work` in milliseconds, after one run that does not count.
+double median_ms(int runs, const std::function<void()>& work);
+
+/// 30 random pairs of smooth and limbed outlines: how many are reached without folds (no zero of
+/// f', turning number 1, both Hausdorff distances below 1 % of the diameter), and the median time.
+struct OutlineFigures {
+  double reached = 0, median_ms = 0;
+};
+OutlineFigures outline_figures(bool published);
+inline constexpr int kOutlinePairs = 30;
+
+/// The iterations alone, 100 vertices and 400 samples, until the distance is within 1 % of its last
+/// value: of the slowest of the pairs.
+double outline_iterations_ms(int runs);
+
+/// A frame of dragging one of five strokes of 20 samples each, without the map at the mesh.
+double strokes_drag_ms(int runs);
+
+}  // namespace holomorph::bench

@@ -1,0 +1,101 @@
+// Random outlines onto random outlines, and strokes that are dragged.
+#include <algorithm>
+
+#include "bench/measures.h"
+#include "core/clock.h"
+#include "core/deformer.h"
+#include "core/outline_match.h"
+#include "support/outlines.h"
+
+namespace holomorph::bench {
+namespace {
+
+struct Pair {
+  Cage cage;
+  Points outline;
+};
+
+Pair pair_of(unsigned seed) {
+  return {polygon_cage(outlines::random(seed, seed % 2, 50)),
+          outlines::random(seed + 100, seed % 3 == 0, 400)};
+}
+
+}  // namespace
+
+double median_ms(int runs, const std::function<void()>& work) {
+  work();
+  std::vector<double> times;
+  for (int i = 0; i < runs; ++i) {
+    const double start = now_ms();
+    work();
+    times.push_back(now_ms() - start);
+  }
+  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
+  return times[runs / 2];
+}
+
+OutlineFigures outline_figures(bool published) {
+  OutlineSettings settings;
+  if (published) {
+    settings.published = true;
+    settings.vertices = 100;
+    settings.most_iterations = 200;
+  }
+  OutlineFigures figures;
+  std::vector<double> times;
+  for (unsigned seed = 1; seed <= kOutlinePairs; ++seed) {
+    const Pair pair = pair_of(seed);
+    const double start = now_ms();
+    const OutlineMatch match = matched({pair.cage, pair.outline, {}, {}}, settings);
+    times.push_back(now_ms() - start);
+    figures.reached +=
+        match.zeros == 0 && match.hausdorff < 0.01 * Polyline(pair.outline, true).diagonal();
+  }
+  std::nth_element(times.begin(), times.begin() + kOutlinePairs / 2, times.end());
+  figures.median_ms = times[kOutlinePairs / 2];
+  return figures;
+}
+
+double outline_iterations_ms(int runs) {
+  OutlineSettings settings;
+  settings.vertices = 100;
+  double slowest = 0;
+  for (unsigned seed = 1; seed <= kOutlinePairs; ++seed) {
+    const Pair pair = pair_of(seed);
+    OutlineFit fit(pair.cage, pair.outline, {}, settings);
+    const double all = median_ms(runs, [&] { fit.solve({}); });
+    const double last = fit.after(fit.iterations()).rms;
+    int needed = 0;
+    while (fit.after(needed).rms > 1.01 * last) ++needed;
+    slowest = std::max(slowest, all * needed / std::max(fit.iterations(), 1));
+  }
+  return slowest;
+}
+
+double strokes_drag_ms(int runs) {
+  Rest rest;
+  rest.cage = polygon_cage(outlines::random(1, false, 50));
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {10000}));
+  rest.samples = rest.mesh->vertices;
+  // 20 samples each: twice the mean radius long.
+  const double length = 2 * perimeter(outline_of(rest.cage)) / (2 * kPi) * 0.5;
+  for (int i = 0; i < 5; ++i)
+    rest.strokes.push_back({{-0.5 * length, 60.0 * (i - 2)}, {0.5 * length, 60.0 * (i - 2)}});
+  const auto deformer = method_named("strokes").prepare(rest, nullptr);
+  SampledMap map;
+  std::vector<double> times;
+  Pose pose{rest.cage, {}};
+  for (int frame = 0; frame < runs; ++frame) {
+    pose.strokes = rest.strokes;
+    for (Complex& z : pose.strokes[2]) z += std::polar(40.0, 0.2 * frame);
+    const double start = now_ms();
+    deformer->deform(pose, map, {false, true});
+    const double solved = now_ms();
+    deformer->deform(pose, map, {false, true});  // the map alone
+    times.push_back(2 * solved - start - now_ms());
+  }
+  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
+  return times[static_cast<size_t>(runs / 2)];
+}
+
+}  // namespace holomorph::bench
