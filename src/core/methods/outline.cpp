@@ -122,7 +122,8 @@ class OutlineDeformer final : public Deformer {
     char text[240];
     std::snprintf(text, sizeof text,
                   "The outline is met to %.2g %% of its size, %.2g %% at worst, in %d %s%s",
-                  100 * match.rms / size, 100 * match.hausdorff / size, match.iterations, match.iterations == 1 ? "step" : "steps",
+                  100 * match.rms / size, 100 * match.hausdorff / size, match.iterations,
+                  match.iterations == 1 ? "step" : "steps",
                   match.zeros > 0                     ? "; the picture folds: f' has zeros"
                   : match.hausdorff > kReached * size ? ": more softness reaches farther"
                                                       : "");
