@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/inverse.h"
 #include "raster/picture.h"
+#include "raster/textured.h"
 #include "raster/unwarp.h"
 #include "scene/auto_cage.h"
 #include "scene/document.h"
@@ -159,33 +160,58 @@ void run(const InfoCommand& command) {
   std::cout << (command.json ? json_of(report) : text_of(report));
 }
 
+namespace {
+
+/// A path of an SVG file, or the boundary of a surface's texture coordinates.
+Cage cage_of_file(const Path& path, const Image& picture) {
+  const std::string text = read_file(path);
+  if (lower_case(path.extension().string()) != ".obj")
+    return cage_of_svg(text, path.string(), picture.height, PathUse::rest);
+  try {
+    return polygon_cage(
+        texture_boundary(surface_of_obj(text, path.string()), picture.width, picture.height));
+  } catch (const Error& error) {
+    throw Error(error.kind(), path.string() + ": " + error.what());
+  }
+}
+
+Flattening flattening_named(const std::string& name) {
+  if (name == "lscm") return Flattening::lscm;
+  if (name == "circle") return Flattening::circle;
+  throw Error(ErrorKind::bad_input,
+              "flattening '" + name + "' does not exist; choose one of: lscm, circle");
+}
+
+}  // namespace
+
 void run(const NewCommand& command) {
   LoadedScene loaded = scene_of_image(command.image);
   const double height = loaded.image->height;
-  const auto from_svg = [&](const Path& path, PathUse use) {
-    return cage_of_svg(read_file(path), path.string(), height, use);
-  };
-  Scene scene =
-      command.cage
-          ? with_cage(std::move(loaded.scene), from_svg(*command.cage, PathUse::rest))
-          : with_cage(std::move(loaded.scene),
-                      auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
+  Scene scene = with_cage(
+      std::move(loaded.scene),
+      command.cage ? cage_of_file(*command.cage, *loaded.image)
+                   : auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
   check_rest_cage(scene.rest);
-  if (command.pose) scene.pose = from_svg(*command.pose, PathUse::pose);
+  if (command.pose)
+    scene.pose =
+        cage_of_svg(read_file(*command.pose), command.pose->string(), height, PathUse::pose);
   if (scene.pose.size() != scene.rest.size())
     throw Error(ErrorKind::bad_input, command.pose->string() + ": the posed cage has " +
                                           std::to_string(scene.pose.size()) +
                                           " segments and the cage " +
                                           std::to_string(scene.rest.size()) + "; they must agree");
   if (command.outline) {
-    scene.outline = outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)));
+    scene.outline = outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)),
+                                    flattening_named(command.flattening));
     scene.method = "outline";
   }
   const Path folder = std::filesystem::absolute(command.out).lexically_normal().parent_path();
   const Path relative =
       std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);
   if (!relative.empty()) scene.image->file = relative.generic_string();
-  write_file(command.out, json_of(scene));
+  const std::string text = json_of(scene);
+  scene_from_json(text, command.out.string());  // what could not be read again is not written
+  write_file(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(),
                static_cast<size_t>(scene.rest.size()));
 }
@@ -198,7 +224,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   if (!known.contains(format))
     throw Error(ErrorKind::bad_input, "format '" + format +
                                           "' is not available in this version; choose one of: obj, "
-                                          "svg, npy, png, stmap, unwarp");
+                                          "svg, npy, png, stmap, unwarp, textured");
   require_cage(loaded.scene, command.scene);
   if (format == "unwarp")
     return encode_png(unwarped(loaded.scene, loaded.image.get(), command.scale));
@@ -217,6 +243,22 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(*prepared->mesh, positions, image ? image->width : 0, image ? image->height : 0);
 }
 
+void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
+  if (!command.surface)
+    throw Error(ErrorKind::bad_input, "'textured' needs --surface, the OBJ file that is textured");
+  require_cage(loaded.scene, command.scene);
+  if (std::filesystem::weakly_canonical(command.out) ==
+      std::filesystem::weakly_canonical(*command.surface))
+    throw Error(ErrorKind::bad_input, command.out.string() + ": this is the surface itself");
+  Path texture = command.out;
+  check_out(texture.replace_extension(".png"), command.scene, loaded);
+  const LaidSurface surface =
+      laid_along(surface_of_obj(read_file(*command.surface), command.surface->string()).surface,
+                 loaded.scene.outline);
+  write_textured(command.out, surface,
+                 textured(surface, loaded.scene, loaded.image.get(), command.scale));
+}
+
 }  // namespace
 
 void run(const ExportCommand& command) {
@@ -224,6 +266,7 @@ void run(const ExportCommand& command) {
     return run(RenderCommand{command.scene, command.out, command.scale, "image", false});
   const LoadedScene loaded = load(command.scene);
   check_out(command.out, command.scene, loaded);
+  if (command.format == "textured") return export_textured(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_file(command.out, bytes);
   std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());

@@ -35,13 +35,16 @@ struct NewCommand {
   int vertices = 30;
   double margin = -1;
   bool curved = false;
-  std::optional<Path> cage, pose;  ///< SVG files
-  std::optional<Path> outline;     ///< SVG file or picture
+  std::optional<Path> cage;     ///< SVG file, or surface with texture coordinates
+  std::optional<Path> pose;     ///< SVG file
+  std::optional<Path> outline;  ///< SVG file, picture or surface
+  std::string flattening = "lscm";
 };
 struct ExportCommand {
   Path scene, out;
   std::string format;
   double scale = 1;
+  std::optional<Path> surface;  ///< for textured
 };
 struct BenchCommand {
   std::string filter;

@@ -84,22 +84,30 @@ int run_program(int argc, char** argv) {
   sub->add_flag("--curved", fresh.curved, "Cubic segments instead of straight edges");
   sub->add_option(
       "--cage", fresh.cage,
-      "An SVG file whose path \"rest\", else the first, is the cage, in place of alpha");
+      "An SVG file whose path \"rest\", else the first, is the cage, in place of alpha; or an OBJ "
+      "file: the boundary of its texture coordinates");
   sub->add_option(
          "--pose", fresh.pose,
          "An SVG file whose path \"pose\", else the first, is the posed cage; needs --cage")
       ->needs("--cage");
   sub->add_option(
       "--outline", fresh.outline,
-      "An SVG file's path, or another picture's alpha, that the cage's shape goes onto");
+      "What the cage's shape goes onto: an SVG file's path, another picture's alpha, or "
+      "the boundary of an OBJ surface when it is flattened");
+  sub->add_option("--flattening", fresh.flattening,
+                  "Of an OBJ surface: lscm (free boundary) or circle")
+      ->capture_default_str();
   on_run(sub, fresh, done);
 
   ExportCommand out;
   sub = app.add_subcommand("export", "Write the posed scene in another format");
   sub->add_option("SCENE", out.scene)->required();
-  sub->add_option("--format", out.format, "obj, svg, npy, png, stmap or unwarp")->required();
+  sub->add_option("--format", out.format, "obj, svg, npy, png, stmap, unwarp or textured")
+      ->required();
   sub->add_option("--scale", out.scale, "Output pixels per image pixel, for png, stmap and unwarp")
       ->capture_default_str();
+  sub->add_option("--surface", out.surface,
+                  "For textured: the OBJ file whose flat boundary the scene's outline is");
   sub->add_option("--out", out.out, "File to write")->required();
   on_run(sub, out, done);
 

@@ -3,12 +3,14 @@
 
 #include "core/outline_match.h"
 #include "scene/auto_cage.h"
+#include "scene/laid_surface.h"
 #include "scene/svg_path.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kVertices = 120;  ///< of a traced picture
+constexpr Index kMost = 4000;   ///< points; longer ones are taken at equal steps
 
 Points fitted(Points points, const Box& onto) {
   const Box box = box_of(points);
@@ -19,16 +21,21 @@ Points fitted(Points points, const Box& onto) {
 
 }  // namespace
 
-Points outline_of_file(const Path& path, double height, const Box& onto) {
+Points outline_of_file(const Path& path, double height, const Box& onto, Flattening how) {
   const std::string name = path.string(), bytes = read_file(path);
   try {
     Points outline;
-    if (lower_case(path.extension().string()) == ".svg") {
+    const std::string kind = lower_case(path.extension().string());
+    if (kind == ".svg") {
       outline = flattened(cage_of_svg(bytes, name, height, PathUse::outline)).points;
+    } else if (kind == ".obj") {
+      outline = laid_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
     }
+    if (static_cast<Index>(outline.size()) > kMost)
+      outline = at_equal_lengths(Polyline(outline, true), kMost);
     check_outline(outline);
     return outline;
   } catch (const Error& error) {

@@ -1,7 +1,8 @@
-// Outlines that others drew: an SVG's path, or what is opaque in a picture.
+// Outlines that others drew: an SVG's path, what is opaque in a picture, a surface's boundary.
 #pragma once
 
 #include "core/mesh.h"
+#include "core/surface.h"
 #include "scene/file.h"
 
 namespace holomorph {
@@ -9,7 +10,9 @@ namespace holomorph {
 /// The closed curve in a file, fit for Scene::outline. Of an SVG it is the path that cage_of_svg
 /// reads, in plane coordinates for a picture of this height. Of a picture it is the outline of the
 /// largest connected part that is not transparent, moved and scaled so that its box has the middle
-/// and the diagonal of `onto`. Throws Error{bad_input} for what cannot be read or is no outline.
-Points outline_of_file(const Path& path, double height, const Box& onto);
+/// and the diagonal of `onto`. Of a surface (.obj) it is the boundary of its flattening, laid in
+/// the same way. Throws Error{bad_input} for what cannot be read or is no outline.
+Points outline_of_file(const Path& path, double height, const Box& onto,
+                       Flattening how = Flattening::lscm);
 
 }  // namespace holomorph

@@ -1,0 +1,33 @@
+// A surface in space with the topology of a disk, and its conformal flattening.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "core/types.h"
+
+namespace holomorph {
+
+/// Triangles over vertices in space, all of the same orientation. Value type.
+struct Surface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// The boundary as one closed loop of vertex numbers, in the triangles' direction. Throws Error for
+/// what is no disk, saying what it is: closed, in several parts, with holes or handles, with edges
+/// of more than two triangles, or with triangles of both orientations. Cost: linear.
+std::vector<int> disk_boundary(const Surface& surface);
+
+enum class Flattening {
+  lscm,    ///< least squares conformal maps (Levy et al. 2002): the boundary finds its own shape
+  circle,  ///< discrete conformal (Eck et al. 1995), the boundary on a circle by arc length
+};
+
+/// Where the vertices go in the plane: counter-clockwise, of the surface's area, turned so that the
+/// surface's y goes up on average, its box's lower left corner at the origin. Throws Error for what
+/// disk_boundary refuses and for surfaces that fold when they are flattened. Cost: a sparse
+/// factorisation, about 10 us a vertex.
+Points flattened(const Surface& surface, Flattening how);
+
+}  // namespace holomorph

@@ -1,0 +1,216 @@
+// Surfaces: read, checked, flattened, laid onto the plane.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "core/curve.h"
+#include "core/error.h"
+#include "scene/file.h"
+#include "scene/laid_surface.h"
+
+using namespace holomorph;
+
+namespace {
+
+Surface surface_of(const std::string& text) {
+  return surface_of_obj(text, "s.obj").surface;
+}
+
+Surface sample(const std::string& name) {
+  return surface_of(read_file(std::string(HOLOMORPH_SOURCE) + "/assets/" + name));
+}
+
+/// A grid of squares, each cut in two, taken into space.
+Surface grid(int n, const std::function<Eigen::Vector3d(double, double)>& place) {
+  Surface surface;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      surface.vertices.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / n));
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+      surface.triangles.push_back({a, b, d});
+      surface.triangles.push_back({a, d, c});
+    }
+  return surface;
+}
+
+/// The largest ratio of a triangle's singular values under the flattening, less 1.
+double worst_angle(const Surface& surface, const Points& flat) {
+  double worst = 0;
+  for (const auto& t : surface.triangles) {
+    const Eigen::Vector3d p = surface.vertices[static_cast<size_t>(t[0])],
+                          u = surface.vertices[static_cast<size_t>(t[1])] - p,
+                          v = surface.vertices[static_cast<size_t>(t[2])] - p;
+    const Complex a(u.norm(), 0), b(v.dot(u) / u.norm(), u.cross(v).norm() / u.norm());
+    const Complex fa = flat[static_cast<size_t>(t[1])] - flat[static_cast<size_t>(t[0])],
+                  fb = flat[static_cast<size_t>(t[2])] - flat[static_cast<size_t>(t[0])];
+    // f = alpha z + beta conj(z) on the triangle.
+    const Complex det = a * std::conj(b) - b * std::conj(a);
+    const Complex alpha = (fa * std::conj(b) - fb * std::conj(a)) / det,
+                  beta = (a * fb - b * fa) / det;
+    worst = std::max(worst, 2 * std::abs(beta) / (std::abs(alpha) - std::abs(beta)));
+  }
+  return worst;
+}
+
+double twice_area(const Surface& surface) {
+  double area = 0;
+  for (const auto& t : surface.triangles)
+    area +=
+        (surface.vertices[static_cast<size_t>(t[1])] - surface.vertices[static_cast<size_t>(t[0])])
+            .cross(surface.vertices[static_cast<size_t>(t[2])] -
+                   surface.vertices[static_cast<size_t>(t[0])])
+            .norm();
+  return area;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and line ends") {
+  const SurfaceFile file = surface_of_obj(
+      "# a square\r\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 # corner\nv 1 1 0\nv 0 1 0\nv 9 9 9\n"
+      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 -3/-2/1 4/4/1\r\n",
+      "s.obj");
+  CHECK(file.surface.vertices.size() == 4);  // the fifth has no face
+  CHECK(file.surface.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}});
+  CHECK(file.texture == Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  CHECK(surface_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "s.obj").texture.empty());
+  // A seam: vertex 1 has two places on the texture.
+  CHECK(surface_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nvt 0 0\nvt 1 1\n"
+                       "f 1/1 2/1 3/1\nf 1/2 4/1 2/1\n",
+                       "s.obj")
+            .texture.empty());
+}
+
+TEST_CASE("OBJ: what is damaged is refused with its line") {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      surface_of_obj(text, "s.obj");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(complaint("v 0 0 0\nv 1 x 0\n"),
+             Catch::Contains("s.obj: line 2") && Catch::Contains("'x'"));
+  CHECK_THAT(complaint("v 0 0\n"), Catch::Contains("line 1"));
+  CHECK_THAT(complaint("v 0 0 inf\n"), Catch::Contains("line 1"));
+  CHECK_THAT(complaint("v 0 0 0\nf 1 2 3\n"),
+             Catch::Contains("line 2") && Catch::Contains("no such"));
+  CHECK_THAT(complaint("v 0 0 0\nf 0 1 1\n"), Catch::Contains("no such"));
+  CHECK_THAT(complaint("v 0 0 0\nv 1 0 0\nf 1 2\n"), Catch::Contains("three vertices"));
+  CHECK_THAT(complaint("v 0 0 0\n"), Catch::Contains("no face"));
+  CHECK_THAT(complaint(""), Catch::Contains("no face"));
+}
+
+TEST_CASE("Surfaces that are no disk are refused by what they are") {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\n";
+  const auto refused = [&](const std::string& faces) -> std::string {
+    try {
+      disk_boundary(surface_of(square + faces));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(disk_boundary(surface_of(square + "f 1 2 3 4\n")) == std::vector<int>{0, 1, 2, 3});
+  CHECK_THAT(refused("f 1 2 3\nf 1 3 2\n"), Catch::Contains("closed"));
+  CHECK_THAT(refused("f 1 2 3\nf 5 6 7\n"), Catch::Contains("several parts"));
+  CHECK_THAT(refused("f 1 2 3\nf 1 2 4\n"), Catch::Contains("opposite orientation"));
+  CHECK_THAT(refused("f 1 2 4\nf 2 5 6\n"), Catch::Contains("touches itself"));
+  CHECK_THAT(refused("f 1 1 2\n"), Catch::Contains("twice"));
+  // A ring of squares around a hole.
+  std::string ring, faces;
+  for (int k = 0; k < 6; ++k) {
+    ring += "v " + std::to_string(std::cos(k)) + " " + std::to_string(std::sin(k)) + " 0\nv " +
+            std::to_string(2 * std::cos(k)) + " " + std::to_string(2 * std::sin(k)) + " 0\n";
+    const auto n = [&](int i) { return std::to_string(1 + i % 12) + " "; };
+    faces += "f " + n(2 * k) + n(2 * k + 1) + n(2 * k + 3) + n(2 * k + 2) + "\n";
+  }
+  CHECK_THROWS_WITH(disk_boundary(surface_of(ring + faces)), Catch::Contains("hole"));
+}
+
+TEST_CASE("A surface that is flat up to bending is flattened as it is, upright and of its area") {
+  // A sheet rolled to an arc around a slanted axis keeps all lengths.
+  const Eigen::Vector3d up = Eigen::Vector3d(0.2, 0.9, 0.1).normalized(), out = up.unitOrthogonal(),
+                        across = up.cross(out);
+  const Surface sheet = grid(12, [&](double s, double t) -> Eigen::Vector3d {
+    const double angle = 1.5 * (s - 0.5);
+    return 2 / 1.5 * (std::sin(angle) * across + std::cos(angle) * out) + t * up;
+  });
+  const Points flat = flattened(sheet, Flattening::lscm);
+  CHECK(worst_angle(sheet, flat) < 1e-3);
+  const Box box = box_of(flat);
+  CHECK(box.left == Approx(0).margin(1e-12));
+  CHECK(box.bottom == Approx(0).margin(1e-12));
+  double area = 0;
+  for (const auto& t : sheet.triangles)
+    area += cross(flat[static_cast<size_t>(t[1])] - flat[static_cast<size_t>(t[0])],
+                  flat[static_cast<size_t>(t[2])] - flat[static_cast<size_t>(t[0])]);
+  CHECK(area == Approx(twice_area(sheet)));
+  // Up is the direction in which the surface's y grows, here nearly along the axis.
+  CHECK((flat[12 * 13] - flat[0]).imag() > 0.85);
+}
+
+TEST_CASE("The samples are flattened without folds and nearly conformally, in both ways") {
+  for (const char* name : {"mask.obj", "leaf.obj"})
+    for (const Flattening how : {Flattening::lscm, Flattening::circle}) {
+      const Surface surface = sample(name);
+      const Points flat = flattened(surface, how);  // throws where a triangle turns
+      INFO(name << " " << static_cast<int>(how));
+      double area = 0, off = 0;
+      for (const auto& t : surface.triangles)
+        area += cross(flat[static_cast<size_t>(t[1])] - flat[static_cast<size_t>(t[0])],
+                      flat[static_cast<size_t>(t[2])] - flat[static_cast<size_t>(t[0])]);
+      CHECK(area == Approx(twice_area(surface)));
+      if (how == Flattening::lscm) continue;
+      const Complex centre = box_of(flat).center();
+      const double radius = 0.5 * box_of(flat).width();
+      for (const int v : disk_boundary(surface))
+        off = std::max(off, std::abs(std::abs(flat[static_cast<size_t>(v)] - centre) - radius));
+      CHECK(off < 0.01 * radius);
+    }
+  CHECK(worst_angle(sample("mask.obj"), flattened(sample("mask.obj"), Flattening::lscm)) < 1);
+}
+
+TEST_CASE("A laid surface is found again by its outline, and only by that") {
+  const Surface mask = sample("mask.obj");
+  Box onto;
+  onto.include({100, 50});
+  onto.include({700, 650});
+  for (const Flattening how : {Flattening::lscm, Flattening::circle}) {
+    const LaidSurface laid = laid_onto(mask, how, onto);
+    CHECK(std::abs(box_of(laid.plane).center() - onto.center()) < 1e-9);
+    CHECK(box_of(laid.plane).diagonal() == Approx(onto.diagonal()));
+    CHECK(signed_area(laid.outline()) > 0);
+    Points outline = laid.outline();
+    const LaidSurface again = laid_along(mask, outline);
+    for (size_t i = 0; i < laid.plane.size(); ++i)
+      REQUIRE(std::abs(again.plane[i] - laid.plane[i]) < 1e-6);
+    for (Complex& z : outline) z = std::polar(2.0, 0.7) * z + Complex(5, 9);  // moved by the user
+    CHECK(std::abs(laid_along(mask, outline).plane[3] -
+                   (std::polar(2.0, 0.7) * laid.plane[3] + Complex(5, 9))) < 1e-5);
+    outline[4] += 5.0;
+    CHECK_THROWS_WITH(laid_along(mask, outline), Catch::Contains("not this surface's"));
+  }
+  CHECK_THROWS_WITH(laid_along(mask, Points{{0, 0}, {1, 0}, {0, 1}}),
+                    Catch::Contains("not this surface's"));
+}
+
+TEST_CASE("A written surface is read back with its texture coordinates") {
+  const Surface leaf = sample("leaf.obj");
+  Points texture = flattened(leaf, Flattening::lscm);
+  const Box box = box_of(texture);
+  for (Complex& z : texture) z = {z.real() / box.width(), z.imag() / box.height()};
+  const SurfaceFile again = surface_of_obj(obj_of(leaf, texture, "leaf.mtl"), "leaf.obj");
+  REQUIRE(again.texture.size() == texture.size());
+  CHECK(again.surface.triangles == leaf.triangles);
+  for (size_t i = 0; i < texture.size(); ++i) {
+    CHECK(std::abs(again.texture[i] - texture[i]) < 1e-8);
+    CHECK((again.surface.vertices[i] - leaf.vertices[i]).norm() < 1e-8);
+  }
+  const Points boundary = texture_boundary(again, 200, 100);
+  CHECK(box_of(boundary).width() == Approx(200).epsilon(0.01));
+  CHECK(box_of(boundary).height() == Approx(100).epsilon(0.01));
+  CHECK_THROWS_WITH(texture_boundary({leaf, {}}, 10, 10), Catch::Contains("no texture"));
+}
