@@ -39,9 +39,10 @@ class Editor {
 
   int run() {
     while (!files_.has_quit()) {
-      if (window_.wait(toasts_.empty() ? 1.0 : 0.25))
+      const bool playing = workspace_.playback.playing;
+      if (window_.wait(playing ? 0.02 : toasts_.empty() ? 1.0 : 0.25))
         frame();
-      else if (toasts_.expire())
+      else if (playing || toasts_.expire())
         window_.wake();
     }
     return 0;
@@ -65,7 +66,7 @@ class Editor {
     answer(std::exchange(workspace_.request, Request::none));
     if (workspace_.map.update(workspace_.scene(),
                               {is_heat(workspace_.view), workspace_.preview.has_value(),
-                               workspace_.playback.iteration}))
+                               workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
     if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
     update_title();

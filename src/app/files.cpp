@@ -262,9 +262,9 @@ void Files::answer(Request request) {
       break;
     case Request::import_outline:
       dialog_.ask({FileQuestion::Mode::open,
-                   "Outline from an SVG path or a picture's alpha",
+                   "Outline from an SVG path, a picture's alpha or an OBJ surface",
                    "Open",
-                   {".svg", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd"},
+                   {".svg", ".obj", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd"},
                    {},
                    false},
                   [this](const Path& path, double) { return import_outline(path); });

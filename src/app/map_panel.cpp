@@ -29,13 +29,13 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
   list.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg),
                      4 * s);
   const auto [least, most] = std::ranges::minmax(energies);
-  const double low = std::log(std::max(least, 1e-300)),
-               span = std::max(std::log(std::max(most, 1e-300)) - low, 1e-9),
+  const double floor = std::max(1e-12 * most, 1e-300), low = std::log(std::max(least, floor)),
+               span = std::max(std::log(std::max(most, floor)) - low, 1e-9),
                last = std::log(static_cast<double>(energies.size()));
   const float margin = 8 * s;
   const auto place = [&](size_t i) {
     const double x = std::log(static_cast<double>(i) + 1) / std::max(last, 1e-9),
-                 y = (std::log(std::max(energies[i], 1e-300)) - low) / span;
+                 y = (std::log(std::max(energies[i], floor)) - low) / span;
     return ImVec2(at.x + margin + static_cast<float>(x) * (width - 2 * margin),
                   at.y + height - margin - static_cast<float>(y) * (height - 2 * margin));
   };
@@ -78,13 +78,14 @@ void injectivity_section(Workspace& workspace, bool light) {
     ImGui::SameLine();
     ImGui::PushID(text);
     if (ImGui::SmallButton("Show me")) {
+      workspace.layer = Layer::pose;
       workspace.viewport.center = where;
       workspace.toasts.push_back({text, true, where});
     }
     ImGui::PopID();
   };
   const double turns = found.boundary_turns;
-  const int zeros = static_cast<int>(std::lround(turns)) - 1;
+  const int winds = static_cast<int>(std::lround(turns)) - 1;
   if (!found.folds()) {
     ImGui::Text("\uf00c Nothing folds");
   } else {
@@ -94,14 +95,13 @@ void injectivity_section(Workspace& workspace, bool light) {
   ImGui::TextDisabled("Boundary turns %.2f times", turns);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "The turning number of the picture's outline: 1 unless the picture\n"
+        "The turning number of the picture's boundary: 1 unless the picture\n"
         "winds around a branch point or lies on its back.");
-  if (zeros > 0)
-    ImGui::TextColored(warning, "%d %s of the derivative inside", zeros,
-                       zeros == 1 ? "zero" : "zeros");
+  if (winds > 0)
+    ImGui::TextColored(warning, "It winds around %d branch point%s", winds, winds == 1 ? "" : "s");
   if (found.crossing) {
     ImGui::TextDisabled("Parts lie over each other");
-    show(*found.crossing, "The outline crosses itself here.");
+    show(*found.crossing, "The picture's boundary crosses itself here.");
   }
   if (const Points& marked = workspace.map.map().zeros; !marked.empty())
     ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(marked.size()),

@@ -143,8 +143,7 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
 }
 
-/// A stroke with its start as a dot and its end as a ring, and faintly where the other layer has
-/// it.
+/// A stroke with its start as a dot and its end as a ring.
 void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
   const Layer layer = workspace.layer;
@@ -176,7 +175,8 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     // With pins or strokes the posed cage is only the start of the map: it steps back behind the
     // picture.
     const Pose used = pose_of(scene);
-    const bool faint = layer == Layer::pose && (!used.pins.empty() || !used.strokes.empty());
+    const bool faint = layer == Layer::pose &&
+                       (!used.pins.empty() || !used.strokes.empty() || workspace.shows_outline());
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
@@ -196,7 +196,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                              style.colors.pin);
     }
     if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
-    if (layer == Layer::pose && !scene.outline.empty()) {
+    if (workspace.shows_outline()) {
       std::vector<ImVec2> line;
       for (const Complex& z : scene.outline) line.push_back(px(workspace, z));
       stroke(list, line, true, style.colors.accent, style);

@@ -98,12 +98,17 @@ void draw_toolbar(Workspace& workspace, double scale) {
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  // Nine buttons and three lines fit into any height.
-  const float room = ImGui::GetContentRegionAvail().y - 3 * 26 * s;
-  const ImVec2 button(40 * s, std::min(38 * s, room / 9 - ImGui::GetStyle().ItemSpacing.y));
-  for (const char* id : {"tool.select", "tool.pen", "tool.pin", "tool.stroke", "tool.outline", "",
-                         "cage.from_picture", "cage.rest", "", "edit.undo", "edit.redo", "",
-                         "view.fit", "help.keys"}) {
+  static constexpr const char* kIds[] = {
+      "tool.select",       "tool.pen",  "tool.pin", "tool.stroke", "tool.outline", "",
+      "cage.from_picture", "cage.rest", "",         "edit.undo",   "edit.redo",    "",
+      "view.fit",          "help.keys"};
+  // All buttons and lines fit into any height.
+  const long lines = std::ranges::count(kIds, std::string_view(),
+                                        [](const char* id) { return std::string_view(id); });
+  const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
+              room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 26 * s;
+  const ImVec2 button(40 * s, std::min(38 * s, room / buttons - ImGui::GetStyle().ItemSpacing.y));
+  for (const char* id : kIds) {
     if (!*id) {
       ImGui::Dummy({0, 2 * s});
       ImGui::Separator();

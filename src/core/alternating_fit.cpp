@@ -82,7 +82,7 @@ double AlternatingFit::distance(size_t term) const {
                    static_cast<double>(moving.values.size()));
 }
 
-/// Values, targets and the energy at g.
+/// Values, targets and the energy at g; what is below rounding is rounding.
 void AlternatingFit::evaluate(const VectorXc& g) {
   g_ = g;
   energy_ = g.squaredNorm() - 2 * given_.dot(g).real() + given_square_;
@@ -94,6 +94,7 @@ void AlternatingFit::evaluate(const VectorXc& g) {
     term.project(term.values, term.targets);
     energy_ += term.scale * term.scale * (term.values - term.targets).squaredNorm();
   }
+  energy_ = std::max(energy_, 1e-15 * g_.squaredNorm());
 }
 
 VectorXc AlternatingFit::zeroth() const {

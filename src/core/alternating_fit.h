@@ -60,8 +60,6 @@ class AlternatingFit {
   VectorXc unknowns() const;
   /// Root of the mean square distance of a moving term's values from its targets.
   double distance(size_t term) const;
-  /// Of a moving term.
-  const VectorXc& values(size_t term) const { return terms_[term].values; }
 
  private:
   struct Term {

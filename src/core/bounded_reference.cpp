@@ -25,7 +25,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   take_points(*rest.mesh, basis);
   fit_ = HolomorphicFit(basis, points_.boundary);
   Rest followed = used_by(method, rest);
-  followed.parameters.clear();
+  followed.parameters = parameters_of(rest, method);
   followed.precision = Precision::full;  // the samples are few
   followed.samples = points_.boundary;
   for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);

@@ -68,6 +68,8 @@ struct Rest {
   /// The domain's triangles, for methods that integrate or minimise over it.
   std::shared_ptr<const Mesh> mesh;
   Parameters parameters;
+  /// Parameters of other methods by id, for those that follow another one.
+  std::map<std::string, Parameters> other_parameters = {};
   Precision precision = Precision::single;
 };
 
@@ -169,6 +171,9 @@ const Method& method_named(const std::string& id);
 /// Without the handles that the method has no use for.
 Rest used_by(const Method& method, Rest rest);
 Pose used_by(const Method& method, Pose pose);
+
+/// What a rest holds for a method that its own one follows.
+Parameters parameters_of(const Rest& rest, const Method& followed);
 
 /// The parameter's value, its default when missing.
 double parameter(const Method& method, const Parameters& values, const std::string& key);

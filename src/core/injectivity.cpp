@@ -1,6 +1,6 @@
 // Next to corners of a basis on the boundary, where derivatives have poles, a few specks always
 // turn; they are no fold.
-#include "scene/injectivity.h"
+#include "core/injectivity.h"
 
 #include <limits>
 
@@ -42,8 +42,7 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   if (image.empty()) return found;
   found.boundary_turns = turning_number(image);
   if (!found.fold && found.folds()) found.fold = smallest_place(mesh, f);
-  if (const auto crossing = self_crossing(image))
-    found.crossing = image[static_cast<size_t>(crossing->first)];
+  if (const auto crossing = self_crossing(image)) found.crossing = crossing->point;
   return found;
 }
 

@@ -38,6 +38,11 @@ Pose used_by(const Method& method, Pose pose) {
   return pose;
 }
 
+Parameters parameters_of(const Rest& rest, const Method& followed) {
+  const auto found = rest.other_parameters.find(followed.id);
+  return found == rest.other_parameters.end() ? Parameters{} : found->second;
+}
+
 double parameter(const Method& method, const Parameters& values, const std::string& key) {
   if (const auto found = values.find(key); found != values.end()) return found->second;
   for (const ParameterSpec& spec : method.parameters)

@@ -10,11 +10,11 @@
 namespace holomorph {
 namespace {
 
-constexpr int kSamplesPerSegment = 4;
+constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
 constexpr double kInset = 0.02;  ///< of the loop that zeros are counted in, in edges
 constexpr double kRoughlySettled = 1e-2;
-constexpr int kMostRough = 10;
+constexpr int kMostRough = 4;
 constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
 
 /// The loop cut at arc lengths of its flattened self, all its own vertices kept.
@@ -69,7 +69,9 @@ MatrixXc with_conjugate(const MatrixXc& c, bool soft) {
   return both;
 }
 
-Points run_counter_clockwise(Points points) {
+/// Counter-clockwise. Throws Error as check_outline does.
+Points checked(Points points) {
+  check_outline(points);
   if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
   return points;
 }
@@ -111,7 +113,7 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       cage_(counter_clockwise(source)),
       flat_(flattened(cage_)),
       source_(flat_.points, true),
-      target_((check_outline(outline), run_counter_clockwise(outline)), true),
+      target_(checked(outline), true),
       pins_(pins),
       unit_(source_.length() / (2 * kPi)),
       centre_(box_of(target_.points()).center()) {
@@ -137,9 +139,7 @@ void OutlineFit::follow(const Points& pinned) {
   if (iterates_.empty()) return solve(pinned);
   if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(pinned));
   fit_->resume();
-  run(AlternatingFit::Mode::anderson, kRoughlySettled, kMostRough);
-  iterates_ = {iterates_.back()};
-  energies_ = {energies_.back()};
+  run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
 }
 
 void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
@@ -187,7 +187,9 @@ void OutlineFit::take_basis(const Correspondence& start) {
   ends.push_back(source_.length());
   for (size_t e = 0; e + 1 < ends.size(); ++e) {
     const double from = share(ends[e]), to = share(ends[e + 1]);
-    const int parts = std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices)));
+    const int parts =
+        std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices /
+                                                 cage_.degree(static_cast<Index>(e)))));
     for (int k = 1; k < parts; ++k) {
       const double wanted = from + (to - from) * k / parts;
       double low = ends[e], high = ends[e + 1];
@@ -205,13 +207,17 @@ void OutlineFit::take_samples() {
   Points inset;
   for (Index e = 0; e < basis_.size(); ++e) {
     const Complex way = basis_.vertex(e + 1) - basis_.vertex(e);
-    for (int k = 0; k < kSamplesPerSegment; ++k) {
-      samples_.push_back({e, static_cast<double>(k) / kSamplesPerSegment});
+    // A curve has as many unknowns as its degree, so it gets as many times the places.
+    const int degree = basis_.degree(e), count = kSamplesPerUnknown * degree;
+    for (int k = 0; k < count; ++k) {
+      samples_.push_back({e, static_cast<double>(k) / count});
       // At the vertices themselves f_z has logarithms.
-      inset.push_back(position_of(basis_, {e, (k + 0.5) / kSamplesPerSegment}) + kInset * kI * way);
+      inset.push_back(position_of(basis_, {e, (k + 0.5) / count}) + kInset / degree * kI * way);
     }
-    middles_.push_back({e, 0.5});
-    sizes_.push_back(std::abs(way));
+    for (int k = 0; k < degree; ++k) {
+      middles_.push_back({e, (k + 0.5) / degree});
+      sizes_.push_back(std::abs(way) / degree);
+    }
   }
   hints_.assign(samples_.size(), 0);
   at_samples_ = coordinates(basis_, samples_, 0);
@@ -238,7 +244,7 @@ std::vector<FitTerm> OutlineFit::terms() {
     terms.push_back({std::move(rows), settings_.smoothness});
   }
   if (soft) {
-    MatrixXc rows = MatrixXc::Zero(basis_.size(), 2 * n);
+    MatrixXc rows = MatrixXc::Zero(static_cast<Index>(middles_.size()), 2 * n);
     rows.rightCols(n) = unit_ * coordinates(basis_, middles_, 1).conjugate();
     terms.push_back({std::move(rows), settings_.stiffness});
     MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
@@ -297,7 +303,7 @@ void check_outline(std::span<const Complex> outline) {
       throw Error(ErrorKind::bad_input,
                   "the outline has the same point twice at " + point_text(outline[i]), outline[i]);
   if (const auto crossing = self_crossing(outline)) {
-    const Complex where = outline[static_cast<size_t>(crossing->first)];
+    const Complex where = crossing->point;
     throw Error(ErrorKind::bad_input, "the outline crosses itself near " + point_text(where),
                 where);
   }

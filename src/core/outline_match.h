@@ -57,11 +57,11 @@ class OutlineFit {
 
   /// Cost: for 200 vertices 5 ms an iteration.
   void solve(const Points& pinned);
-  /// The same, roughly, on from the last solution: a fifth of a millisecond an iteration.
+  /// The same, roughly, on from the last solution, in a few iterations.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return basis_; }
-  /// How many iterations led to the solution.
+  /// How many iterations the last call made.
   int iterations() const { return static_cast<int>(iterates_.size()) - 1; }
   /// The map after so many of them.
   OutlineMatch after(int iteration) const;

@@ -107,19 +107,6 @@ void check_stroke(std::span<const Complex> points) {
     throw Error(ErrorKind::bad_input, "the stroke has no length; draw it through two places");
 }
 
-Points with_steps(const Polyline& line, double step) {
-  Points points;
-  const Points& from = line.points();
-  for (Index i = 0; i < line.segments(); ++i) {
-    const Complex a = from[static_cast<size_t>(i)],
-                  b = from[static_cast<size_t>(i + 1) % from.size()];
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(b - a) / step)));
-    for (int k = 0; k < parts; ++k) points.push_back(a + static_cast<double>(k) / parts * (b - a));
-  }
-  if (!line.closed()) points.push_back(from.back());
-  return points;
-}
-
 Points at_equal_lengths(const Polyline& line, Index count) {
   Points points;
   const double steps = static_cast<double>(line.closed() ? count : count - 1);

@@ -57,9 +57,6 @@ Points without_repeats(const Points& points);
 /// Throws Error unless the points are finite, and at two places at least.
 void check_stroke(std::span<const Complex> points);
 
-/// A curve with the same shape whose points are `step` apart at most along it, its corners kept.
-Points with_steps(const Polyline& line, double step);
-
 /// `count` points at equal arc lengths; an open curve's ends are among them.
 Points at_equal_lengths(const Polyline& line, Index count);
 

@@ -63,7 +63,11 @@ void zoom_by(Workspace& w, double factor) {
 
 void frame_selection(Workspace& w) {
   Box box;
-  for (const Handle& handle : w.selection) box.include(position_of(w.scene(), handle, w.layer));
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::stroke)
+      for (const Complex& z : curve_of(w.scene(), handle.index, w.layer)) box.include(z);
+    else
+      box.include(position_of(w.scene(), handle, w.layer));
   const double least = 60;  // one point alone is shown with its surroundings
   if (!box.empty()) {
     const Complex center = box.center();
@@ -191,7 +195,7 @@ std::vector<Action> table() {
        ask<Request::export_again>},
       {"file.import_cage", "Cage from SVG...", "", "File", {}, always, ask<Request::import_cage>},
       {"file.import_outline",
-       "Outline from SVG or picture...",
+       "Outline from SVG, picture or OBJ...",
        "",
        "File",
        {},
@@ -247,6 +251,7 @@ std::vector<Action> table() {
        [](Workspace& w) {
          Scene scene = w.document.scene();
          scene.outline.clear();
+         if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
          w.commit("Remove outline", scene);
        }},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
@@ -353,7 +358,7 @@ std::vector<Action> table() {
        "",
        "Cage",
        {},
-       converges,
+       [](const Workspace& w) { return converges(w) && w.playback.iteration; },
        [](Workspace& w) {
          const int last = static_cast<int>(w.map.map().energies.size()) - 1,
                    next = w.playback.iteration.value_or(-1) + 1;

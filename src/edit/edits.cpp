@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/polyline.h"
 
 namespace holomorph {
 
@@ -17,8 +18,10 @@ Cage& cage_of(Scene& scene, Layer layer) {
   return layer == Layer::rest ? scene.rest : scene.pose;
 }
 
-Points& curve(Scene& scene, Index stroke, Layer layer) {
-  Stroke& found = scene.strokes[static_cast<size_t>(stroke)];
+/// A stroke's points, to read in a const scene and to change in another.
+template <class AnyScene>
+auto& curve(AnyScene& scene, Index stroke, Layer layer) {
+  auto& found = scene.strokes[static_cast<size_t>(stroke)];
   return layer == Layer::rest ? found.rest : found.pose;
 }
 
@@ -33,14 +36,13 @@ auto& place(AnyScene& scene, Handle handle, Layer layer) {
 }  // namespace
 
 const Points& curve_of(const Scene& scene, Index stroke, Layer layer) {
-  const Stroke& found = scene.strokes[static_cast<size_t>(stroke)];
-  return layer == Layer::rest ? found.rest : found.pose;
+  return curve(scene, stroke, layer);
 }
 
 Complex position_of(const Scene& scene, Handle handle, Layer layer) {
   if (handle.kind == Handle::Kind::stroke) {
-    const Points& points = curve_of(scene, handle.index, layer);
-    return points[points.size() / 2];
+    const Polyline line(without_repeats(curve_of(scene, handle.index, layer)), false);
+    return line.at(0.5 * line.length());
   }
   return place(scene, handle, layer);
 }
@@ -134,8 +136,19 @@ Scene with_pin(Scene scene, Complex rest, Complex pose) {
   return scene;
 }
 
+namespace {
+
+/// Whether a scene's map is this method's, or the one of `bounded` that follows it.
+bool follows(const Scene& scene, const std::string& id) {
+  return scene.method == id ||
+         (scene.method == "bounded" &&
+          choice(method_named("bounded"), scene.parameters, "reference") == id);
+}
+
+}  // namespace
+
 Scene with_stroke(Scene scene, Points rest, Points pose) {
-  if (!method_named(scene.method).uses_strokes) scene = with_method(std::move(scene), "strokes");
+  if (!follows(scene, "strokes")) scene = with_method(std::move(scene), "strokes");
   scene.strokes.push_back({std::move(rest), std::move(pose), {}});
   return scene;
 }
@@ -178,9 +191,7 @@ Scene with_curve(Scene scene, Index stroke, Points drawn, Layer layer) {
 
 Scene with_outline(Scene scene, Points outline) {
   scene.outline = std::move(outline);
-  const bool follows = scene.method == "bounded" &&
-                       choice(method_named("bounded"), scene.parameters, "reference") == "outline";
-  return follows || scene.method == "outline" ? scene : with_method(std::move(scene), "outline");
+  return follows(scene, "outline") ? scene : with_method(std::move(scene), "outline");
 }
 
 Scene turned(Scene scene, Index pin, double angle) {
@@ -244,14 +255,14 @@ Scene baked(Scene scene) {
 }
 
 Scene with_method(Scene scene, const std::string& id) {
-  const Method& method = method_named(id);
-  std::erase_if(scene.parameters, [&](const auto& entry) {
-    return std::none_of(method.parameters.begin(), method.parameters.end(),
-                        [&](const ParameterSpec& spec) {
-                          return spec.key == entry.first && entry.second >= spec.lowest &&
-                                 entry.second <= spec.highest;
-                        });
-  });
+  method_named(id);
+  if (id == scene.method) return scene;
+  if (scene.parameters.empty())
+    scene.other_parameters.erase(scene.method);
+  else
+    scene.other_parameters[scene.method] = std::move(scene.parameters);
+  scene.parameters.clear();
+  if (auto kept = scene.other_parameters.extract(id)) scene.parameters = std::move(kept.mapped());
   scene.method = id;
   return scene;
 }

@@ -50,14 +50,14 @@ Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve
 /// With a pin more; the method becomes one that uses pins.
 Scene with_pin(Scene scene, Complex rest, Complex pose);
 
-/// With a stroke more; the method becomes one that uses strokes.
+/// With a stroke more; the method becomes `strokes` unless it is, or follows that.
 Scene with_stroke(Scene scene, Points rest, Points pose);
 /// The points of a stroke.
 const Points& curve_of(const Scene& scene, Index stroke, Layer layer);
 /// A stroke's layer redrawn, run through from the end that is nearer to its old start.
 Scene redrawn(Scene scene, Index stroke, Points curve, Layer layer);
-/// A curve pulled at one of its points: what is within `reach` of arc length follows the less the
-/// farther it is.
+/// A curve pulled at one of its points: what is within `reach` of arc length, less than half of a
+/// closed curve's, follows the less the farther it is.
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
 /// With another curve in place of a stroke's.
 Scene with_curve(Scene scene, Index stroke, Points curve, Layer layer);
@@ -82,7 +82,7 @@ Scene baked(Scene scene);
 /// With method `bounded`, which follows the method that the scene has now.
 Scene fold_free(Scene scene);
 
-/// With another method; parameters that it does not know are dropped.
+/// With another method, and the parameters that it had when it was left.
 Scene with_method(Scene scene, const std::string& id);
 
 /// The place on a layer's cage that is nearest to z.

@@ -15,15 +15,17 @@ constexpr int kFewest = 8, kFewestAround = 24, kMost = 400, kSmoothings = 3;
 }  // namespace
 
 bool Freehand::follow(const Input& input) {
-  if (std::abs(input.px - last_px_) >= kStepPx) {
+  const bool ends = input.released || !input.down;
+  if (std::abs(input.px - last_px_) >= (ends ? 1e-9 : kStepPx)) {
     line_.push_back(input.position);
     last_px_ = input.px;
   }
-  return input.released || !input.down;
+  return ends;
 }
 
 Points Freehand::finish(bool closed, double step_px, double shortest_px, const Viewport& view) {
-  const Points line = without_repeats(std::exchange(line_, {}));
+  Points line = without_repeats(std::exchange(line_, {}));
+  if (closed && line.size() > 1 && line.front() == line.back()) line.pop_back();
   double length = 0;
   for (size_t i = 0; i + 1 < line.size(); ++i) length += std::abs(line[i + 1] - line[i]);
   if (line.size() < (closed ? 4 : 2) || length * view.zoom < shortest_px) return {};

@@ -69,7 +69,7 @@ class OutlineTool final : public Tool {
 
   static bool is_near(const Input& input, const Workspace& workspace) {
     const Points& outline = workspace.scene().outline;
-    if (outline.empty() || workspace.layer != Layer::pose) return false;
+    if (!workspace.shows_outline()) return false;
     const double distance = nearest_on_polygon(outline, input.position).distance;
     return distance * workspace.viewport.zoom <= workspace.handle_px;
   }

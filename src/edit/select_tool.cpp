@@ -70,6 +70,8 @@ class SelectTool final : public Tool {
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
+    if (hover_ && hover_->kind == Handle::Kind::stroke)
+      return "Drag to move; S bends and redraws strokes; Alt-click deletes";
     if (hover_ && hover_->control > 0) return "Drag to bend; Alt breaks a smooth point's tangents";
     if (hover_)
       return "Drag to move; Shift-click adds; Alt-click deletes; Ctrl-click: smooth or corner";

@@ -10,7 +10,7 @@ namespace holomorph {
 namespace {
 
 constexpr double kStepPx = 6, kShortestPx = 12;
-constexpr double kReach = 0.5;  ///< of a pull, in lengths of the stroke
+constexpr double kReach = 0.25, kEndReach = 1;  ///< of a pull, in lengths of the stroke
 
 class StrokeTool final : public Tool {
  public:
@@ -25,7 +25,8 @@ class StrokeTool final : public Tool {
     if (pull_) return follow_pull(input, workspace);
     hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
     if (!input.inside || !input.pressed) return;
-    if (!hover_) return start_drawing(input, workspace);
+    const bool redraws = input.mods.shift && selected_stroke(workspace);
+    if (!hover_ || redraws) return start_drawing(input, workspace);
     if (edits_point(input, *hover_, workspace)) return hover_.reset();
     Selection& selection = workspace.selection;
     if (input.mods.shift && selection.contains(*hover_)) return void(selection.erase(*hover_));
@@ -85,6 +86,8 @@ class StrokeTool final : public Tool {
     if (!workspace.scene().has_cage())
       return workspace.say(
           "Strokes act inside a cage: draw one with P, or make one from the picture (Cage menu).");
+    if (input.mods.shift && !selected_stroke(workspace) && !workspace.scene().strokes.empty())
+      return workspace.say("Click a stroke first: Shift-drag draws its new place.");
     redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;
     if (!redrawn_ && !workspace.rest_at(input.position))
       return workspace.say(workspace.map.busy() ? "One moment, the map is being prepared."
@@ -134,7 +137,7 @@ class StrokeTool final : public Tool {
     if (!end && !input.mods.ctrl) return false;
     const size_t at = !end ? point : off(curve.front()) <= off(curve.back()) ? 0 : curve.size() - 1;
     const double length = Polyline(without_repeats(curve), false).length();
-    pull_ = Pull{hover_->index,  at,       (end ? 2 : 1) * kReach * length,
+    pull_ = Pull{hover_->index,  at,       (end ? kEndReach : kReach) * length,
                  input.position, input.px, workspace.scene()};
     return true;
   }

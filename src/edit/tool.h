@@ -10,7 +10,7 @@ namespace holomorph {
 
 /// What a tool wants drawn besides the scene.
 struct ToolOverlay {
-  Points line;                      ///< an unfinished cage as a polyline, in the plane
+  Points line;                      ///< what is being drawn, as a polyline in the plane
   Points line_points;               ///< the points that were set
   std::optional<Complex> line_end;  ///< where its next point would be
   bool closes = false;              ///< the next click closes it

@@ -9,17 +9,18 @@
 namespace holomorph {
 
 bool advance(Playback& playback, const LiveMap& map, double now_ms) {
-  if (!playback.playing || map.busy()) return playback.playing;
+  if (!playback.playing || map.busy()) return false;
   const int last = static_cast<int>(map.map().energies.size()) - 1;
   if (last < 1) {
     playback = {};
-    return false;
+    return true;
   }
-  if (now_ms < playback.due_ms) return true;
   // Two seconds and a half in all, but no iteration longer than a third of a second.
   constexpr double kAll = 2500, kLongest = 330;
-  playback.due_ms = now_ms + std::min(kLongest, kAll / last);
+  if (!playback.due_ms) playback.due_ms = now_ms + std::min(kLongest, kAll / last);
+  if (now_ms < *playback.due_ms) return false;
   const int next = playback.iteration.value_or(-1) + 1;
+  playback.due_ms.reset();
   if (next >= last)
     playback = {};
   else
@@ -41,6 +42,7 @@ bool Workspace::accepts(const Scene& scene) {
 
 bool Workspace::commit(const std::string& label, Scene scene) {
   preview.reset();
+  playback = {};
   carried_on.clear();
   if (!accepts(scene)) return false;
   const bool done = document.commit(label, std::move(scene));
@@ -50,6 +52,7 @@ bool Workspace::commit(const std::string& label, Scene scene) {
 
 bool Workspace::amend(Scene scene) {
   preview.reset();
+  playback = {};
   if (!accepts(scene)) return false;
   document.amend(std::move(scene));
   return true;
@@ -67,6 +70,7 @@ void Workspace::commit_or_amend(const std::string& label, Scene scene) {
 void Workspace::go_to(size_t entry) {
   const Scene before = document.scene();
   carried_on.clear();
+  playback = {};
   document.go_to(entry);
   // Numbers mean other points in another structure.
   const bool other_cage = before.rest.size() != scene().rest.size(),

@@ -34,9 +34,9 @@ enum class Request {
 struct Playback {
   std::optional<int> iteration = {};  ///< shown; none: the last one
   bool playing = false;
-  double due_ms = 0;  ///< when the next one is
+  std::optional<double> due_ms = {};  ///< when the next one is
 };
-/// Shows the next iteration when it is due. Returns whether it goes on playing.
+/// Shows the next iteration when it is due. Returns whether it did, or ended.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
 enum class ToolId { select, pen, pin, stroke, outline };
@@ -75,6 +75,12 @@ struct Workspace {
   const Scene& scene() const { return preview ? *preview : document.scene(); }
   /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return layer == Layer::rest || show_original; }
+
+  /// Whether there is an outline that the method uses, and it is drawn.
+  bool shows_outline() const {
+    return layer == Layer::pose && show_cage && !hide_overlays && !scene().outline.empty() &&
+           method_named(scene().method).uses_outline;
+  }
 
   /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
   bool commit(const std::string& label, Scene scene);

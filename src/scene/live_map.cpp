@@ -13,6 +13,7 @@ bool same_rest(const Scene& a, const Scene& b) {
   for (Index i = 0; i < a.pose.size() && i < b.pose.size(); ++i)
     if (a.pose.degree(i) != b.pose.degree(i)) return false;
   const Method& method = method_named(a.method);
+  if (a.method == "bounded" && a.other_parameters != b.other_parameters) return false;
   const auto same_pin = [](const Pin& p, const Pin& q) {
     return p.rest == q.rest && p.angle.has_value() == q.angle.has_value();
   };
@@ -74,7 +75,7 @@ void LiveMap::work() {
     if (stop_) return;
     const Scene scene = *std::exchange(waiting_, std::nullopt);
     const std::shared_ptr<PreparedMap> base = base_;
-    const unsigned wanted = wanted_;
+    const unsigned wanted = wanted_, document = document_;
     working_ = true;
     lock.unlock();
     std::shared_ptr<PreparedMap> result;
@@ -89,10 +90,13 @@ void LiveMap::work() {
     }
     lock.lock();
     working_ = false;
-    if (result) base_ = result;  // worth keeping even when the scene has moved on
-    if (wanted == wanted_) {
+    if (result) base_ = result;
+    // When the scene has moved on meanwhile, what it was like is shown until the next one is ready;
+    // an error of then is not.
+    if (document == document_ && (result || wanted == wanted_)) {
       finished_ = true;
       result_ = std::move(result);
+      result_scene_ = scene;
       failure_ = std::move(failure);
     }
     changed_.notify_all();
@@ -107,14 +111,14 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   error_ = std::move(failure_);
   failed_ = error_.has_value();
   failure_.reset();
-  if (!result_ || !requested_) return;
+  if (!result_) return;
   shown_ = std::move(result_);
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
   // Mesh and map always belong together: when the scene has moved on, it is posed as it was asked
   // for.
-  pose(same_rest(*requested_, scene) ? scene : *requested_, wanted);
+  pose(same_rest(*result_scene_, scene) ? scene : *result_scene_, wanted);
 }
 
 bool LiveMap::pose(const Scene& scene, Wanted wanted) {
@@ -163,6 +167,7 @@ void LiveMap::clear() {
   zero_places_.clear();
   const std::lock_guard lock(mutex_);
   ++wanted_;
+  ++document_;
   waiting_.reset();
   result_.reset();
   finished_ = false;
@@ -183,8 +188,6 @@ bool LiveMap::update(const Scene& scene, Wanted wanted) {
     const std::lock_guard lock(mutex_);
     ++wanted_;
     waiting_ = scene;
-    finished_ = false;  // an older result is of no use
-    result_.reset();
     busy_ = true;
     changed_.notify_all();
     return before != preparation_;

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/injectivity.h"
 #include "core/mesh.h"
-#include "scene/injectivity.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -94,8 +94,9 @@ class LiveMap {
   std::optional<Scene> waiting_;
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
-  unsigned wanted_ =
-      0;  ///< grows with every request: what the worker has for an older one is dropped
+  std::optional<Scene> result_scene_;
+  unsigned wanted_ = 0;    ///< grows with every request
+  unsigned document_ = 0;  ///< grows when all is forgotten: what the worker has is dropped then
   bool working_ = false, finished_ = false, stop_ = false;
   std::thread worker_;
 };

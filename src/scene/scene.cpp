@@ -15,6 +15,7 @@ Rest rest_of(const Scene& scene, Precision precision) {
   for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
   rest.outline = scene.outline;
   rest.parameters = scene.parameters;
+  rest.other_parameters = scene.other_parameters;
   rest.precision = precision;
   return used_by(method_named(scene.method), std::move(rest));
 }

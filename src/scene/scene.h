@@ -46,6 +46,7 @@ struct Scene {
   Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::string method = "cage";
   Parameters parameters;
+  std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id
   Extra cage_extra, method_extra, extra;
 
   bool has_cage() const { return rest.size() > 0; }

@@ -165,38 +165,49 @@ ImageReference read_image(const Reader& reader) {
   return image;
 }
 
+Parameters read_parameters(const Reader& values, const Method& method) {
+  values.object();
+  Parameters parameters;
+  for (const std::string& key : values.keys()) {
+    const auto spec = std::ranges::find(method.parameters, key, &ParameterSpec::key);
+    if (spec == method.parameters.end())
+      values.fail("method '" + method.id + "' has no parameter '" + key + "'");
+    if (spec->kind == ParameterSpec::Kind::choice) {
+      const std::string id = values[key.c_str()].text();
+      const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
+      if (option == spec->options.end()) values[key.c_str()].fail("'" + id + "' is no choice here");
+      parameters[key] = static_cast<double>(option - spec->options.begin());
+      continue;
+    }
+    const double value = values[key.c_str()].value();
+    if (value < spec->lowest || value > spec->highest)
+      values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
+                               Json(spec->highest).dump() + "]");
+    parameters[key] = value;
+  }
+  return parameters;
+}
+
+const Method& read_id(const Reader& reader, const std::string& id) {
+  try {
+    return method_named(id);
+  } catch (const Error& error) {
+    reader.fail(error.what());
+  }
+}
+
 void read_method(const Reader& reader, Scene& scene) {
   reader.object();
   scene.method = reader["id"].text();
-  try {
-    method_named(scene.method);
-  } catch (const Error& error) {
-    reader["id"].fail(error.what());
+  const Method& method = read_id(reader["id"], scene.method);
+  if (reader.has("parameters")) scene.parameters = read_parameters(reader["parameters"], method);
+  if (reader.has("others")) {
+    const Reader others = reader["others"].object();
+    for (const std::string& id : others.keys())
+      scene.other_parameters[id] =
+          read_parameters(others[id.c_str()], read_id(others[id.c_str()], id));
   }
-  const Method& method = method_named(scene.method);
-  if (reader.has("parameters")) {
-    const Reader values = reader["parameters"].object();
-    for (const std::string& key : values.keys()) {
-      const auto spec = std::find_if(method.parameters.begin(), method.parameters.end(),
-                                     [&](const ParameterSpec& s) { return s.key == key; });
-      if (spec == method.parameters.end())
-        values.fail("method '" + scene.method + "' has no parameter '" + key + "'");
-      if (spec->kind == ParameterSpec::Kind::choice) {
-        const std::string id = values[key.c_str()].text();
-        const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
-        if (option == spec->options.end())
-          values[key.c_str()].fail("'" + id + "' is no choice here");
-        scene.parameters[key] = static_cast<double>(option - spec->options.begin());
-        continue;
-      }
-      const double value = values[key.c_str()].value();
-      if (value < spec->lowest || value > spec->highest)
-        values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
-                                 Json(spec->highest).dump() + "]");
-      scene.parameters[key] = value;
-    }
-  }
-  scene.method_extra = reader.others({"id", "parameters"});
+  scene.method_extra = reader.others({"id", "parameters", "others"});
 }
 
 /// Points that a check, which throws Error, accepts.
@@ -239,6 +250,21 @@ Json loop_json(const Cage& cage) {
     list.push_back(curve_json(controls));
   }
   return list;
+}
+
+Json parameters_json(const Method& method, const Parameters& parameters) {
+  Json values = Json::object();
+  for (const ParameterSpec& spec : method.parameters) {
+    const auto found = parameters.find(spec.key);
+    if (found == parameters.end()) continue;
+    if (spec.kind == ParameterSpec::Kind::toggle)
+      values[spec.key] = found->second != 0;
+    else if (spec.kind == ParameterSpec::Kind::choice)
+      values[spec.key] = spec.options[static_cast<size_t>(found->second)].id;
+    else
+      values[spec.key] = found->second;
+  }
+  return values;
 }
 
 void add_extra(Json& object, const Extra& extra) {
@@ -371,16 +397,12 @@ std::string json_of(const Scene& scene) {
   if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
   Json method;
   method["id"] = scene.method;
-  method["parameters"] = Json::object();
-  for (const ParameterSpec& spec : method_named(scene.method).parameters)
-    if (const auto found = scene.parameters.find(spec.key); found != scene.parameters.end()) {
-      if (spec.kind == ParameterSpec::Kind::toggle)
-        method["parameters"][spec.key] = found->second != 0;
-      else if (spec.kind == ParameterSpec::Kind::choice)
-        method["parameters"][spec.key] = spec.options[static_cast<size_t>(found->second)].id;
-      else
-        method["parameters"][spec.key] = found->second;
-    }
+  method["parameters"] = parameters_json(method_named(scene.method), scene.parameters);
+  if (!scene.other_parameters.empty()) {
+    method["others"] = Json::object();
+    for (const auto& [id, parameters] : scene.other_parameters)
+      method["others"][id] = parameters_json(method_named(id), parameters);
+  }
   add_extra(method, scene.method_extra);
   document["method"] = std::move(method);
   add_extra(document, scene.extra);

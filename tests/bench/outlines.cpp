@@ -74,11 +74,12 @@ double outline_iterations_ms(int runs) {
 
 double strokes_drag_ms(int runs) {
   Rest rest;
-  rest.cage = polygon_cage(outlines::random(1, false, 50));
+  Points round;
+  for (int i = 0; i < 50; ++i) round.push_back(std::polar(300.0, 2 * kPi * i / 50));
+  rest.cage = polygon_cage(round);
   rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {10000}));
   rest.samples = rest.mesh->vertices;
-  // 20 samples each: twice the mean radius long.
-  const double length = 2 * perimeter(outline_of(rest.cage)) / (2 * kPi) * 0.5;
+  const double length = perimeter(round) / (2 * kPi);  // L: 20 samples each, all inside
   for (int i = 0; i < 5; ++i)
     rest.strokes.push_back({{-0.5 * length, 60.0 * (i - 2)}, {0.5 * length, 60.0 * (i - 2)}});
   const auto deformer = method_named("strokes").prepare(rest, nullptr);

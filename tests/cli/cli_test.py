@@ -18,7 +18,7 @@ from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
-SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake"]
+SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart"]
 
 
 def run(*words, **options):
@@ -119,8 +119,9 @@ class CommandLine(unittest.TestCase):
 
     def test_samples_and_new_scenes_fulfil_the_schema(self):
         for name in SAMPLES:
-            jsonschema.validate(json.load(open(os.path.join(SOURCE, "assets", name + ".json"))), SCHEMA)
-            picture = os.path.join(SOURCE, "assets", name + ".png")
+            sample = json.load(open(os.path.join(SOURCE, "assets", name + ".json")))
+            jsonschema.validate(sample, SCHEMA)
+            picture = os.path.join(SOURCE, "assets", sample["image"]["file"])
             out = self.path(name + ".json")
             self.good("new", picture, "--out", out, "--vertices", 24, "--margin", 9)
             scene = json.load(open(out))
@@ -196,6 +197,42 @@ class CommandLine(unittest.TestCase):
         self.bad("new", gecko, "--out", scene, "--outline", line, says="line.svg: ")
         self.bad("new", gecko, "--out", scene, "--outline", self.write("no.png", "none"), says="no.png")
 
+    def test_a_texture_goes_onto_a_surface_and_from_there_onto_another(self):
+        fish, mask, leaf = (os.path.join(SOURCE, "assets", name) for name in ("fish.png", "mask.obj", "leaf.obj"))
+        scene, out = self.path("mask.json"), self.path("textured.obj")
+        self.good("new", fish, "--out", scene, "--outline", mask, "--flattening", "circle")
+        self.good("export", scene, "--format", "textured", "--surface", mask, "--out", out, "--scale", 0.5)
+        lines = open(out).read().split("\n")
+        count = lambda kind, text: sum(line.startswith(kind + " ") for line in text)
+        source = open(mask).read().split("\n")
+        for kind in ("v", "f"):
+            self.assertEqual(count(kind, lines), count(kind, source))
+        self.assertEqual(count("vt", lines), count("v", lines))
+        self.assertIn("mtllib textured.mtl", lines)
+        self.assertIn("map_Kd textured.png", open(self.path("textured.mtl")).read())
+        # The fish covers a good part of the surface.
+        texture = numpy.asarray(Image.open(self.path("textured.png")).convert("RGBA"))
+        uv = numpy.array([[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vt ")])
+        self.assertGreaterEqual(uv.min(), 0)
+        self.assertLessEqual(uv.max(), 1)
+        h, w = texture.shape[:2]
+        column, row = (uv[:, 0] * w).astype(int).clip(0, w - 1), ((1 - uv[:, 1]) * h).astype(int).clip(0, h - 1)
+        self.assertGreater((texture[row, column, 3] > 128).mean(), 0.6)
+        # From the mask's texture onto the leaf.
+        second, other = self.path("leaf.json"), self.path("leaf-textured.obj")
+        self.good("new", self.path("textured.png"), "--cage", out, "--out", second, "--outline", leaf)
+        self.good("export", second, "--format", "textured", "--surface", leaf, "--out", other)
+        moved = numpy.asarray(Image.open(self.path("leaf-textured.png")).convert("RGBA"))
+        self.assertGreater((moved[..., 3] > 128).sum(), 0.05 * moved.shape[0] * moved.shape[1])
+        # What does not fit is said.
+        self.bad("export", scene, "--format", "textured", "--surface", leaf, "--out", other, says="not this surface's boundary")
+        self.bad("export", scene, "--format", "textured", "--out", other, says="--surface")
+        self.bad("export", scene, "--format", "textured", "--surface", mask, "--out", mask, says="the surface itself")
+        self.bad("new", fish, "--out", scene, "--cage", mask, says="no texture coordinates")
+        self.bad("new", fish, "--out", scene, "--outline", mask, "--flattening", "magic", says="magic")
+        closed = self.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")
+        self.bad("new", fish, "--out", scene, "--outline", closed, says="closed.obj: the surface is no disk: it is closed")
+
     def test_strokes_are_kept_in_the_file_and_what_is_none_is_named(self):
         scene = {"format": "holomorph", "version": 1,
                  "cage": {"rest": [[[0, 0]], [[400, 0]], [[400, 80]], [[0, 80]]]},
@@ -205,6 +242,7 @@ class CommandLine(unittest.TestCase):
         path = self.write("scene.json", scene)
         report = json.loads(self.good("info", path, "--json").stdout)
         self.assertEqual(report["flipped_triangles"], 0)
+        self.assertIn("missed by", report["note"])
         out = self.good("map", path, "--points", self.write("p.csv", "30,40\n200,40\n370,40")).stdout
         for (u, v), wanted in zip((map(float, line.split(",")[:2]) for line in out.strip().split("\n")[1:]), (80, 40, 80)):
             self.assertLess(abs(v - wanted), 8)

@@ -111,7 +111,7 @@ TEST_CASE("Polyline: it is resampled at equal lengths and in short steps") {
   CHECK(square.at(-2) == Complex(0, 2));
   CHECK(square.at(21) == Complex(4, 1));
   CHECK(at_equal_lengths(square, 8)[3] == Complex(4, 2));
-  const Points steps = with_steps(square, 1.5);
+  const Points steps = outlines::with_steps(square, 1.5);
   CHECK(steps.size() == 12);
   const Polyline open(Points{{0, 0}, {3, 0}}, false);
   CHECK(at_equal_lengths(open, 4).back() == Complex(3, 0));
@@ -263,7 +263,7 @@ TEST_CASE("Outline: any shape goes onto a circle, which is its Riemann map") {
   for (const int v : onto.rest.mesh->boundary)
     REQUIRE(std::abs(std::abs(onto.map.f[v] - Complex(700, 300)) - 250) <= 1e-3 * 500);
   // Up to the disk's own maps it is the zipper's.
-  const RiemannMap exact(with_steps(Polyline(shape, true), 3), 0);
+  const RiemannMap exact(outlines::with_steps(Polyline(shape, true), 3), 0);
   const auto cross_ratio = [](Complex a, Complex b, Complex c, Complex d) {
     return (a - c) * (b - d) / ((a - d) * (b - c));
   };
@@ -329,6 +329,41 @@ TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
     INFO(onto.map.note);
     for (const int v : onto.rest.mesh->boundary)
       CHECK(std::abs(std::abs(onto.map.f[v]) - std::abs(scaled[0])) <= 0.01 * std::abs(scaled[0]));
+  }
+}
+
+TEST_CASE("Outline: pins are followed while they are dragged, and solved from nothing after that") {
+  const Cage cage = polygon_cage(outlines::random(41, false, 50));
+  Onto onto(cage, outlines::random(42, false, 300));
+  onto.rest.pins = {{{0, 0}}};
+  onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
+  const auto map_of = [&](Complex pin, bool draft) {
+    Pose pose{cage, {{pin}}};
+    SampledMap map;
+    onto.deformer->deform(pose, map, {false, draft});
+    return map.f;
+  };
+  const VectorXc start = map_of({0, 0}, false);
+  VectorXc dragged;
+  for (int frame = 1; frame <= 8; ++frame) dragged = map_of({5.0 * frame, -3.0 * frame}, true);
+  const VectorXc end = map_of({40, -24}, false);
+  CHECK((end - start).cwiseAbs().maxCoeff() > 5);
+  CHECK((dragged - end).cwiseAbs().mean() < 0.6 * (end - start).cwiseAbs().mean());
+  CHECK(map_of({0, 0}, false) == start);
+  CHECK(map_of({40, -24}, false) == end);
+}
+
+TEST_CASE("Outline: soft maps of curved cages, with pins, stay near what they are asked for") {
+  // As many places as unknowns at least on each curve: otherwise the map explodes between them.
+  Cage curved = shapes::curved_star(9, 3, 0.15, 4);
+  const Points around = outlines::random(51, false, 300);
+  for (const double softness : {0.0, 0.3, 1.0}) {
+    Onto onto(curved, around, {{"softness", softness}});
+    INFO("softness " << softness);
+    CHECK(flipped_triangles(*onto.rest.mesh, onto.map.f) <= 16);
+    const Box box = box_of(around);
+    for (const Complex& z : onto.map.f) REQUIRE(std::abs(z - box.center()) < 0.55 * box.diagonal());
+    REQUIRE(onto.map.energies.back() >= 0);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/mesh.h"
 #include "core/polyline.h"
+#include "support/outlines.h"
 
 using namespace holomorph;
 
@@ -116,7 +117,8 @@ TEST_CASE("Strokes: how densely the lines are written changes nothing") {
   const Points target{{20, 60}, {200, 10}, {390, 70}};
   const Rest plain = rest_of(bar(), {middle(2)}), dense = rest_of(bar(), {middle(10000)});
   const SampledMap a = run(plain, pose_of(plain, {target})),
-                   b = run(dense, pose_of(dense, {with_steps(Polyline(target, false), 0.04)}));
+                   b = run(dense,
+                           pose_of(dense, {outlines::with_steps(Polyline(target, false), 0.04)}));
   CHECK((a.f - b.f).cwiseAbs().maxCoeff() < 1e-6 * 400);
 }
 

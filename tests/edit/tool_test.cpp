@@ -175,14 +175,17 @@ TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
   desk.release({100, 105});
   const Points& after = desk.scene().strokes[0].pose;
   double most = 0;
+  int far = 0;
   for (size_t i = 0; i < after.size(); ++i) {
     const Complex by = after[i] - before[i];
     CHECK(std::abs(by.real()) < 1e-12);
     most = std::max(most, by.imag());
-    if (std::abs(before[i].real() - 100) > 82) CHECK(by == Complex(0));
+    if (std::abs(before[i].real() - 100) < 45) continue;
+    CHECK(by == Complex(0));
+    ++far;
   }
   CHECK(most > 29.9);
-  CHECK(std::abs(after.front() - before.front()) < 0.5);
+  CHECK(far > 8);
 }
 
 TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape leave nothing") {
@@ -274,12 +277,14 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
   CHECK(map.map().iterations == 0);
   double now = 0;
   int shown = 0;
-  for (; advance(playback, map, now); now += 10) {
+  for (; playback.playing; now += 10) {
+    advance(playback, map, now);
     pose();
     CHECK(map.map().iterations >= shown);
     shown = map.map().iterations;
   }
-  CHECK(now > 300);
+  CHECK(now > 300);  // the first iteration is seen, too
+  CHECK_FALSE(action_named("map.step").enabled(desk.workspace));
   CHECK(now < 4000);
   const VectorXc end = pose();
   CHECK(map.map().iterations == last);
@@ -300,6 +305,10 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
   CHECK_FALSE(playback.playing);
   for (int i = 1; i < last; ++i) run(action_named("map.step"), desk.workspace);
   CHECK(pose() == end);
+  // What is edited is seen at its end.
+  run(action_named("map.restart"), desk.workspace);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK_FALSE(playback.iteration);
 }
 
 TEST_CASE("What folds is told with its places, and made fold-free by the method that is asked") {
@@ -351,6 +360,36 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
   CHECK(desk.steps() == steps + 2);
 }
 
+TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") {
+  const auto followed = [](Desk& desk) {
+    const VectorXc before = desk.workspace.map.map().f;
+    run(action_named("map.fold_free"), desk.workspace);
+    desk.settle();
+    REQUIRE(desk.workspace.map.map().status == SampledMap::Status::certified);
+    return (desk.workspace.map.map().f - before).cwiseAbs().maxCoeff();
+  };
+  Desk strokes(shapes::rectangle(200, 150));
+  Points bent;
+  for (int i = 0; i <= 20; ++i) bent.push_back({20.0 + 8 * i, 75 + 30 * std::sin(0.15 * i)});
+  Scene scene = with_stroke(strokes.scene(), {{20, 75}, {180, 75}}, bent);
+  scene.parameters["rigidity"] = 0.2;
+  strokes.workspace.commit("Stroke", scene);
+  strokes.settle();
+  CHECK(followed(strokes) < 3);
+  CHECK(strokes.scene().other_parameters.at("strokes").at("rigidity") == 0.2);
+  // Another stroke stays with the method that follows strokes.
+  CHECK(with_stroke(strokes.scene(), {{20, 20}, {80, 20}}, {{20, 20}, {80, 20}}).method ==
+        "bounded");
+
+  Desk outline(shapes::rectangle(200, 150));
+  Points oval;
+  for (int i = 0; i < 80; ++i)
+    oval.push_back(Complex(100 + 130 * std::cos(kPi * i / 40), 75 + 90 * std::sin(kPi * i / 40)));
+  outline.workspace.commit("Outline", with_outline(outline.scene(), oval));
+  outline.settle();
+  CHECK(followed(outline) < 12);  // but for the corners, where the derivative vanishes
+}
+
 TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
   Desk desk(shapes::rectangle(200, 150));
   desk.workspace.tool = ToolId::outline;
@@ -367,12 +406,16 @@ TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") 
   CHECK(desk.workspace.toasts.size() >= 2);
 }
 
-TEST_CASE("A method's parameters that another one would not take stay behind") {
+TEST_CASE("Each method keeps its parameters, and none takes another's") {
   Scene scene = with_cage(Scene{}, shapes::rectangle(200, 150));
   scene = with_method(scene, "pins");
   scene.parameters["pin_weight"] = 0.01;
-  CHECK(with_method(scene, "outline").parameters.contains("pin_weight"));
-  CHECK_FALSE(with_method(scene, "bounded").parameters.contains("pin_weight"));
+  const Scene outline = with_method(scene, "outline");
+  CHECK(outline.parameters.empty());
+  CHECK(with_method(outline, "pins") == scene);
+  Scene soft = outline;
+  soft.parameters["softness"] = 0.5;
+  CHECK(with_method(with_method(soft, "bounded"), "outline").parameters == soft.parameters);
 }
 
 TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing stays to be mended") {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/types.h"
+#include "core/polyline.h"
 
 namespace outlines {
 
@@ -30,6 +30,20 @@ inline Points random(unsigned seed, bool limbs, int points) {
     outline.push_back(300 * radius * std::polar(1.0, t));
   }
   return outline;
+}
+
+/// A curve with the same shape whose points are `step` apart at most along it, its corners kept.
+inline Points with_steps(const Polyline& line, double step) {
+  Points points;
+  const Points& from = line.points();
+  for (Index i = 0; i < line.segments(); ++i) {
+    const Complex a = from[static_cast<size_t>(i)],
+                  b = from[static_cast<size_t>(i + 1) % from.size()];
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(b - a) / step)));
+    for (int k = 0; k < parts; ++k) points.push_back(a + static_cast<double>(k) / parts * (b - a));
+  }
+  if (!line.closed()) points.push_back(from.back());
+  return points;
 }
 
 }  // namespace outlines

@@ -97,7 +97,7 @@ class Comparison {
   void take_reference() {
     const Method& followed = method_named(choice(method_, rest_.parameters, "reference"));
     Rest rest = used_by(followed, rest_);
-    rest.parameters.clear();
+    rest.parameters = parameters_of(rest_, followed);
     rest.precision = Precision::full;
     const Pose pose = used_by(followed, pose_);
     SampledMap map;

@@ -293,7 +293,7 @@ Method bounded_method(const std::vector<Method>& references) {
     if (method.id == "pins") usual = followed.size();
     followed.push_back({method.id, method.label});
   }
-  return {
+  Method method{
       "bounded",
       "No folds",
       "Nothing folds and nothing is stretched more than allowed, proved for every frame.",
@@ -315,6 +315,8 @@ Method bounded_method(const std::vector<Method>& references) {
        {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
        {"Default", {}},
        {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
+  method.uses_strokes = method.uses_outline = true;
+  return method;
 }
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
 // Method `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
+#include <algorithm>
 #include <cstdio>
 
 #include "core/cauchy_array.h"
@@ -31,7 +32,8 @@ class OutlineDeformer final : public Deformer {
     check_pose(rest_, pose);
     if (free_) {
       free_->deform(pose, out, wanted);
-      out.note = "Draw an outline: the picture's shape goes onto it.";
+      out.note = "Draw an outline: the picture's shape goes onto it." +
+                 (out.note.empty() ? "" : " " + out.note);
       return;
     }
     out = SampledMap{};
@@ -51,8 +53,11 @@ class OutlineDeformer final : public Deformer {
     }
     out.iterations = match.iterations;
     out.energies = match.energies;
-    if (match.iterations < last) out.status = SampledMap::Status::iterating;
+    if (match.iterations < last || last == settings().most_iterations)
+      out.status = SampledMap::Status::iterating;
     out.note = note(match);
+    if (pose.cage != rest_.cage) out.note += "; cage points do not act";
+    if (std::ranges::any_of(rest_.pins, &RestPin::turns)) out.note += "; pins guide by place only";
     if (!pins_.note.empty()) out.note += "; " + pins_.note;
   }
 
@@ -120,14 +125,18 @@ class OutlineDeformer final : public Deformer {
     constexpr double kReached = 0.01;
     const double size = Polyline(rest_.outline, true).diagonal();
     char text[240];
-    std::snprintf(text, sizeof text,
-                  "The outline is met to %.2g %% of its size, %.2g %% at worst, in %d %s%s",
-                  100 * match.rms / size, 100 * match.hausdorff / size, match.iterations,
-                  match.iterations == 1 ? "step" : "steps",
-                  match.zeros > 0                     ? "; the picture folds: f' has zeros"
-                  : match.hausdorff > kReached * size ? ": more softness reaches farther"
-                                                      : "");
-    return text;
+    std::snprintf(
+        text, sizeof text,
+        "The outline is met to %.2g %% of its size on average and %.2g %% at worst, in %d "
+        "%s",
+        100 * match.rms / size, 100 * match.hausdorff / size, match.iterations,
+        match.iterations == 1 ? "step" : "steps");
+    std::string note = text;
+    if (match.zeros > 0) note += "; the picture folds: f' has zeros";
+    if (match.hausdorff > kReached * size)
+      note += pins_.used.empty() ? "; not all of it is reached: more softness goes farther"
+                                 : "; the pins keep the shape from it";
+    return note;
   }
 
   Rest rest_;

@@ -4,6 +4,8 @@
 //
 // f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
 // minimised by alternating least squares. Without strokes it is method `pins`.
+#include <cstdio>
+
 #include "core/alternating_fit.h"
 #include "core/boundary_basis.h"
 #include "core/cauchy.h"
@@ -19,7 +21,7 @@ namespace {
 
 constexpr int kSamplesPerVertex = 2;
 constexpr double kInset = 1;       ///< of rigidity's and smoothness's samples, in their distances
-constexpr double kPerLength = 10;  ///< samples of a stroke for each L of it
+constexpr double kPerLength = 20;  ///< samples of a stroke for each L of it
 constexpr double kLittle = 1e-3;   ///< of rigidity, in the start
 constexpr int kFewest = 8, kMost = 40;
 constexpr int kDraftSteps = 20, kSteps = 300;
@@ -29,7 +31,6 @@ constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
 struct Samples {
   Points places;
   std::vector<double> shares;
-  Index first = 0;       ///< among all strokes' samples
   size_t stroke = 0;     ///< of the rest
   bool clipped = false;  ///< not all of the stroke lies inside
 };
@@ -50,15 +51,76 @@ Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
   return samples;
 }
 
+/// Where the strokes' samples and the slopes of a pose should be: the targets of the fit's terms.
+class StrokeTargets {
+ public:
+  /// `on` and `slopes` are what the cage alone does: displacements of the samples, L f' inside.
+  StrokeTargets(const std::vector<Samples>& strokes, const std::vector<Points>& posed,
+                const VectorXc& on, VectorXc slopes, double unit)
+      : slopes_(std::move(slopes)), unit_(unit) {
+    for (const Samples& stroke : strokes) {
+      const Polyline& curve = curves_.emplace_back(without_repeats(posed[stroke.stroke]), false);
+      for (size_t i = 0; i < stroke.places.size(); ++i) {
+        const Index row = static_cast<Index>(samples_.size());
+        samples_.push_back({curves_.size() - 1, stroke.places[i] + on[row]});
+        shares_.push_back(stroke.shares[i]);
+      }
+      lengths_.push_back(curve.length());
+    }
+    hints_.assign(samples_.size(), 0);
+  }
+
+  const std::vector<double>& shares() const { return shares_; }
+  /// Displacements that take the samples to these shares of the posed strokes' lengths.
+  VectorXc at(const std::vector<double>& shares) const {
+    VectorXc targets(static_cast<Index>(samples_.size()));
+    for (size_t i = 0; i < samples_.size(); ++i)
+      targets[static_cast<Index>(i)] =
+          curves_[samples_[i].curve].at(shares[i] * lengths_[samples_[i].curve]) -
+          samples_[i].place;
+    return targets;
+  }
+  /// The nearest places on the posed strokes.
+  void project(const VectorXc& values, VectorXc& targets) {
+    for (size_t i = 0; i < samples_.size(); ++i) {
+      const auto& [c, place] = samples_[i];
+      const Index row = static_cast<Index>(i);
+      const auto nearest = curves_[c].nearest(place + values[row], hints_[i]);
+      hints_[i] = nearest.segment;
+      shares_[i] = curves_[c].length_at(nearest.segment, nearest.parameter) / lengths_[c];
+      targets[row] = nearest.point - place;
+    }
+  }
+  /// The nearest slopes of length 1.
+  void make_rigid(const VectorXc& values, VectorXc& targets) const {
+    for (Index i = 0; i < values.size(); ++i) {
+      const Complex slope = slopes_[i] + values[i];
+      const double size = std::abs(slope);
+      targets[i] = (size > 0 ? unit_ * slope / size : Complex(unit_)) - slopes_[i];
+    }
+  }
+
+ private:
+  struct Sample {
+    size_t curve;
+    Complex place;  ///< where the cage takes it
+  };
+  std::vector<Polyline> curves_;
+  std::vector<double> lengths_;
+  std::vector<Sample> samples_;
+  std::vector<double> shares_;
+  std::vector<Index> hints_;
+  VectorXc slopes_;
+  double unit_;
+};
+
 template <class T>
 class StrokesDeformer final : public Deformer {
  public:
   explicit StrokesDeformer(const Rest& rest)
       : rest_(rest), method_(method_named("strokes")), pins_(acting_pins(rest)) {
     for (const Points& stroke : rest.strokes) check_stroke(stroke);
-    take_free();
     const double unit = perimeter(outline_of(rest.cage)) / (2 * kPi);
-    Index count = 0;
     for (size_t i = 0; i < rest.strokes.size(); ++i) {
       Samples samples = samples_of(rest.strokes[i], rest.cage, unit);
       if (samples.clipped)
@@ -66,11 +128,12 @@ class StrokesDeformer final : public Deformer {
                  (samples.places.empty() ? " lies outside the cage and does not act"
                                          : " leaves the cage: what is inside acts");
       samples.stroke = i;
-      samples.first = count;
-      count += static_cast<Index>(samples.places.size());
       if (!samples.places.empty()) strokes_.push_back(std::move(samples));
     }
-    if (!strokes_.empty()) prepare(unit, count);
+    prepare_followed();
+    if (strokes_.empty()) return;
+    if (!pins_.note.empty()) note_ += (note_.empty() ? "" : "; ") + pins_.note;
+    prepare(unit);
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
@@ -93,7 +156,10 @@ class StrokesDeformer final : public Deformer {
       draft_ = wanted.draft;
     }
     out.iterations = moved_.iterations;
-    if (moved_.iterations == kSteps) out.status = SampledMap::Status::iterating;
+    if (!moved_.settled) out.status = SampledMap::Status::iterating;
+    char text[80];
+    std::snprintf(text, sizeof text, "Strokes are missed by %.2g px on average.", moved_.miss);
+    out.note = text + (note_.empty() ? "" : " " + note_);
     out.f += product(value_, moved_.phi);
     if (soft_) out.f += product(value_, moved_.psi).conjugate();
     if (!wanted.derivatives || rest_.samples.empty()) return;
@@ -111,11 +177,15 @@ class StrokesDeformer final : public Deformer {
     auto map = std::make_unique<SumMap>();
     map->terms.emplace_back(rest_.cage, cage_displacement(rest_, pose));
     if (is_at_rest(pose)) return map;
-    StrokesDeformer solver(*this);
-    if (pose != posed_ || draft_) solver.solve(pose, false);
+    Moved moved = moved_;
+    if (pose != posed_ || draft_) {
+      StrokesDeformer other(*this);
+      other.solve(pose, false);
+      moved = std::move(other.moved_);
+    }
     const Cage polygon = polygon_cage(basis_->polygon());
-    map->terms.emplace_back(polygon, solver.moved_.phi);
-    if (soft_) map->conjugates.emplace_back(polygon, solver.moved_.psi);
+    map->terms.emplace_back(polygon, moved.phi);
+    if (soft_) map->conjugates.emplace_back(polygon, moved.psi);
     return map;
   }
 
@@ -124,6 +194,8 @@ class StrokesDeformer final : public Deformer {
   struct Moved {
     VectorXc phi, psi;
     int iterations = 0;
+    bool settled = true;
+    double miss = 0;             ///< root of the mean square distance from the posed strokes
     std::vector<double> shares;  ///< of each sample on its posed stroke
   };
   enum Term : size_t { on_strokes, rigid, on_pins };
@@ -135,16 +207,20 @@ class StrokesDeformer final : public Deformer {
   static Pose without_handles(const Pose& pose) { return {pose.cage, {}}; }
   static Pose without_strokes(const Pose& pose) { return {pose.cage, pose.pins}; }
 
-  void take_free() {
+  /// What strokes correct, or act in their place where there are none.
+  void prepare_followed() {
     Rest rest = rest_;
     rest.parameters.clear();
     rest.strokes.clear();
-    free_ = method_named("pins").prepare(rest, nullptr);
+    if (strokes_.empty()) {
+      free_ = method_named("pins").prepare(rest, nullptr);
+      return;
+    }
     rest.pins.clear();
     cage_ = method_named("cage").prepare(rest, nullptr);
   }
 
-  void prepare(double unit, Index count) {
+  void prepare(double unit) {
     const int vertices = BoundaryBasis::usual_size(rest_.cage.size());
     basis_ =
         std::make_shared<const BoundaryBasis>(rest_.cage, vertices, kSamplesPerVertex * vertices);
@@ -189,7 +265,6 @@ class StrokesDeformer final : public Deformer {
       constant.rightCols(n) = basis_->one().transpose();
       terms.push_back({std::move(constant)});
     }
-    shares_.assign(static_cast<size_t>(count), 0);
     fit_.emplace(terms);
     terms[rigid].weight *= kLittle;
     terms[rigid].project = nullptr;
@@ -221,42 +296,18 @@ class StrokesDeformer final : public Deformer {
 
   void solve(const Pose& pose, bool draft) {
     const VectorXc cage = cage_displacement(rest_, pose);
-    const VectorXc on = cage_on_ * cage, inner = cage_inner_ * cage;
-    std::vector<Polyline> curves;
-    for (const Samples& stroke : strokes_)
-      curves.emplace_back(without_repeats(pose.strokes[stroke.stroke]), false);
-    std::vector<Index> hints(shares_.size(), 0);
-    const auto for_each_sample = [&](const auto& take) {
-      for (size_t s = 0; s < strokes_.size(); ++s)
-        for (size_t i = 0; i < strokes_[s].places.size(); ++i) {
-          const Index row = strokes_[s].first + static_cast<Index>(i);
-          take(row, curves[s], strokes_[s].places[i] + on[row], strokes_[s].shares[i]);
-        }
-    };
+    const auto targets =
+        std::make_shared<StrokeTargets>(strokes_, pose.strokes, cage_on_ * cage,
+                                        VectorXc((cage_inner_ * cage).array() + unit_), unit_);
     AlternatingFit& fit = *fit_;
-    fit.project_by(on_strokes, [&](const VectorXc& values, VectorXc& targets) {
-      for_each_sample([&](Index row, const Polyline& curve, Complex base, double) {
-        Index& hint = hints[static_cast<size_t>(row)];
-        const auto nearest = curve.nearest(base + values[row], hint);
-        hint = nearest.segment;
-        shares_[static_cast<size_t>(row)] =
-            curve.length_at(nearest.segment, nearest.parameter) / curve.length();
-        targets[row] = nearest.point - base;
-      });
+    fit.project_by(on_strokes, [targets](const VectorXc& values, VectorXc& wanted) {
+      targets->project(values, wanted);
     });
-    fit.project_by(rigid, [&](const VectorXc& values, VectorXc& targets) {
-      for (Index i = 0; i < values.size(); ++i) {
-        const Complex base = unit_ + inner[i], slope = base + values[i];
-        const double size = std::abs(slope);
-        targets[i] = (size > 0 ? unit_ * slope / size : Complex(unit_)) - base;
-      }
+    fit.project_by(rigid, [targets](const VectorXc& values, VectorXc& wanted) {
+      targets->make_rigid(values, wanted);
     });
-    const bool warm = draft && moved_.shares.size() == shares_.size();
-    VectorXc first(static_cast<Index>(shares_.size()));
-    for_each_sample([&](Index row, const Polyline& curve, Complex base, double share) {
-      if (warm) share = moved_.shares[static_cast<size_t>(row)];
-      first[row] = curve.at(share * curve.length()) - base;
-    });
+    const bool warm = draft && !moved_.shares.empty();
+    const VectorXc first = targets->at(warm ? moved_.shares : targets->shares());
     if (!pins_.used.empty()) fit.give(on_pins, pin_targets(pose, cage));
     if (!warm) {
       // Without rigidity first: what is turned far would be held by where it was.
@@ -265,9 +316,12 @@ class StrokesDeformer final : public Deformer {
       fit.reset(loose_->unknowns());
     }
     fit.start(first);
-    moved_.iterations = fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled,
-                                draft ? kDraftSteps : kSteps);
-    moved_.shares = shares_;
+    const int most = draft ? kDraftSteps : kSteps;
+    moved_.iterations =
+        fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled, most);
+    moved_.settled = moved_.iterations < most;
+    moved_.shares = targets->shares();
+    moved_.miss = fit.distance(on_strokes);
     const VectorXc x = fit.unknowns();
     const Index n = basis_->size();
     moved_.phi = basis_->coefficients(x.head(n));
@@ -297,7 +351,6 @@ class StrokesDeformer final : public Deformer {
   MatrixXc cage_on_, cage_inner_, cage_at_pins_;  ///< cage coordinates at strokes, inside, at pins
   PlanarMatrix<T> value_, slope_;
   std::optional<AlternatingFit> fit_, loose_;  ///< the second one hardly minds growing
-  std::vector<double> shares_;
   Moved moved_;
   std::optional<Pose> posed_;
   bool draft_ = false;
