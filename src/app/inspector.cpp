@@ -309,10 +309,10 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, b
     method_section(workspace);
     convergence_section(workspace, scale);
   });
+  if (workspace.map.has_map()) section("FOLDS", [&] { injectivity_section(workspace, light); });
   section("SELECTION", [&] { selection_section(workspace); });
   section("CAGE", [&] { cage_section(workspace); });
   section("VIEW", [&] { heat_section(workspace, heat); });
-  if (workspace.map.has_map()) section("FOLDS", [&] { injectivity_section(workspace, light); });
   ImGui::TextDisabled("HISTORY");
   history_section(workspace);
   ImGui::End();

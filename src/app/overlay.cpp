@@ -217,6 +217,13 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       }
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;
+      if (faint && handle.kind == Handle::Kind::cage && !selected && !hovered) {
+        const float r = 2.6f * static_cast<float>(style.scale);
+        list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, IM_COL32(0, 0, 0, 90));
+        list.AddRectFilled({at.x - r + 1, at.y - r + 1}, {at.x + r - 1, at.y + r - 1},
+                           (color & 0x00ffffff) | 0xb0000000);
+        continue;
+      }
       if (handle.kind == Handle::Kind::pin)
         draw_pin(list, at, scene.pins[handle.index], selected, hovered, style);
       else

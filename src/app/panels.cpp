@@ -97,6 +97,9 @@ void draw_toolbar(Workspace& workspace, double scale) {
   ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar),
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      {4 * s, 0});  // low buttons keep their icons whole
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 5 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   static constexpr const char* kIds[] = {
       "tool.select",       "tool.pen",  "tool.pin", "tool.stroke", "tool.outline", "",
@@ -106,7 +109,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
   const long lines = std::ranges::count(kIds, std::string_view(),
                                         [](const char* id) { return std::string_view(id); });
   const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
-              room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 26 * s;
+              room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s;
   const ImVec2 button(40 * s, std::min(38 * s, room / buttons - ImGui::GetStyle().ItemSpacing.y));
   for (const char* id : kIds) {
     if (!*id) {
@@ -128,7 +131,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
       ImGui::SetTooltip("%s", label_with_keys(action).c_str());
   }
   ImGui::End();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(3);
 }
 
 namespace {
