@@ -303,7 +303,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   }
   ImGui::Dummy({0, 10 * s});
   ImGui::TextUnformatted("Samples");
-  const float tile = 200 * s;
+  // All in one row, if that does not make them too small.
+  const float count = static_cast<float>(std::max<size_t>(samples.size(), 1)),
+              tile = std::clamp((display.x - 116 * s) / count - 20 * s, 130 * s, 200 * s);
   for (size_t i = 0; i < samples.size(); ++i) {
     const Sample& sample = samples[i];
     ImGui::PushID(static_cast<int>(i));

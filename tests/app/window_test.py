@@ -245,8 +245,8 @@ class WindowTest(unittest.TestCase):
             editor.wait(lambda s: s["empty"], "the welcome page again")
             time.sleep(0.3)
             picture = self.screenshot(editor, "welcome-recent")
-            rows = numpy.flatnonzero((picture[560:760, 45:240] > 150).any(axis=(1, 2)))
-            editor.press(100, 560 + rows[-1] - 4)  # the last line of the page is the recent file
+            rows = numpy.flatnonzero((picture[480:760, 45:240] > 150).any(axis=(1, 2)))
+            editor.press(100, 480 + rows[-1] - 4)  # the last line of the page is the recent file
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe once more")
 
     def test_export_asks_before_it_replaces(self):
@@ -464,7 +464,7 @@ class WindowTest(unittest.TestCase):
         """The middle of the first number field below the selection's heading: the inspector's only wide dark
         boxes in its left half; the first section of method `cage` has a combo alone."""
         column = picture[:, 1060]
-        panel = column[150]
+        panel = numpy.median(column[100:700], axis=0)
         boxes = numpy.flatnonzero(numpy.abs(column - panel).max(axis=1) > 4)
         starts = [y for y in boxes if y - 1 not in boxes and 100 < y < 700]
         tall = [y for y in starts if all(y + k in boxes for k in range(18))]
