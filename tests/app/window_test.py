@@ -325,14 +325,17 @@ class WindowTest(unittest.TestCase):
             self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
             self.screenshot(editor, "compared")
 
+    def draw_square_cage(self, editor):
+        editor.wait(lambda s: not s["empty"], "the picture")
+        editor.key("p")
+        for x, y in ((50, 50), (750, 50), (750, 750), (50, 750)):
+            editor.click(x, y)
+        editor.key("Return")
+        editor.wait(lambda s: s["cage_points"] == 4 and not s["busy"], "a cage")
+
     def test_a_drawn_outline_takes_the_picture_along(self):
         with Editor(PROGRAM, [self.picture]) as editor:
-            editor.wait(lambda s: not s["empty"], "the picture")
-            editor.key("p")
-            for x, y in ((50, 50), (750, 50), (750, 750), (50, 750)):
-                editor.click(x, y)
-            editor.key("Return")
-            editor.wait(lambda s: s["cage_points"] == 4, "a cage")
+            self.draw_square_cage(editor)
             editor.key("o")
             around = [(400 + 330 * math.cos(t / 24 * 2 * math.pi), 400 + 220 * math.sin(t / 24 * 2 * math.pi))
                       for t in range(24)]
@@ -361,12 +364,7 @@ class WindowTest(unittest.TestCase):
 
     def test_a_stroke_is_drawn_and_its_pose_dragged(self):
         with Editor(PROGRAM, [self.picture]) as editor:
-            editor.wait(lambda s: not s["empty"], "the picture")
-            editor.key("p")
-            for x, y in ((50, 50), (750, 50), (750, 750), (50, 750)):
-                editor.click(x, y)
-            editor.key("Return")
-            editor.wait(lambda s: s["cage_points"] == 4 and not s["busy"], "a cage")
+            self.draw_square_cage(editor)
             editor.key("s")
             editor.wait(lambda s: s["tool"] == "stroke", "the tool")
             editor.draw([(150 + 20 * i, 400) for i in range(26)])
