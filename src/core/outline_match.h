@@ -57,7 +57,7 @@ class OutlineFit {
 
   /// Cost: for 200 vertices 5 ms an iteration.
   void solve(const Points& pinned);
-  /// The same, roughly, on from the last solution, in a few iterations.
+  /// The same, roughly, on from the last solution: four iterations at most.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return basis_; }
