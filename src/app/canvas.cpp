@@ -10,7 +10,7 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   upload_picture(workspace);
   upload_map(workspace.map);
   const Viewport& view = workspace.viewport;
-  Frame frame;
+  Frame frame = frame_of(workspace);
   frame.window_width = at.window_width;
   frame.window_height = at.window_height;
   frame.canvas_left = view.left * at.ratio;
@@ -19,17 +19,38 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   frame.canvas_height = view.height * at.ratio;
   frame.center = view.center;
   frame.zoom = view.zoom * at.ratio;
+  frame.wireframe = workspace.show_mesh;
+  if (workspace.at_rest()) frame.placement = Placement::at_rest;
+  frame.background = at.background;
+  frame.backdrop = at.backdrop;
+  renderer_.draw(frame);
+}
+
+Frame Canvas::frame_of(const Workspace& workspace) const {
+  Frame frame;
   const bool shows_picture =
       !workspace.map.has_map() || (is_heat(workspace.view) && heat_values_.size() == 0);
   frame.view = shows_picture ? View::image : workspace.view;
   frame.diverging = heat_scale_.diverging;
-  frame.wireframe = workspace.show_mesh;
-  frame.placement = workspace.at_rest() ? Placement::at_rest
-                    : by_operator_      ? Placement::by_operator
-                                        : Placement::positions;
-  frame.background = at.background;
-  frame.backdrop = at.backdrop;
+  frame.placement = by_operator_ ? Placement::by_operator : Placement::positions;
+  return frame;
+}
+
+void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay) {
+  const double most = is_software_driver() ? 1024 : 2048;  // px
+  Frame frame = frame_of(workspace);
+  frame.zoom = most / std::max(box.width(), box.height());
+  frame.window_width = static_cast<int>(std::ceil(frame.zoom * box.width()));
+  frame.window_height = static_cast<int>(std::ceil(frame.zoom * box.height()));
+  frame.canvas_width = frame.window_width;
+  frame.canvas_height = frame.window_height;
+  frame.center = box.center();
+  frame.map_alone = true;
+  frame.background = {0, 0, 0};
+  frame.backdrop = clay;
+  into.bind(frame.window_width, frame.window_height);
   renderer_.draw(frame);
+  into.release();
 }
 
 void Canvas::update_heat(const Workspace& workspace) {

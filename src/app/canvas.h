@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edit/workspace.h"
+#include "render/framebuffer.h"
 #include "render/renderer.h"
 
 namespace holomorph {
@@ -21,6 +22,10 @@ class Canvas {
   /// Uploads what changed since the last frame and draws. The map must be up to date.
   void draw(Workspace& workspace, const CanvasFrame& frame);
 
+  /// Draws the posed map alone, this box of the plane filling the picture, with `clay` where the
+  /// picture is transparent. What changed must have been uploaded by draw.
+  void draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay);
+
   const HeatScale& heat_scale() const { return heat_scale_; }
   /// Per mesh vertex; empty without a heat map.
   const Eigen::VectorXd& heat_values() const { return heat_values_; }
@@ -28,6 +33,8 @@ class Canvas {
   bool by_operator() const { return by_operator_; }
 
  private:
+  /// What is the same wherever the map is drawn.
+  Frame frame_of(const Workspace& workspace) const;
   void update_heat(const Workspace& workspace);
   void upload_picture(Workspace& workspace);
   void upload_map(const LiveMap& map);

@@ -10,6 +10,7 @@
 #include "app/files.h"
 #include "app/panels.h"
 #include "app/state_file.h"
+#include "app/surface_pane.h"
 #include "app/toasts.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -75,21 +76,32 @@ class Editor {
     draw_panels(input);
     ImGui::Render();
     window_.end_frame();
-    if (state_file_) state_file_->write(workspace_, current_tool().busy(), comparison_.rows());
+    if (state_file_) write_state();
+  }
+
+  void write_state() {
+    PartsState parts{current_tool().busy(), comparison_.rows()};
+    parts.on_surface = workspace_.shows_surface() && surface_pane_.has_picture();
+    parts.yaw = surface_pane_.camera().yaw;
+    parts.distance = surface_pane_.camera().distance;
+    state_file_->write(workspace_, parts);
   }
 
   void layout(const PanelSizes& sizes) {
     Viewport& view = workspace_.viewport;
     view.left = sizes.toolbar;
     view.top = sizes.menu;
-    view.width = std::max(1.0, window_.width() - sizes.toolbar - sizes.inspector);
+    const double room = window_.width() - sizes.toolbar - sizes.inspector;
+    const bool halved = workspace_.shows_surface();
+    view.width = std::max(1.0, halved ? std::floor(room / 2) : room);
+    if (halved != std::exchange(halved_, halved)) fit_ = true;
     view.height = std::max(1.0, window_.height() - sizes.menu - sizes.status);
     workspace_.handle_px = 10 * window_.scale();
     if (std::exchange(fit_, false)) view.fit(workspace_.content_box());
   }
 
   void take_events() {
-    for (const Path& path : window_.take_drops()) files_.ask_open(path);
+    for (const Path& path : window_.take_drops()) files_.drop(path);
     if (window_.take_close()) workspace_.request = Request::quit;
     // A number that is being dragged in the inspector takes the keys, too.
     const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
@@ -225,11 +237,13 @@ class Editor {
       if (canvas_.heat_values().size() > 0)
         draw_legend(workspace_, canvas_.heat_scale(), canvas_.heat_values(), style);
       draw_toolbar(workspace_, scale);
+      if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
       draw_inspector(workspace_, canvas_.heat_scale(), scale, window_.light());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
+      if (surface_pane_.hovered()) status.hint = SurfacePane::hint();
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
         status.cursor_at_rest = workspace_.rest_at(input.position);
@@ -258,9 +272,10 @@ class Editor {
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_, palette_text_;
-  bool fit_ = false, panning_ = false, was_active_ = false, restyle_ = false;
+  bool fit_ = false, halved_ = false, panning_ = false, was_active_ = false, restyle_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false;
   ComparisonPanel comparison_;
+  SurfacePane surface_pane_;
   Files files_;
 };
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "edit/tool.h"
 #include "raster/picture.h"
+#include "raster/textured.h"
 #include "scene/export.h"
 #include "scene/outline_import.h"
 #include "scene/svg_path.h"
@@ -52,6 +53,13 @@ void Files::complain(const std::string& problem) {
 
 void Files::ask_open(const Path& path) {
   ask_then([this, path] { complain(open(path)); });
+}
+
+void Files::drop(const Path& path) {
+  if (lower_case(path.extension().string()) == ".obj" && workspace_.document.scene().has_cage())
+    complain(import_outline(path));
+  else
+    ask_open(path);
 }
 
 void Files::ask_sample(const Path& scene) {
@@ -111,7 +119,7 @@ void Files::save(bool as, const Then& then) {
 
 std::string Files::export_to(const Path& path, double scale) {
   try {
-    check_not_a_source(path, workspace_.document.path(), workspace_.document.image_path());
+    check_not_a_source(path, workspace_.document.sources());
     PictureOptions options;
     options.scale = scale;
     options.view = workspace_.scene().has_cage() ? workspace_.view : View::image;
@@ -178,7 +186,8 @@ std::string Files::import_outline(const Path& path) {
     const Image* image = workspace_.document.image();
     const Scene& scene = workspace_.document.scene();
     take_outline(workspace_, "Outline from file",
-                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))));
+                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))),
+                 surface_of_file(path, Flattening::lscm));
   } catch (const Error& error) {
     return error.what();
   }
@@ -193,8 +202,7 @@ void Files::ask_export_svg() {
   dialog_.ask({FileQuestion::Mode::save, "Export the cage", "Export", {".svg"}, start, false},
               [this](const Path& path, double) -> std::string {
                 try {
-                  check_not_a_source(path, workspace_.document.path(),
-                                     workspace_.document.image_path());
+                  check_not_a_source(path, workspace_.document.sources());
                   write_file(path, svg_of(workspace_.document.scene()));
                   workspace_.say("Exported " + path.filename().string() + ".");
                 } catch (const Error& error) {
@@ -202,6 +210,35 @@ void Files::ask_export_svg() {
                 }
                 return "";
               });
+}
+
+std::string Files::export_surface(const Path& path, double scale) {
+  try {
+    const Document& document = workspace_.document;
+    const Scene& scene = document.scene();
+    const LaidSurface surface = laid_surface_of(scene);
+    for (const char* kind : {".obj", ".png", ".mtl"})
+      check_not_a_source(Path(path).replace_extension(kind), document.sources());
+    write_textured(path, surface, textured(surface, scene, document.image(), scale));
+    workspace_.say("Exported " + path.filename().string() + " with its material and picture.");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void Files::ask_export_surface() {
+  const Document& document = workspace_.document;
+  Path start = document.path().empty() ? document.image_path() : document.path();
+  const Path surface(document.scene().surface->file);
+  start.replace_filename(start.stem().string() + "-" + surface.stem().string() + ".obj");
+  dialog_.ask({FileQuestion::Mode::save,
+               "Export the surface with the picture on it",
+               "Export",
+               {".obj"},
+               start,
+               true},
+              [this](const Path& path, double scale) { return export_surface(path, scale); });
 }
 
 void Files::autosave() {
@@ -233,7 +270,7 @@ void Files::answer(Request request) {
         dialog_.ask({FileQuestion::Mode::open,
                      "Open a picture or a scene",
                      "Open",
-                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json"},
+                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json", ".obj"},
                      {},
                      false},
                     [this](const Path& path, double) { return open(path); });
@@ -271,6 +308,9 @@ void Files::answer(Request request) {
       break;
     case Request::export_svg:
       ask_export_svg();
+      break;
+    case Request::export_surface:
+      ask_export_surface();
       break;
     case Request::quit:
       ask_then([this] {

@@ -19,6 +19,8 @@ class Files {
   /// what is wrong, or "".
   std::string open(const Path& path);
   void ask_open(const Path& path);
+  /// The same for a dropped file, but a surface becomes the outline where there is a cage.
+  void drop(const Path& path);
   /// Opens a copy of a scene, which has no file of its own yet.
   void ask_sample(const Path& scene);
   /// Does what an action asked for, if it is about files.
@@ -51,6 +53,8 @@ class Files {
   std::string import_svg(const Path& path, bool pose);
   std::string import_outline(const Path& path);
   void ask_export_svg();
+  void ask_export_surface();
+  std::string export_surface(const Path& path, double scale);
   void draw_question(double scale);
 
   Workspace& workspace_;

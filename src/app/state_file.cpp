@@ -6,7 +6,7 @@
 
 namespace holomorph {
 
-void StateFile::write(const Workspace& workspace, bool gesture, int compared_rows) {
+void StateFile::write(const Workspace& workspace, const PartsState& parts) {
   static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline"};
   const Viewport& view = workspace.viewport;
   char text[1400];
@@ -21,7 +21,8 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s,\n"
       " \"status\": \"%s\", \"boundary_turns\": %.6f, \"folds\": %s, \"iteration\": %d, "
       "\"iterations\": %d, \"playing\": %s,\n"
-      "  \"zeros\": %d, \"compared_rows\": %d}\n",
+      "  \"zeros\": %d, \"compared_rows\": %d, \"on_surface\": %s, \"yaw\": %.6f, "
+      "\"distance\": %.6f}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.layer == Layer::rest ? "rest" : "pose",
@@ -34,13 +35,14 @@ void StateFile::write(const Workspace& workspace, bool gesture, int compared_row
       static_cast<int>(workspace.document.history().entries().size()),
       static_cast<int>(workspace.document.history().index()),
       workspace.document.modified() ? "true" : "false", workspace.map.busy() ? "true" : "false",
-      gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
+      parts.gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
       workspace.map.error() ? "true" : "false", name_of(workspace.map.map().status),
       workspace.map.injectivity().boundary_turns,
       workspace.map.injectivity().folds() ? "true" : "false", workspace.map.map().iterations,
       static_cast<int>(workspace.map.map().energies.size()),
       workspace.playback.playing ? "true" : "false",
-      static_cast<int>(workspace.map.map().zeros.size()), compared_rows);
+      static_cast<int>(workspace.map.map().zeros.size()), parts.compared_rows,
+      parts.on_surface ? "true" : "false", parts.yaw, parts.distance);
   if (text == last_) return;
   last_ = text;
   try {

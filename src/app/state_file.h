@@ -5,13 +5,21 @@
 
 namespace holomorph {
 
+/// What the editor's parts know besides the workspace.
+struct PartsState {
+  bool gesture = false;  ///< a tool's
+  int compared_rows = 0;
+  bool on_surface = false;       ///< the picture is on the surface in space
+  double yaw = 0, distance = 0;  ///< of the camera there
+};
+
 class StateFile {
  public:
   explicit StateFile(Path path) : path_(std::move(path)) {}
   /// Writes the state when it differs from what the file was last given. Plane points are found in
   /// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
   /// center_y) zoom.
-  void write(const Workspace& workspace, bool gesture, int compared_rows);
+  void write(const Workspace& workspace, const PartsState& parts);
 
  private:
   Path path_;

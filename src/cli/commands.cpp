@@ -37,7 +37,7 @@ LoadedScene load(const Path& path) {
 }
 
 void check_out(const Path& out, const Path& scene, const LoadedScene& loaded) {
-  check_not_a_source(out, scene, loaded.scene.image ? image_path_of(loaded.scene, scene) : Path());
+  check_not_a_source(out, sources_of(loaded.scene, scene));
 }
 
 void require_cage(const Scene& scene, const Path& path) {
@@ -171,15 +171,8 @@ Cage cage_of_file(const Path& path, const Image& picture) {
     return polygon_cage(
         texture_boundary(surface_of_obj(text, path.string()), picture.width, picture.height));
   } catch (const Error& error) {
-    throw Error(error.kind(), path.string() + ": " + error.what());
+    throw about(path, error);
   }
-}
-
-Flattening flattening_named(const std::string& name) {
-  if (name == "lscm") return Flattening::lscm;
-  if (name == "circle") return Flattening::circle;
-  throw Error(ErrorKind::bad_input,
-              "flattening '" + name + "' does not exist; choose one of: lscm, circle");
 }
 
 }  // namespace
@@ -201,15 +194,17 @@ void run(const NewCommand& command) {
                                           " segments and the cage " +
                                           std::to_string(scene.rest.size()) + "; they must agree");
   if (command.outline) {
-    scene.outline = outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)),
-                                    flattening_named(command.flattening));
+    const Flattening flattening = flattening_named(command.flattening);
+    scene.outline =
+        outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)), flattening);
+    scene.surface = surface_of_file(*command.outline, flattening);
     scene.method = "outline";
   }
-  const Path folder = std::filesystem::absolute(command.out).lexically_normal().parent_path();
-  const Path relative =
-      std::filesystem::absolute(command.image).lexically_normal().lexically_relative(folder);
-  if (!relative.empty()) scene.image->file = relative.generic_string();
-  const std::string text = json_of(scene);
+  const auto absolute = [](const Path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  const std::string text =
+      json_of(portable(scene, absolute(command.image), absolute(command.out).parent_path()));
   scene_from_json(text, command.out.string());  // what could not be read again is not written
   write_file(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(),
@@ -244,17 +239,10 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 }
 
 void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
-  if (!command.surface)
-    throw Error(ErrorKind::bad_input, "'textured' needs --surface, the OBJ file that is textured");
   require_cage(loaded.scene, command.scene);
-  if (std::filesystem::weakly_canonical(command.out) ==
-      std::filesystem::weakly_canonical(*command.surface))
-    throw Error(ErrorKind::bad_input, command.out.string() + ": this is the surface itself");
+  const LaidSurface surface = laid_surface_of(loaded.scene);
   Path texture = command.out;
   check_out(texture.replace_extension(".png"), command.scene, loaded);
-  const LaidSurface surface =
-      laid_along(surface_of_obj(read_file(*command.surface), command.surface->string()).surface,
-                 loaded.scene.outline);
   write_textured(command.out, surface,
                  textured(surface, loaded.scene, loaded.image.get(), command.scale));
 }

@@ -44,7 +44,6 @@ struct ExportCommand {
   Path scene, out;
   std::string format;
   double scale = 1;
-  std::optional<Path> surface;  ///< for textured
 };
 struct BenchCommand {
   std::string filter;

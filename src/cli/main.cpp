@@ -106,8 +106,6 @@ int run_program(int argc, char** argv) {
       ->required();
   sub->add_option("--scale", out.scale, "Output pixels per image pixel, for png, stmap and unwarp")
       ->capture_default_str();
-  sub->add_option("--surface", out.surface,
-                  "For textured: the OBJ file whose flat boundary the scene's outline is");
   sub->add_option("--out", out.out, "File to write")->required();
   on_run(sub, out, done);
 

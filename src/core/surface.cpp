@@ -25,6 +25,17 @@ int root(std::vector<int>& parent, int i) {
 
 }  // namespace
 
+std::string name_of(Flattening flattening) {
+  return flattening == Flattening::circle ? "circle" : "lscm";
+}
+
+Flattening flattening_named(const std::string& name) {
+  for (const Flattening flattening : {Flattening::lscm, Flattening::circle})
+    if (name == name_of(flattening)) return flattening;
+  throw Error(ErrorKind::bad_input,
+              "flattening '" + name + "' does not exist; choose one of: lscm, circle");
+}
+
 std::vector<int> disk_boundary(const Surface& surface) {
   const int count = static_cast<int>(surface.vertices.size());
   if (surface.triangles.empty()) refuse("it has no triangles");

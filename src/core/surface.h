@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 
 #include "core/types.h"
 
@@ -23,6 +24,10 @@ enum class Flattening {
   lscm,    ///< least squares conformal maps (Levy et al. 2002): the boundary finds its own shape
   circle,  ///< discrete conformal (Eck et al. 1995), the boundary on a circle by arc length
 };
+
+/// "lscm", "circle". The second throws Error for other names.
+std::string name_of(Flattening flattening);
+Flattening flattening_named(const std::string& name);
 
 /// Where the vertices go in the plane: counter-clockwise, of the surface's area, turned so that the
 /// surface's y goes up on average, its box's lower left corner at the origin. Throws Error for what

@@ -18,6 +18,9 @@ bool always(const Workspace&) {
 bool has_cage(const Workspace& w) {
   return w.scene().has_cage();
 }
+bool has_surface(const Workspace& w) {
+  return w.scene().surface.has_value();
+}
 bool has_content(const Workspace& w) {
   return w.scene().has_cage() || w.document.image();
 }
@@ -215,6 +218,13 @@ std::vector<Action> table() {
        {},
        has_cage,
        ask<Request::export_svg>},
+      {"file.export_surface",
+       "Export textured surface...",
+       "",
+       "File",
+       {},
+       has_surface,
+       ask<Request::export_surface>},
       {"file.quit", "Quit", "", "File", {{'Q', kCtrl}}, always, ask<Request::quit>},
 
       {"edit.undo", "Undo", kUndo, "Edit", {{'Z', kCtrl}}, can_undo, undo},
@@ -251,6 +261,7 @@ std::vector<Action> table() {
        [](Workspace& w) {
          Scene scene = w.document.scene();
          scene.outline.clear();
+         scene.surface.reset();
          if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
          w.commit("Remove outline", scene);
        }},
@@ -416,6 +427,14 @@ std::vector<Action> table() {
        has_cage,
        [](Workspace& w) { w.show_mesh = !w.show_mesh; },
        [](const Workspace& w) { return w.show_mesh; }},
+      {"view.surface",
+       "Surface in space",
+       "",
+       "View",
+       {},
+       has_surface,
+       [](Workspace& w) { w.show_surface = !w.show_surface; },
+       [](const Workspace& w) { return w.shows_surface(); }},
       {"view.overlays",
        "Cage and pins",
        "",

@@ -189,8 +189,9 @@ Scene with_curve(Scene scene, Index stroke, Points drawn, Layer layer) {
   return scene;
 }
 
-Scene with_outline(Scene scene, Points outline) {
+Scene with_outline(Scene scene, Points outline, std::optional<SurfaceReference> surface) {
   scene.outline = std::move(outline);
+  scene.surface = std::move(surface);
   return follows(scene, "outline") ? scene : with_method(std::move(scene), "outline");
 }
 

@@ -61,8 +61,9 @@ Scene redrawn(Scene scene, Index stroke, Points curve, Layer layer);
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
 /// With another curve in place of a stroke's.
 Scene with_curve(Scene scene, Index stroke, Points curve, Layer layer);
-/// With an outline, and the method that takes the cage's shape onto it or follows that.
-Scene with_outline(Scene scene, Points outline);
+/// With an outline, and the method that takes the cage's shape onto it or follows that; the surface
+/// is the one whose boundary it is.
+Scene with_outline(Scene scene, Points outline, std::optional<SurfaceReference> surface = {});
 
 /// A pin turned to an angle in radians; the pin turns the picture from then on.
 Scene turned(Scene scene, Index pin, double angle);

@@ -107,14 +107,17 @@ class OutlineTool final : public Tool {
 
 }  // namespace
 
-void take_outline(Workspace& workspace, const std::string& label, Points outline) {
+void take_outline(Workspace& workspace, const std::string& label, Points outline,
+                  std::optional<SurfaceReference> surface) {
   try {
     check_outline(outline);
   } catch (const Error& error) {
     return workspace.complain(error);
   }
   workspace.layer = Layer::pose;
-  if (workspace.commit(label, with_outline(workspace.document.scene(), std::move(outline))))
+  workspace.show_surface = true;
+  if (workspace.commit(
+          label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface))))
     workspace.playback = {0, true};
 }
 

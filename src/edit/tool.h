@@ -83,7 +83,9 @@ class HandleDrag {
 };
 
 /// A new outline as one step, with its convergence played; refused with a toast when it is none.
-void take_outline(Workspace& workspace, const std::string& label, Points outline);
+/// With the surface whose boundary it is, that is shown.
+void take_outline(Workspace& workspace, const std::string& label, Points outline,
+                  std::optional<SurfaceReference> surface = {});
 
 /// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
 void toggle_corners(Workspace& workspace);

@@ -24,6 +24,7 @@ enum class Request {
   import_pose,
   import_outline,
   export_svg,
+  export_surface,
   quit,
   help,
   palette,
@@ -60,7 +61,7 @@ struct Workspace {
   Layer layer = Layer::pose;
   ToolId tool = ToolId::select;
   View view = View::image;
-  bool automatic_range = false, show_mesh = false, show_cage = true;
+  bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   Playback playback;
@@ -81,6 +82,9 @@ struct Workspace {
     return layer == Layer::pose && show_cage && !hide_overlays && !scene().outline.empty() &&
            method_named(scene().method).uses_outline;
   }
+
+  /// Whether the surface whose boundary the outline is has its view beside the canvas.
+  bool shows_surface() const { return show_surface && scene().surface.has_value(); }
 
   /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
   bool commit(const std::string& label, Scene scene);

@@ -1,6 +1,7 @@
 # Writes OUT, a header with each shader of FOLDER as a string.
 set(text "// Made from the folder shaders by the build.\n#pragma once\n\n")
-foreach(pair IN ITEMS "warp.vert=kWarpVert" "image.frag=kImageFrag")
+foreach(pair IN ITEMS "warp.vert=kWarpVert" "image.frag=kImageFrag" "surface.vert=kSurfaceVert"
+        "surface.frag=kSurfaceFrag")
   string(REPLACE "=" ";" pair ${pair})
   list(GET pair 0 file)
   list(GET pair 1 name)

@@ -3,48 +3,10 @@
 
 #include "core/error.h"
 #include "render/gl.h"
-#include "shaders.h"  // the files of shaders/, as strings
+#include "render/program.h"
 
 namespace holomorph {
 namespace {
-
-GLuint compiled(GLenum kind, const std::string& source) {
-  const GLuint shader = glCreateShader(kind);
-  const std::string text = "#version 330 core\n" + source;
-  const char* pointer = text.c_str();
-  glShaderSource(shader, 1, &pointer, nullptr);
-  glCompileShader(shader);
-  GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good) {
-    char log[2000] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    glDeleteShader(shader);
-    throw Error(ErrorKind::failed, std::string("a shader does not compile on this driver: ") + log);
-  }
-  return shader;
-}
-
-GLuint linked() {
-  const GLuint program = glCreateProgram();
-  const GLuint vertex = compiled(GL_VERTEX_SHADER, kWarpVert),
-               fragment = compiled(GL_FRAGMENT_SHADER, kImageFrag);
-  glAttachShader(program, vertex);
-  glAttachShader(program, fragment);
-  const char* read_back[] = {"warped"};
-  glTransformFeedbackVaryings(program, 1, read_back, GL_INTERLEAVED_ATTRIBS);
-  glLinkProgram(program);
-  glDeleteShader(vertex);
-  glDeleteShader(fragment);
-  GLint good = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &good);
-  if (!good) {
-    char log[2000] = "";
-    glGetProgramInfoLog(program, sizeof log, nullptr, log);
-    throw Error(ErrorKind::failed, std::string("the shaders do not link on this driver: ") + log);
-  }
-  return program;
-}
 
 /// Averages blocks of factor x factor pixels, weighted by alpha, and premultiplies.
 std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_t* pixels,
@@ -87,7 +49,8 @@ constexpr int kPicture = 0, kColors = 1, kMatrix = 2, kControls = 3;  // texture
 }  // namespace
 
 struct Renderer::Objects {
-  GLuint program = linked();
+  Program shaders = warp_program();
+  GLuint program = shaders.id();
   GLuint vertex_array = 0, quad_array = 0;
   GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
          feedback = 0;
@@ -96,7 +59,7 @@ struct Renderer::Objects {
   double width = 0, height = 0;  ///< the picture's, in plane units
   int columns = 0;
 
-  GLint at(const char* name) const { return glGetUniformLocation(program, name); }
+  GLint at(const char* name) const { return shaders.at(name); }
 };
 
 Renderer::Renderer() {
@@ -150,7 +113,6 @@ Renderer::~Renderer() {
     glDeleteTextures(1, &texture);
   glDeleteVertexArrays(1, &gl.vertex_array);
   glDeleteVertexArrays(1, &gl.quad_array);
-  glDeleteProgram(gl.program);
 }
 
 int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
@@ -273,7 +235,8 @@ void Renderer::draw(const Frame& frame) {
   glDisable(GL_STENCIL_TEST);
   glStencilMask(0xff);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(frame.background[0], frame.background[1], frame.background[2], 1);
+  glClearColor(frame.background[0], frame.background[1], frame.background[2],
+               frame.map_alone ? 0 : 1);
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glEnable(GL_BLEND);
@@ -321,14 +284,20 @@ void Renderer::draw(const Frame& frame) {
                                   ? Placement::positions
                                   : frame.placement;
 
-  if (picture) {  // what shows through where the picture is transparent
+  if (frame.map_alone) {
+    mode(placement);
+    coloring(3);
+    glUniform4f(gl.at("flat_color"), frame.backdrop[0], frame.backdrop[1], frame.backdrop[2], 1);
+    draw_mesh();
+  } else if (picture) {  // what shows through where the picture is transparent
     mode(Placement::at_rest);
     coloring(3);
     glUniform4f(gl.at("flat_color"), frame.backdrop[0], frame.backdrop[1], frame.backdrop[2], 1);
     glBindVertexArray(gl.quad_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
-  if (picture && frame.view == View::image) {  // what lies outside the rest cage stays
+  if (picture && frame.view == View::image &&
+      !frame.map_alone) {  // what lies outside the rest cage stays
     if (gl.index_count > 0) {
       glEnable(GL_STENCIL_TEST);
       glStencilFunc(GL_ALWAYS, 1, 0xff);

@@ -29,6 +29,7 @@ struct Frame {
   bool diverging = false;  ///< the heat map's colours
   Placement placement = Placement::positions;
   bool wireframe = false;  ///< the mesh's edges over it
+  bool map_alone = false;  ///< the mesh over nothing, opaque, in place of all of the picture
   Color background{0.2f, 0.2f, 0.2f},
       backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
 };

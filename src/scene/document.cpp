@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "scene/laid_surface.h"
 #include "scene/scene_json.h"
 
 namespace holomorph {
@@ -55,18 +56,28 @@ Path lock_path(const Path& autosave) {
   return Path(autosave).replace_extension(".lock");
 }
 
+/// The absolute path of what a scene file names.
+Path beside(const Path& scene, const Path& file) {
+  return fs::absolute(file.is_absolute() ? file : scene.parent_path() / file).lexically_normal();
+}
+
+/// The other way: relative to an absolute folder, as it is when that is empty.
+std::string relative_to(const Path& folder, const Path& file) {
+  const Path relative = folder.empty() ? Path() : file.lexically_relative(folder);
+  return relative.empty() ? file.string() : relative.generic_string();
+}
+
 }  // namespace
 
 Path image_path_of(const Scene& scene, const Path& scene_path) {
   if (!scene.image) return {};
-  const Path file(scene.image->file);
-  return fs::absolute(file.is_absolute() ? file : scene_path.parent_path() / file)
-      .lexically_normal();
+  return beside(scene_path, scene.image->file);
 }
 
 LoadedScene load_scene(const Path& path) {
   LoadedScene loaded;
   loaded.scene = scene_from_json(read_file(path), path.string());
+  if (auto& surface = loaded.scene.surface) surface->file = beside(path, surface->file).string();
   if (!loaded.scene.image) return loaded;
   const Path image_path = image_path_of(loaded.scene, path);
   const std::string pointer = path.string() + ": /image/file: ";
@@ -85,13 +96,19 @@ LoadedScene load_scene(const Path& path) {
   return loaded;
 }
 
-void check_not_a_source(const Path& out, const Path& scene, const Path& image) {
+Sources sources_of(const Scene& scene, const Path& scene_path) {
+  return {scene_path, image_path_of(scene, scene_path),
+          scene.surface ? Path(scene.surface->file) : Path()};
+}
+
+void check_not_a_source(const Path& out, const Sources& sources) {
   std::error_code ignored;
-  for (const auto& [source, what] :
-       {std::pair(scene, "the scene itself"), std::pair(image, "the picture that the scene bends")})
+  for (const auto& [source, what] : {std::pair(sources.scene, "scene itself"),
+                                     std::pair(sources.image, "picture that the scene bends"),
+                                     std::pair(sources.surface, "surface that the scene covers")})
     if (!source.empty() && fs::equivalent(out, source, ignored))
       throw Error(ErrorKind::bad_input,
-                  out.string() + ": this is " + what + "; choose another name");
+                  out.string() + ": this is the " + what + "; choose another name");
 }
 
 LoadedScene scene_of_image(const Path& path) {
@@ -100,6 +117,28 @@ LoadedScene scene_of_image(const Path& path) {
   loaded.image = std::make_shared<const Image>(decode_image(bytes, path.string()));
   loaded.scene.image = ImageReference{fs::absolute(path).string(), loaded.image->width,
                                       loaded.image->height, sha256_hex(bytes), ""};
+  return loaded;
+}
+
+LoadedScene scene_of_surface(const Path& obj) {
+  const SurfaceFile file = surface_of_obj(read_file(obj), obj.string());
+  const auto texture = [&]() -> std::string {
+    if (file.materials.empty()) return "";
+    return texture_of_materials(read_file(beside(obj, file.materials)));
+  }();
+  if (texture.empty())
+    throw Error(ErrorKind::bad_input,
+                obj.string() +
+                    ": this surface has no picture on it. Open a picture, give it a cage and drop "
+                    "the surface onto it");
+  LoadedScene loaded = scene_of_image(beside(beside(obj, file.materials), texture));
+  try {
+    loaded.scene = with_cage(std::move(loaded.scene),
+                             texture_boundary(file, loaded.image->width, loaded.image->height));
+    check_rest_cage(loaded.scene.rest);
+  } catch (const Error& error) {
+    throw about(obj, error);
+  }
   return loaded;
 }
 
@@ -115,8 +154,9 @@ Document::Document(LoadedScene loaded, Path path)
       warning_(std::move(loaded.warning)) {}
 
 Document Document::open(const Path& path) {
-  if (lower_case(path.extension().string()) == ".json")
-    return {load_scene(path), fs::absolute(path).lexically_normal()};
+  const std::string kind = lower_case(path.extension().string());
+  if (kind == ".json") return {load_scene(path), fs::absolute(path).lexically_normal()};
+  if (kind == ".obj") return {scene_of_surface(path), Path()};
   return {scene_of_image(path), Path()};
 }
 
@@ -142,21 +182,23 @@ std::string Document::title() const {
   return image_path_.empty() ? "Untitled" : image_path_.stem().string() + " (not saved)";
 }
 
+Sources Document::sources() const {
+  return {path_, image_path_, scene().surface ? Path(scene().surface->file) : Path()};
+}
+
 bool Document::commit(const std::string& label, Scene scene) {
   return history_.commit(label, std::move(scene));
 }
 
-Scene Document::portable(const Path& folder) const {
-  Scene scene = history_.current();
-  if (!scene.image || image_path_.empty()) return scene;
-  const Path relative = folder.empty() ? Path() : image_path_.lexically_relative(folder);
-  scene.image->file = relative.empty() ? image_path_.string() : relative.generic_string();
+Scene portable(Scene scene, const Path& image, const Path& folder) {
+  if (scene.image && !image.empty()) scene.image->file = relative_to(folder, image);
+  if (scene.surface) scene.surface->file = relative_to(folder, scene.surface->file);
   return scene;
 }
 
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
-  write_file(target, json_of(portable(target.parent_path())));
+  write_file(target, json_of(portable(scene(), image_path_, target.parent_path())));
   path_ = target;
   saved_ = history_.current();
 }
@@ -169,7 +211,7 @@ bool Document::autosave(const Path& folder) {
   fs::create_directories(folder, ignored);
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
-    write_file(path, with_origin(json_of(portable(Path())), path_));
+    write_file(path, with_origin(json_of(portable(scene(), image_path_, Path())), path_));
   } catch (const Error&) {
     return false;
   }

@@ -21,18 +21,32 @@ LoadedScene load_scene(const Path& path);
 /// The absolute path of a scene's picture; empty without one.
 Path image_path_of(const Scene& scene, const Path& scene_path);
 
-/// Throws Error when writing to `out` would replace the scene's own file or its picture.
-void check_not_a_source(const Path& out, const Path& scene, const Path& image);
+/// The scene as a file in an absolute folder holds it, with paths relative to there; with absolute
+/// ones when the folder is empty. `image` is the picture's absolute path.
+Scene portable(Scene scene, const Path& image, const Path& folder);
+
+/// The files that a scene is made of; empty for what it has not.
+struct Sources {
+  Path scene, image, surface;
+};
+/// Of a scene read from this file.
+Sources sources_of(const Scene& scene, const Path& scene_path);
+/// Throws Error when writing to `out` would replace one of them.
+void check_not_a_source(const Path& out, const Sources& sources);
 
 /// The scene of a picture alone: no cage yet.
 LoadedScene scene_of_image(const Path& image);
+
+/// A surface that another program or this one textured: its picture, with the boundary of its
+/// texture coordinates as the cage. Throws Error.
+LoadedScene scene_of_surface(const Path& obj);
 
 /// A scene being edited. Scenes read or recovered count as saved or not; commits make it modified.
 class Document {
  public:
   Document();  ///< empty, nothing to lose
-  /// Opens a scene (by its name, .json) or a picture (anything else). Throws Error and leaves
-  /// nothing behind.
+  /// Opens a scene (by its name, .json), a textured surface (.obj) or a picture (anything else).
+  /// Throws Error and leaves nothing behind.
   static Document open(const Path& path);
   /// A scene to start from: as if drawn just now, it counts as saved but has no file. Throws Error.
   static Document copy_of(const Path& scene);
@@ -44,6 +58,7 @@ class Document {
   const History& history() const { return history_; }
   const Path& path() const { return path_; }              ///< empty for a scene never saved
   const Path& image_path() const { return image_path_; }  ///< absolute; empty without a picture
+  Sources sources() const;
   const std::string& warning() const { return warning_; }
   std::string title() const;
   bool modified() const { return scene() != saved_; }
@@ -67,8 +82,6 @@ class Document {
 
  private:
   Document(LoadedScene loaded, Path path);
-  /// The scene with the picture's path relative to an absolute folder; absolute when that is empty.
-  Scene portable(const Path& folder) const;
 
   std::string id_;  ///< names the autosave file, whatever the document's path is
   History history_;

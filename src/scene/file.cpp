@@ -11,8 +11,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/error.h"
-
 namespace holomorph {
 
 std::string read_file(const Path& path, size_t limit) {
@@ -129,6 +127,11 @@ std::string sha256_hex(const std::string& bytes) {
     hex += kDigits[digest[i] & 15];
   }
   return hex;
+}
+
+Error about(const Path& file, const Error& error) {
+  const std::string name = file.string(), what = error.what();
+  return {error.kind(), what.starts_with(name) ? what : name + ": " + what, error.where()};
 }
 
 }  // namespace holomorph

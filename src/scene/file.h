@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/error.h"
+
 namespace holomorph {
 
 using Path = std::filesystem::path;
@@ -32,6 +34,9 @@ class FileLock {
   Path path_;
   int descriptor_;
 };
+
+/// The error with the file's name in front, unless it starts with it.
+Error about(const Path& file, const Error& error);
 
 /// ASCII capitals made small: for extensions and searches.
 std::string lower_case(std::string text);

@@ -1,8 +1,9 @@
-// The scene knows the outline only; a surface is found again by it.
+// The scene knows where the boundary lies; the rest follows from it.
 #include "scene/laid_surface.h"
 
 #include "core/error.h"
 #include "core/similarity.h"
+#include "scene/file.h"
 
 namespace holomorph {
 namespace {
@@ -27,29 +28,36 @@ LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto) {
   return laid;
 }
 
-LaidSurface laid_along(const Surface& surface, const Points& outline) {
+LaidSurface laid_along(LaidSurface laid, const Points& outline) {
   constexpr double kSame = 1e-6;  // of the outline's size
-  const std::vector<int> loop = disk_boundary(surface);
-  for (const Flattening how : {Flattening::lscm, Flattening::circle}) {
-    if (outline.size() != loop.size()) break;
-    Points flat;
-    try {
-      flat = flattened(surface, how);
-    } catch (const Error&) {
-      continue;  // it may have been the other one
-    }
-    const Points boundary = along(loop, flat);
+  const Points boundary = laid.outline();
+  double off = INFINITY;
+  if (outline.size() == boundary.size()) {
     const Similarity onto = similarity_between(boundary, outline);
-    double off = 0;
+    off = 0;
     for (size_t i = 0; i < outline.size(); ++i)
       off = std::max(off, std::abs(onto(boundary[i]) - outline[i]));
-    if (!(off <= kSame * box_of(outline).diagonal())) continue;
-    for (Complex& z : flat) z = onto(z);
-    return {surface, std::move(flat)};
+    for (Complex& z : laid.plane) z = onto(z);
   }
-  throw Error(ErrorKind::bad_input,
-              "the scene's outline is not this surface's boundary; take the outline from the "
-              "surface, and do not bend it");
+  if (!(off <= kSame * box_of(outline).diagonal()))
+    throw Error(ErrorKind::bad_input,
+                "the scene's outline is not this surface's boundary; take the outline from the "
+                "surface, and do not bend it");
+  return laid;
+}
+
+LaidSurface laid_surface_of(const Scene& scene) {
+  if (!scene.surface)
+    throw Error(ErrorKind::bad_input,
+                "the scene has no surface; take its outline from an OBJ file first");
+  const auto& [file, flattening, extra] = *scene.surface;
+  try {
+    Surface surface = surface_of_obj(read_file(file), file).surface;
+    Points flat = flattened(surface, flattening);
+    return laid_along({std::move(surface), std::move(flat)}, scene.outline);
+  } catch (const Error& error) {
+    throw about(file, error);
+  }
 }
 
 Points texture_boundary(const SurfaceFile& file, int width, int height) {

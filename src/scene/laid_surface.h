@@ -2,11 +2,12 @@
 #pragma once
 
 #include "core/mesh.h"
+#include "scene/scene.h"
 #include "scene/surface_file.h"
 
 namespace holomorph {
 
-/// A surface and where its vertices lie in the plane.
+/// A surface and where its vertices lie in the plane. Value type.
 struct LaidSurface {
   Surface surface;
   Points plane;
@@ -19,9 +20,13 @@ struct LaidSurface {
 /// Error as flattened does.
 LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto);
 
-/// Flattened so that its boundary is this outline, up to a similarity. Throws Error when that is
-/// none of a laid surface.
-LaidSurface laid_along(const Surface& surface, const Points& outline);
+/// Turned, scaled and moved so that its boundary is this outline, to 1e-6 of the outline's size.
+/// Throws Error when it is of another shape.
+LaidSurface laid_along(LaidSurface laid, const Points& outline);
+
+/// The scene's surface, read from its file and laid along the outline. Throws Error when there is
+/// none, for what the file is not, and when the outline is not its boundary.
+LaidSurface laid_surface_of(const Scene& scene);
 
 /// The boundary of a surface's texture coordinates in a picture of this size: the cage of what the
 /// surface shows. Throws Error when it has no such coordinates, or is no disk.

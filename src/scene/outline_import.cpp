@@ -34,14 +34,19 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       const Image image = decode_image(bytes, name);
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
     }
-    if (static_cast<Index>(outline.size()) > kMost)
+    // A surface finds its boundary again by the points' number.
+    if (kind != ".obj" && static_cast<Index>(outline.size()) > kMost)
       outline = at_equal_lengths(Polyline(outline, true), kMost);
     check_outline(outline);
     return outline;
   } catch (const Error& error) {
-    const std::string what = error.what();
-    throw Error(error.kind(), what.starts_with(name) ? what : name + ": " + what, error.where());
+    throw about(path, error);
   }
+}
+
+std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how) {
+  if (lower_case(path.extension().string()) != ".obj") return {};
+  return SurfaceReference{std::filesystem::absolute(path).lexically_normal().string(), how};
 }
 
 }  // namespace holomorph

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/mesh.h"
-#include "core/surface.h"
 #include "scene/file.h"
+#include "scene/scene.h"
 
 namespace holomorph {
 
@@ -14,5 +14,8 @@ namespace holomorph {
 /// the same way. Throws Error{bad_input} for what cannot be read or is no outline.
 Points outline_of_file(const Path& path, double height, const Box& onto,
                        Flattening how = Flattening::lscm);
+
+/// The reference to a file that is a surface (.obj), by its absolute path; none for others.
+std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how);
 
 }  // namespace holomorph

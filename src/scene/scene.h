@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/deformer.h"
+#include "core/surface.h"
 
 namespace holomorph {
 
@@ -18,6 +19,15 @@ struct ImageReference {
   std::string sha256;
   Extra extra;
   bool operator==(const ImageReference&) const = default;
+};
+
+/// A surface in space whose flat boundary is the outline. In a file the path is relative to the
+/// scene's folder, in a loaded scene absolute.
+struct SurfaceReference {
+  std::string file;
+  Flattening flattening = Flattening::lscm;
+  Extra extra = {};
+  bool operator==(const SurfaceReference&) const = default;
 };
 
 /// A point handle; with an angle it turns and scales the picture around it, too.
@@ -44,6 +54,7 @@ struct Scene {
   std::vector<Pin> pins;
   std::vector<Stroke> strokes;
   Points outline;  ///< closed; where method `outline` takes the cage's shape
+  std::optional<SurfaceReference> surface = {};
   std::string method = "cage";
   Parameters parameters;
   std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id

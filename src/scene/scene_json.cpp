@@ -165,6 +165,23 @@ ImageReference read_image(const Reader& reader) {
   return image;
 }
 
+SurfaceReference read_surface(const Reader& reader) {
+  reader.object();
+  SurfaceReference surface;
+  surface.file = reader["file"].text();
+  if (surface.file.empty()) reader["file"].fail("the path is empty");
+  if (reader.has("flattening")) {
+    const Reader flattening = reader["flattening"];
+    try {
+      surface.flattening = flattening_named(flattening.text());
+    } catch (const Error& error) {
+      flattening.fail(error.what());
+    }
+  }
+  surface.extra = reader.others({"file", "flattening"});
+  return surface;
+}
+
 Parameters read_parameters(const Reader& values, const Method& method) {
   values.object();
   Parameters parameters;
@@ -348,9 +365,10 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
   }
   if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
+  if (reader.has("surface")) scene.surface = read_surface(reader["surface"]);
   if (reader.has("method")) read_method(reader["method"], scene);
-  scene.extra =
-      reader.others({"format", "version", "image", "cage", "pins", "strokes", "outline", "method"});
+  scene.extra = reader.others(
+      {"format", "version", "image", "cage", "pins", "strokes", "outline", "surface", "method"});
   return scene;
 }
 
@@ -395,6 +413,13 @@ std::string json_of(const Scene& scene) {
     }
   }
   if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
+  if (scene.surface) {
+    Json surface;
+    surface["file"] = scene.surface->file;
+    surface["flattening"] = name_of(scene.surface->flattening);
+    add_extra(surface, scene.surface->extra);
+    document["surface"] = std::move(surface);
+  }
   Json method;
   method["id"] = scene.method;
   method["parameters"] = parameters_json(method_named(scene.method), scene.parameters);
@@ -410,9 +435,8 @@ std::string json_of(const Scene& scene) {
   try {
     write_value(document, 0, text);
   } catch (const Json::exception&) {
-    throw Error(
-        ErrorKind::bad_input,
-        "the picture's file name is not UTF-8 and cannot be written to a scene; rename the file");
+    throw Error(ErrorKind::bad_input,
+                "a file name is not UTF-8 and cannot be written to a scene; rename the file");
   }
   return text + "\n";
 }

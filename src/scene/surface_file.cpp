@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdio>
 #include <map>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -12,6 +13,12 @@ namespace {
 
 constexpr size_t kMost = 1000000;
 constexpr const char* kMaterial = "picture";
+
+/// Without blanks around it: file names may have some inside.
+std::string trimmed(std::string_view text) {
+  const size_t start = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
+  return start == std::string_view::npos ? "" : std::string(text.substr(start, end + 1 - start));
+}
 
 class ObjReader {
  public:
@@ -34,6 +41,8 @@ class ObjReader {
         textures_.push_back({u, v});
       } else if (kind == "f") {
         face();
+      } else if (kind == "mtllib") {
+        materials_ = trimmed(line_);
       }
       if (points_.size() > kMost) fail("more than a million vertices");
     }
@@ -112,6 +121,7 @@ class ObjReader {
         texture[at] = corner.texture;
       }
     SurfaceFile file;
+    file.materials = materials_;
     for (size_t i = 0; i < points_.size(); ++i) {
       if (number[i] < 0) continue;
       number[i] = static_cast<int>(file.surface.vertices.size());
@@ -130,6 +140,7 @@ class ObjReader {
   int line_number_ = 0;
   std::vector<Eigen::Vector3d> points_;
   Points textures_;
+  std::string materials_;
   std::vector<std::array<Corner, 3>> corners_;
 };
 
@@ -137,6 +148,16 @@ class ObjReader {
 
 SurfaceFile surface_of_obj(const std::string& text, const std::string& name) {
   return ObjReader(text, name).read();
+}
+
+std::string texture_of_materials(const std::string& text) {
+  constexpr std::string_view kKey = "map_Kd ";
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    line = trimmed(line);
+    if (line.starts_with(kKey)) return trimmed(line.substr(kKey.size()));
+  }
+  return "";
 }
 
 std::string obj_of(const Surface& surface, const Points& texture,

@@ -362,6 +362,93 @@ class WindowTest(unittest.TestCase):
         self.assertIn("met to", report["note"])
         self.assertNotIn("folds", report["note"])
 
+    def test_a_picture_goes_onto_a_surface_and_from_there_onto_another(self):
+        mask, leaf = (os.path.join(SOURCE, "assets", name) for name in ("mask.obj", "leaf.obj"))
+        textured, scene = os.path.join(self.work, "on mask.obj"), os.path.join(self.work, "surface.json")
+
+        def action(editor, text, path=None):
+            editor.key("ctrl+shift+p")
+            editor.type(text)
+            editor.key("Return")
+            if path:
+                time.sleep(0.8)
+                editor.key("ctrl+a")
+                editor.type(path)
+                editor.key("Return")
+
+        with Editor(PROGRAM, [self.picture]) as editor:
+            self.draw_square_cage(editor)
+            whole = editor.state()
+            editor.drop(mask, 400, 400)
+            s = editor.wait(lambda s: s["on_surface"] and s["method"] == "outline" and not s["playing"], "the surface")
+            self.assertAlmostEqual(s["width"], whole["width"] / 2, delta=1)
+            middle = [int(s["left"] + 1.5 * s["width"]), int(s["top"] + 0.55 * s["height"])]
+
+            def pane(name):
+                left, top = int(s["left"] + s["width"] + 20), int(s["top"] + 50)
+                return self.screenshot(editor, name)[top:int(s["top"] + s["height"]) - 20, left:int(s["left"] + 2 * s["width"]) - 20]
+
+            before = pane("surface")
+            colorful = (before.max(axis=2) - before.min(axis=2) > 60).mean()
+            self.assertGreater(colorful, 0.03, "the gecko is on the mask")
+            # Turning and coming nearer change the view alone.
+            editor.xdotool("mousemove", *middle)
+            editor.xdotool("mousedown", 1)
+            for i in range(1, 6):
+                editor.xdotool("mousemove", middle[0] + 24 * i, middle[1])
+            editor.xdotool("mouseup", 1)
+            turned = editor.wait(lambda t: abs(t["yaw"] - s["yaw"]) > 0.2, "another yaw")
+            self.assertEqual((turned["history"], turned["center"]), (s["history"], s["center"]))
+            editor.xdotool("click", 4)
+            editor.wait(lambda t: t["distance"] < 0.95 * s["distance"], "a nearer camera")
+            editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
+            editor.wait(lambda t: abs(t["yaw"] - s["yaw"]) < 1e-6 and t["distance"] == s["distance"], "all of it again")
+            # A pin moves the picture on the surface, already while it is dragged.
+            editor.key("n")
+            editor.move(400, 300)
+            editor.xdotool("mousedown", 1)
+            for i in range(1, 6):
+                editor.move(400 + 24 * i, 300)
+            time.sleep(0.5)
+            during = pane("surface-pin")
+            self.assertGreater((numpy.abs(during - before).max(axis=2) > 40).mean(), 0.01)
+            editor.xdotool("mouseup", 1)
+            editor.wait(lambda s: s["pins"] == 1 and not s["gesture"], "the pin")
+            action(editor, "textured surface", textured)
+            end = time.time() + 20
+            while not os.path.exists(textured) and time.time() < end:
+                time.sleep(0.1)
+            # Closed and shown again; saved and opened again.
+            action(editor, "surface in space")
+            editor.wait(lambda s: not s["on_surface"] and s["width"] == whole["width"], "the whole canvas")
+            action(editor, "surface in space")
+            editor.wait(lambda s: s["on_surface"], "the surface once more")
+            self.save_as(editor, scene)
+            # What was exported is a picture with a cage, and goes onto the leaf.
+            editor.key("ctrl+o")
+            time.sleep(0.8)
+            editor.key("ctrl+a")
+            editor.type(textured)
+            editor.key("Return")
+            editor.wait(lambda s: s["cage_points"] == 72 and not s["on_surface"], "the exported surface")
+            action(editor, "outline from", leaf)
+            editor.wait(lambda s: s["outline_points"] == 60 and s["on_surface"] and not s["playing"], "the leaf")
+            on_leaf = pane("surface-leaf")
+            self.assertGreater((on_leaf.max(axis=2) - on_leaf.min(axis=2) > 60).mean(), 0.02)
+            # A bent outline is no boundary any more; that is said and mended.
+            editor.key("o")
+            outline = load(scene)["outline"]
+            self.assertEqual(len(outline), 72)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["on_surface"] and s["pins"] == 1, "the saved surface")
+            editor.key("o")
+            x, y = outline[10]
+            editor.drag((x, y), (x + 60, y + 40))
+            editor.wait(lambda s: not s["on_surface"] and s["modified"], "the bent outline")
+            self.screenshot(editor, "surface-bent")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["on_surface"], "the surface again")
+
     def test_a_stroke_is_drawn_and_its_pose_dragged(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             self.draw_square_cage(editor)

@@ -4,9 +4,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
+
 #include "raster/picture.h"
+#include "render/framebuffer.h"
 #include "render/gl.h"
 #include "render/renderer.h"
+#include "render/surface_renderer.h"
 #include "render/texture.h"
 #include "scene/document.h"
 #include "scene/live_map.h"
@@ -207,4 +211,129 @@ TEST_CASE("A heat map on the canvas has the colours of the exported one") {
     CHECK(compared > 20000);
     CHECK(far < compared / 50);  // edges of the checker, and nothing else
   }
+}
+
+TEST_CASE("A surface in space shows its texture upright, its clay, its back and what is in front") {
+  const Context context(64, 64);
+  Framebuffer flat, space;
+  // A texture of four colours: red and green below, blue and nothing above.
+  const int n = 256;
+  flat.bind(n, n);
+  glEnable(GL_SCISSOR_TEST);
+  const auto fill = [](int x, int y, float r, float g, float b, float a) {
+    glScissor(x, y, n / 2, n / 2);
+    glClearColor(r, g, b, a);
+    glClear(GL_COLOR_BUFFER_BIT);
+  };
+  fill(0, 0, 1, 0, 0, 1);
+  fill(n / 2, 0, 0, 1, 0, 1);
+  fill(0, n / 2, 0, 0, 1, 1);
+  fill(n / 2, n / 2, 0, 0, 0, 0);
+  flat.release();
+
+  Surface square;
+  square.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  SurfaceFrame frame{100,
+                     100,
+                     Eigen::Matrix4d::Identity(),
+                     Eigen::Matrix4d::Identity(),
+                     flat.texture(),
+                     {0.1f, 0.1f, 0.1f},
+                     {1, 1, 1}};
+  frame.to_view(2, 3) = -2;  // before the camera
+  frame.to_clip.diagonal() << 0.8, 0.8, -0.1, 1;
+  SurfaceRenderer renderer;
+  const auto pixel = [&](int x, int y) {  // y up
+    space.bind(100, 100);
+    renderer.draw(frame);
+    std::array<std::uint8_t, 4> color{};
+    glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, color.data());
+    space.release();
+    return color;
+  };
+  renderer.set_surface(square);
+  renderer.set_coordinates({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  const auto red = pixel(30, 30), green = pixel(70, 30), blue = pixel(30, 70), clay = pixel(70, 70);
+  CHECK((red[0] > 200 && red[1] < 10 && red[2] < 10));
+  CHECK((green[1] > 200 && green[0] < 10));
+  CHECK((blue[2] > 200 && blue[0] < 10));
+  CHECK((clay[0] > 200 && clay[0] == clay[1] && clay[1] == clay[2]));
+  CHECK(pixel(2, 2)[0] == 26);  // beside it, the background
+  frame.texture = 0;
+  CHECK(pixel(30, 30) == clay);
+  frame.texture = flat.texture();
+  // Just outside the picture its nearest colour is still there.
+  renderer.set_coordinates({{0.505, 0}, {0.51, 0}, {0.51, 0.49}, {0.505, 0.49}});
+  CHECK(pixel(50, 50)[1] > 200);
+  renderer.set_coordinates({{0.2, 0.505}, {0.21, 0.505}, {0.21, 0.51}, {0.2, 0.51}});
+  CHECK(pixel(50, 50)[2] > 200);
+  renderer.set_coordinates({{0.505, 0.7}, {0.505, 0.7}, {0.505, 0.7}, {0.505, 0.7}});
+  const auto bled = pixel(50, 50);
+  CHECK((bled[2] > 200 && bled[0] < 10));
+  // From behind it is darker.
+  renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
+  const auto front = pixel(50, 50);
+  std::swap(square.triangles[0][1], square.triangles[0][2]);
+  std::swap(square.triangles[1][1], square.triangles[1][2]);
+  renderer.set_surface(square);
+  renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
+  const auto back = pixel(50, 50);
+  CHECK((back[0] < 0.7 * front[0] && back[0] > 0));
+  // What is nearer hides what is behind it, in whatever order they come.
+  Surface two = square;
+  for (int k = 0; k < 4; ++k)
+    two.vertices.push_back(square.vertices[static_cast<size_t>(k)] + Eigen::Vector3d(0, 0, 0.5));
+  const std::array<int, 3> first{4, 5, 6}, second{4, 6, 7};
+  two.triangles.insert(two.triangles.begin(), {first, second});
+  renderer.set_surface(two);
+  renderer.set_coordinates({{0.1, 0.1},
+                            {0.1, 0.1},
+                            {0.1, 0.1},
+                            {0.1, 0.1},
+                            {0.9, 0.1},
+                            {0.9, 0.1},
+                            {0.9, 0.1},
+                            {0.9, 0.1}});
+  CHECK(pixel(50, 50)[1] > 200);
+}
+
+TEST_CASE("The map alone is opaque where it is and nothing elsewhere") {
+  const Context context(64, 64);
+  const LoadedScene loaded = load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/gecko.json");
+  const auto prepared = prepared_map(loaded.scene, Precision::single, {1000});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(loaded.scene), map, {});
+  Renderer renderer;
+  renderer.set_picture(loaded.image->width, loaded.image->height, loaded.image->pixels.data());
+  renderer.set_mesh(prepared->mesh.get());
+  const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
+  renderer.set_positions(positions);
+  const Box box = box_of(positions);
+  Frame frame;
+  frame.zoom = 300 / std::max(box.width(), box.height());
+  frame.window_width = static_cast<int>(std::ceil(frame.zoom * box.width()));
+  frame.window_height = static_cast<int>(std::ceil(frame.zoom * box.height()));
+  frame.canvas_width = frame.window_width;
+  frame.canvas_height = frame.window_height;
+  frame.center = box.center();
+  frame.map_alone = true;
+  frame.background = {0, 0, 0};
+  Framebuffer into;
+  into.bind(frame.window_width, frame.window_height);
+  renderer.draw(frame);
+  double opaque = 0, half = 0;
+  for (int y = 0; y < frame.window_height; ++y)
+    for (int x = 0; x < frame.window_width; ++x) {
+      std::array<std::uint8_t, 4> color{};
+      glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, color.data());
+      opaque += color[3] == 255;
+      half += color[3] > 0 && color[3] < 255;
+    }
+  into.release();
+  double area = 0;
+  for (const auto& [a, b, c] : prepared->mesh->triangles)
+    area += std::abs(cross(map.f[b] - map.f[a], map.f[c] - map.f[a])) / 2;
+  CHECK(half == 0);
+  CHECK(opaque == Approx(area * frame.zoom * frame.zoom).epsilon(0.03));
 }

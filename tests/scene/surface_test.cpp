@@ -4,8 +4,9 @@
 
 #include "core/curve.h"
 #include "core/error.h"
-#include "scene/file.h"
+#include "scene/document.h"
 #include "scene/laid_surface.h"
+#include "scene/scene_json.h"
 
 using namespace holomorph;
 
@@ -184,17 +185,85 @@ TEST_CASE("A laid surface is found again by its outline, and only by that") {
     CHECK(box_of(laid.plane).diagonal() == Approx(onto.diagonal()));
     CHECK(signed_area(laid.outline()) > 0);
     Points outline = laid.outline();
-    const LaidSurface again = laid_along(mask, outline);
+    const LaidSurface again = laid_along({mask, flattened(mask, how)}, outline);
     for (size_t i = 0; i < laid.plane.size(); ++i)
       REQUIRE(std::abs(again.plane[i] - laid.plane[i]) < 1e-6);
     for (Complex& z : outline) z = std::polar(2.0, 0.7) * z + Complex(5, 9);  // moved by the user
-    CHECK(std::abs(laid_along(mask, outline).plane[3] -
+    CHECK(std::abs(laid_along(laid, outline).plane[3] -
                    (std::polar(2.0, 0.7) * laid.plane[3] + Complex(5, 9))) < 1e-5);
     outline[4] += 5.0;
-    CHECK_THROWS_WITH(laid_along(mask, outline), Catch::Contains("not this surface's"));
+    CHECK_THROWS_WITH(laid_along(laid, outline), Catch::Contains("not this surface's"));
+    CHECK_THROWS_WITH(laid_along(laid, Points{{0, 0}, {1, 0}, {0, 1}}),
+                      Catch::Contains("not this surface's"));
   }
-  CHECK_THROWS_WITH(laid_along(mask, Points{{0, 0}, {1, 0}, {0, 1}}),
-                    Catch::Contains("not this surface's"));
+}
+
+TEST_CASE("A scene's surface is found wherever the scene is saved, and what it is not is said") {
+  const Path folder = std::filesystem::temp_directory_path() / "holomorph-surface-test";
+  std::filesystem::create_directories(folder / "inside");
+  const std::string file = std::string(HOLOMORPH_SOURCE) + "/assets/mask.obj";
+  Box onto;
+  onto.include({0, 0});
+  onto.include({300, 400});
+  Scene scene = with_cage(Scene{}, Points{{0, 0}, {300, 0}, {300, 400}, {0, 400}});
+  CHECK_THROWS_WITH(laid_surface_of(scene), Catch::Contains("no surface"));
+  scene.outline = laid_onto(sample("mask.obj"), Flattening::circle, onto).outline();
+  scene.surface = SurfaceReference{file, Flattening::circle, R"({"kept":1})"};
+  for (const Path& at : {folder / "s.json", folder / "inside" / "s.json"}) {
+    write_file(at, json_of(portable(scene, {}, at.parent_path())));
+    CHECK_THAT(read_file(at), Catch::Contains("\"../") && Catch::Contains("\"kept\": 1"));
+    const Scene again = load_scene(at).scene;
+    CHECK(again.surface == scene.surface);
+    CHECK(laid_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
+  }
+  CHECK(portable(scene, {}, {}).surface == scene.surface);  // as an autosave has it
+  Scene other = scene;
+  other.surface->flattening = Flattening::lscm;
+  CHECK_THROWS_WITH(laid_surface_of(other),
+                    Catch::Contains("mask.obj") && Catch::Contains("not this surface's"));
+  other.surface->file = (folder / "gone.obj").string();
+  CHECK_THROWS_WITH(laid_surface_of(other),
+                    Catch::Contains("gone.obj") && Catch::Contains("no such file"));
+  const auto complaint = [&](const std::string& surface) -> std::string {
+    try {
+      scene_from_json(R"({"format": "holomorph", "version": 1, "cage": {"rest": []}, "surface": )" +
+                          surface + "}",
+                      "s.json");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(complaint("{}"), Catch::Contains("/surface") && Catch::Contains("'file'"));
+  CHECK_THAT(complaint(R"({"file": ""})"), Catch::Contains("/surface/file"));
+  CHECK_THAT(complaint(R"({"file": "x.obj", "flattening": "magic"})"),
+             Catch::Contains("/surface/flattening") && Catch::Contains("lscm, circle"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("A textured surface opens as its picture with a cage, others say what they lack") {
+  const Path folder = std::filesystem::temp_directory_path() / "holomorph-textured-test";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(std::string(HOLOMORPH_SOURCE) + "/assets/fish.png",
+                             folder / "my fish.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string square =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\n"
+      "f 1/1 2/2 3/3 4/4\n";
+  write_file(folder / "my.mtl", material_of("my fish.png"));
+  write_file(folder / "s.obj", "mtllib my.mtl\r\n" + square);
+  const Document document = Document::open(folder / "s.obj");
+  REQUIRE(document.image());
+  CHECK(document.image_path().filename() == "my fish.png");
+  CHECK(!document.modified());
+  REQUIRE(document.scene().rest.size() == 4);
+  CHECK(std::abs(document.scene().rest.segments[2][0] -
+                 Complex(0.9 * document.image()->width, 0.9 * document.image()->height)) < 1e-9);
+  write_file(folder / "bare.obj", square);
+  CHECK_THROWS_WITH(Document::open(folder / "bare.obj"), Catch::Contains("no picture on it"));
+  write_file(folder / "lost.obj", "mtllib lost.mtl\n" + square);
+  CHECK_THROWS_WITH(Document::open(folder / "lost.obj"), Catch::Contains("lost.mtl"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("A written surface is read back with its texture coordinates") {

@@ -1,0 +1,155 @@
+// The picture is drawn flat into one texture, the surface with that texture into another, which
+// ImGui shows.
+#include "app/surface_pane.h"
+
+#include <imgui.h>
+
+#include "app/panels.h"
+#include "core/error.h"
+#include "scene/outline_import.h"
+
+namespace holomorph {
+namespace {
+
+constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
+
+/// A laid surface again from its file, where the outline is.
+void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
+  const Scene& scene = workspace.document.scene();
+  try {
+    const Path file(scene.surface->file);
+    take_outline(workspace, label, outline_of_file(file, 0, box_of(scene.outline), how),
+                 surface_of_file(file, how));
+  } catch (const Error& error) {
+    workspace.complain(error);
+  }
+}
+
+}  // namespace
+
+void SurfacePane::follow(const Scene& scene) {
+  if (shown_ != scene.surface) {
+    shown_ = scene.surface;
+    flat_.reset();
+    fitted_ = 0;
+    outline_.clear();
+    try {
+      Surface surface = surface_of_obj(read_file(shown_->file), shown_->file).surface;
+      Points plane = flattened(surface, shown_->flattening);
+      flat_ = {std::move(surface), std::move(plane)};
+      drawing_->renderer.set_surface(flat_->surface);
+    } catch (const Error& error) {
+      problem_ = about(shown_->file, error).what();
+    }
+  }
+  if (!flat_ || outline_ == scene.outline) return;
+  outline_ = scene.outline;
+  laid_.reset();
+  problem_.clear();
+  try {
+    laid_ = laid_along(*flat_, outline_);
+    const Box box = box_of(laid_->plane);
+    Points coordinates;
+    for (const Complex& z : laid_->plane)
+      coordinates.push_back(
+          {(z.real() - box.left) / box.width(), (z.imag() - box.bottom) / box.height()});
+    drawing_->renderer.set_coordinates(coordinates);
+  } catch (const Error&) {
+    problem_ = "The outline is no longer the surface's boundary: it was bent.";
+  }
+}
+
+void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style) {
+  if (!drawing_) drawing_ = std::make_unique<Drawing>();
+  follow(workspace.scene());
+  const Viewport& view = workspace.viewport;
+  const float s = static_cast<float>(style.scale);
+  const PanelSizes sizes = PanelSizes::at(style.scale);
+  const float left = static_cast<float>(view.left + view.width),
+              right = ImGui::GetIO().DisplaySize.x - static_cast<float>(sizes.inspector);
+  ImGui::SetNextWindowPos({left, static_cast<float>(view.top)});
+  ImGui::SetNextWindowSize({right - left, static_cast<float>(view.height)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 8 * s});
+  ImGui::Begin("Surface", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  draw_header(workspace, s);
+  hovered_ = false;
+  if (flat_) draw_surface(workspace, canvas, style);
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void SurfacePane::draw_header(Workspace& workspace, float scale) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(Path(shown_->file).filename().c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
+  const float button = ImGui::GetFrameHeight(), combo = 130 * scale;
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(
+      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - combo - button - 24 * scale));
+  ImGui::SetNextItemWidth(combo);
+  const auto chosen = static_cast<size_t>(shown_->flattening);
+  if (begin_combo("##flattening", kFlattenings[chosen])) {
+    for (const Flattening how : {Flattening::lscm, Flattening::circle})
+      if (ImGui::Selectable(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
+          how != shown_->flattening)
+        lay_out(workspace, "Flatten surface", how);
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "How the surface is flattened: its boundary finds its own shape, or is a circle");
+  ImGui::SameLine();
+  if (ImGui::Button("\uf00d", {button, 0})) run(action_named("view.surface"), workspace);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
+  if (problem_.empty()) return;
+  ImGui::TextWrapped("%s", problem_.c_str());
+  if (flat_ && ImGui::Button("Lay it out again"))
+    lay_out(workspace, "Lay out surface", shown_->flattening);
+}
+
+void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
+                               const OverlayStyle& style) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  if (room.x < 1 || room.y < 1) return;
+  const double aspect = room.x / room.y;
+  if (fitted_ == 0 || (fitted_ != aspect && !moved_)) {
+    camera_ = OrbitCamera::around(flat_->surface, aspect);
+    fitted_ = aspect;
+    moved_ = false;
+  }
+  const Color clay{0.72f, 0.70f, 0.67f};
+  if (laid_) canvas.draw_map(workspace, box_of(laid_->plane), drawing_->flat, clay);
+  // Twice the pixels each way, which the display averages.
+  const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
+  drawing_->space.bind(width, height);
+  drawing_->renderer.draw({width, height, camera_.to_view(), camera_.to_clip(aspect),
+                           laid_ && workspace.map.has_map() ? drawing_->flat.texture() : 0,
+                           style.colors.canvas, clay});
+  drawing_->space.release();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("space", room,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::GetWindowDrawList()->AddImage(
+      reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(drawing_->space.texture())), corner,
+      {corner.x + room.x, corner.y + room.y}, {0, 1}, {1, 0});
+  hovered_ = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  navigate(room.y);
+}
+
+void SurfacePane::navigate(float height) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Complex delta(io.MouseDelta.x, io.MouseDelta.y);
+  const OrbitCamera before = camera_;
+  if (ImGui::IsItemActive()) {
+    if (ImGui::IsMouseDown(0) && !io.KeyShift)
+      camera_.turn_px(delta, height);
+    else
+      camera_.pan_px(delta, height);
+  }
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera_.zoom(std::pow(1.15, io.MouseWheel));
+  moved_ = moved_ || camera_ != before;
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) fitted_ = 0;
+}
+
+}  // namespace holomorph

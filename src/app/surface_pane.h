@@ -1,0 +1,50 @@
+// The surface in space beside the canvas, with the posed picture on it.
+#pragma once
+
+#include "app/canvas.h"
+#include "app/overlay.h"
+#include "edit/orbit.h"
+#include "render/surface_renderer.h"
+#include "scene/laid_surface.h"
+
+namespace holomorph {
+
+/// Follows the scene's surface and outline; owns the camera and what draws. Needs a current OpenGL
+/// context once it is drawn.
+class SurfacePane {
+ public:
+  /// Draws the pane between the canvas and the inspector. The scene must have a surface.
+  void draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
+  bool hovered() const { return hovered_; }
+  static const char* hint() {
+    return "Drag to turn, with the right button to move, wheel to come nearer; double-click shows "
+           "all of it";
+  }
+  const OrbitCamera& camera() const { return camera_; }
+  bool has_picture() const { return laid_.has_value(); }
+
+ private:
+  /// What GL needs, made with the first drawing.
+  struct Drawing {
+    SurfaceRenderer renderer;
+    Framebuffer flat, space;
+  };
+
+  void follow(const Scene& scene);
+  void draw_header(Workspace& workspace, float scale);
+  void draw_surface(const Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
+  void navigate(float height);
+
+  std::unique_ptr<Drawing> drawing_;
+  std::optional<SurfaceReference> shown_;
+  Points outline_;                   ///< that `laid_` was laid along
+  std::optional<LaidSurface> flat_;  ///< as it was flattened; none when it cannot be read
+  std::optional<LaidSurface> laid_;
+  OrbitCamera camera_;
+  double fitted_ = 0;    ///< aspect of the view that the camera shows all in; 0: it is to be fitted
+  bool moved_ = false;   ///< the user has moved the camera
+  std::string problem_;  ///< why there is no picture on it
+  bool hovered_ = false;
+};
+
+}  // namespace holomorph
