@@ -1,7 +1,8 @@
 // A surface with the posed picture on it.
 #pragma once
 
-#include "raster/picture.h"
+#include "scene/file.h"
+#include "scene/image.h"
 #include "scene/laid_surface.h"
 
 namespace holomorph {
@@ -11,8 +12,9 @@ struct TexturedSurface {
   Points coordinates;  ///< of the surface's vertices, 0 to 1, v up
 };
 
-/// The posed scene as a picture, and where on it the laid surface's vertices are. Throws Error as
-/// picture_of does.
+/// The posed cage's part of the picture, its colours carried a little over its edge, and where on
+/// it the laid surface's vertices are. Throws Error for a scene without picture or cage and for
+/// what rasterized refuses.
 TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const Image* source,
                          double scale = 1);
 

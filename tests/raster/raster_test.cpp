@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "raster/bleed.h"
 #include "raster/picture.h"
+#include "raster/textured.h"
 #include "scene/auto_cage.h"
 #include "support/shapes.h"
 
@@ -178,4 +180,70 @@ TEST_CASE("Pictures that are too large, or of nothing, are refused") {
   options.view = View::area;
   CHECK(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr, options).image.width ==
         10);
+}
+
+TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others stay") {
+  std::mt19937 random(5);
+  const int w = 61, h = 47;
+  const Image before = noise(w, h, 8);
+  std::vector<bool> covered(static_cast<size_t>(w * h));
+  for (size_t i = 0; i < covered.size(); ++i) covered[i] = random() % 60 == 0;
+  const double reach = 6;
+  Image after = before;
+  bleed(after, covered, reach);
+  int bled = 0, kept = 0;
+  for (int r = 0; r < h; ++r)
+    for (int c = 0; c < w; ++c) {
+      double nearest = 1e9, taken = 1e9;
+      for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) {
+          if (!covered[static_cast<size_t>(y * w + x)]) continue;
+          const double distance = std::hypot(x - c, y - r);
+          nearest = std::min(nearest, distance);
+          if (std::memcmp(after.at(c, r), before.at(x, y), 4) == 0)
+            taken = std::min(taken, distance);
+        }
+      const bool same = std::memcmp(after.at(c, r), before.at(c, r), 4) == 0;
+      if (nearest == 0 || nearest > reach + 0.5) {
+        REQUIRE(same);
+        ++kept;
+      } else if (nearest <= reach - 0.5) {
+        REQUIRE(taken <= nearest + 0.5);
+        ++bled;
+      }
+    }
+  CHECK((bled > 500 && kept > 30));
+  Image none = before;
+  bleed(none, std::vector<bool>(covered.size()), 100);
+  CHECK(none.pixels == before.pixels);
+}
+
+TEST_CASE("A texture has the picture's colours up to the surface's edge and a little beyond") {
+  Image image(200, 160);
+  for (int r = 0; r < 160; ++r)
+    for (int c = 0; c < 200; ++c)
+      for (int k = 0; k < 4; ++k)
+        image.at(c, r)[k] = static_cast<std::uint8_t>(k == 3 ? 255 : k == 0 ? c : 40);
+  Scene scene = with_cage(Scene{}, Points{{40, 30}, {160, 30}, {160, 130}, {40, 130}});
+  const std::string file = std::string(HOLOMORPH_SOURCE) + "/assets/mask.obj";
+  scene.surface = SurfaceReference{file, Flattening::circle};
+  Box onto;
+  onto.include({40, 20});
+  onto.include({160, 140});
+  scene.outline =
+      laid_onto(surface_of_obj(read_file(file), file).surface, Flattening::circle, onto).outline();
+  scene.method = "outline";
+  for (const double scale : {0.5, 1.0, 3.0}) {
+    const TexturedSurface on = textured(laid_surface_of(scene), scene, &image, scale);
+    const int w = on.texture.width, h = on.texture.height;
+    CHECK(on.texture.at(0, 0)[3] == 0);  // what is around the cage is not part of it
+    for (const Complex& uv : on.coordinates)
+      for (const Complex& off : {Complex(0), Complex(1, 0), Complex(-1, 0), Complex(0, 1)}) {
+        const int c = std::clamp(static_cast<int>(uv.real() * w + off.real()), 0, w - 1),
+                  r = std::clamp(static_cast<int>((1 - uv.imag()) * h + off.imag()), 0, h - 1);
+        REQUIRE(on.texture.at(c, r)[3] == 255);
+        REQUIRE(on.texture.at(c, r)[1] == 40);
+      }
+  }
+  CHECK_THROWS_AS(textured(laid_surface_of(scene), scene, nullptr), Error);
 }
