@@ -99,6 +99,11 @@ void injectivity_section(Workspace& workspace, bool light) {
         "winds around a branch point or lies on its back.");
   if (winds > 0)
     ImGui::TextColored(warning, "It winds around %d branch point%s", winds, winds == 1 ? "" : "s");
+  ImGui::TextDisabled("Least stretch %.3g", found.least_stretch);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "min |f_z| - |f_zbar|: the length that is left of a unit of the picture,\n"
+        "where and in the direction in which it shrinks most; below 0 it is turned over.");
   if (found.crossing) {
     ImGui::TextDisabled("Parts lie over each other");
     show(*found.crossing, "The picture's boundary crosses itself here.");

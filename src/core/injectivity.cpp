@@ -21,15 +21,27 @@ std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
   return turned > kVisible * total ? std::optional(place) : std::nullopt;
 }
 
-Complex smallest_place(const Mesh& mesh, const VectorXc& f) {
-  double least = std::numeric_limits<double>::infinity();
-  Complex place;
+/// |f_z| - |f_zbar| of the linear map of a triangle, z being its place at rest.
+double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
+  const Complex twice_area = z1 * std::conj(z2) - z2 * std::conj(z1);
+  const Complex fz = (f1 * std::conj(z2) - f2 * std::conj(z1)) / twice_area,
+                fzbar = (z1 * f2 - z2 * f1) / twice_area;
+  return std::abs(fz) - std::abs(fzbar);
+}
+
+struct Place {
+  double stretch = std::numeric_limits<double>::infinity();
+  Complex at;  ///< posed
+};
+
+Place most_shrunken(const Mesh& mesh, const VectorXc& f) {
+  Place least;
+  const Points& z = mesh.vertices;
   for (const auto& [i, j, k] : mesh.triangles) {
-    const Points& z = mesh.vertices;
-    const double area = std::abs(cross(f[j] - f[i], f[k] - f[i])) / cross(z[j] - z[i], z[k] - z[i]);
-    if (area < least) least = area, place = (f[i] + f[j] + f[k]) / 3.0;
+    const double here = stretch(z[j] - z[i], z[k] - z[i], f[j] - f[i], f[k] - f[i]);
+    if (here < least.stretch) least = {here, (f[i] + f[j] + f[k]) / 3.0};
   }
-  return place;
+  return least;
 }
 
 }  // namespace
@@ -41,7 +53,9 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   for (const int v : mesh.boundary) image.push_back(f[v]);
   if (image.empty()) return found;
   found.boundary_turns = turning_number(image);
-  if (!found.fold && found.folds()) found.fold = smallest_place(mesh, f);
+  const Place least = most_shrunken(mesh, f);
+  found.least_stretch = least.stretch;
+  if (!found.fold && found.folds()) found.fold = least.at;
   if (const auto crossing = self_crossing(image)) found.crossing = crossing->point;
   return found;
 }

@@ -15,6 +15,9 @@ struct Injectivity {
   /// nothing is turned over and the boundary still turns more than once, where most is pressed to
   /// nothing: near a zero of f'.
   std::optional<Complex> fold;
+  /// The least |f_z| - |f_zbar| of the triangles, the factor of the most shrunken direction; below
+  /// 0 where one is turned over.
+  double least_stretch = 1;
   /// Where the boundary's image crosses itself: parts may lie over each other without a fold.
   std::optional<Complex> crossing;
 

@@ -117,9 +117,9 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       pins_(pins),
       unit_(source_.length() / (2 * kPi)),
       centre_(box_of(target_.points()).center()) {
-  const Correspondence start = settings_.published
-                                   ? by_arc_length(source_, target_)
-                                   : conformal_correspondence(source_, target_, settings_.upright);
+  if (!settings_.published)
+    start_ = std::make_unique<ConformalStart>(source_, target_, settings_.upright, pins_);
+  const Correspondence start = start_ ? start_->best() : by_arc_length(source_, target_);
   take_basis(start);
   take_samples();
   first_ = start_targets(start);
@@ -128,17 +128,26 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
 
 void OutlineFit::solve(const Points& pinned) {
   fit_->reset();
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(pinned));
+  pinned_ = pinned;
+  const Points wanted = held(pinned);
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
   std::ranges::fill(hints_, 0);
-  fit_->start(first_);
+  fit_->start(start_ && !pins_.empty() ? start_targets(start_->best(wanted)) : first_);
   run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
       kSettled, settings_.most_iterations);
 }
 
 void OutlineFit::follow(const Points& pinned) {
   if (iterates_.empty()) return solve(pinned);
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(pinned));
-  fit_->resume();
+  pinned_ = pinned;
+  const Points wanted = held(pinned);
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  if (start_ && !pins_.empty()) {
+    std::ranges::fill(hints_, 0);
+    fit_->start(start_targets(start_->follow(wanted)));
+  } else {
+    fit_->resume();
+  }
   run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
 }
 
@@ -163,6 +172,15 @@ OutlineMatch OutlineFit::after(int iteration) const {
   if (settings_.stiffness > 0) {
     match.psi = x.tail(n);
     values += at_samples_.conjugate() * match.psi;
+  }
+  const Points wanted = held(pinned_);
+  const MatrixXc at_pins = cauchy_coordinates(basis_, pins_);
+  VectorXc pins = at_pins * match.phi;
+  if (settings_.stiffness > 0) pins += at_pins.conjugate() * match.psi;
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    match.pins_held += wanted[i] != pinned_[i];
+    match.pins_missed =
+        std::max(match.pins_missed, std::abs(pins[static_cast<Index>(i)] - wanted[i]));
   }
   double sum = 0;
   for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
@@ -274,6 +292,25 @@ void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
     }
     normals[i] = across / std::abs(across);
   }
+}
+
+Points OutlineFit::held(const Points& pinned) const {
+  const double margin = 0.02 * target_.diagonal();
+  if (settings_.published) return pinned;
+  Points inside = pinned;
+  for (Complex& z : inside) {
+    if (winding_number(target_.points(), z) != 0) continue;
+    const Polyline::Nearest at = target_.nearest(z);
+    const auto& points = target_.points();
+    const size_t s = static_cast<size_t>(at.segment);
+    const Complex along = points[(s + 1) % points.size()] - points[s];
+    // Less where the outline is thin there.
+    for (double step = margin; step > 1e-6 * margin; step /= 2) {
+      z = at.point + step * kI * along / std::abs(along);
+      if (winding_number(points, z) != 0 && target_.nearest(z).distance > 0.5 * step) break;
+    }
+  }
+  return inside;
 }
 
 VectorXc OutlineFit::pin_targets(const Points& pinned) const {

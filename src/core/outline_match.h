@@ -2,6 +2,7 @@
 // closest conformal maps (Segall, Ben-Chen 2016).
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/alternating_fit.h"
@@ -35,8 +36,10 @@ struct OutlineTask {
 struct OutlineMatch {
   Cage basis;  ///< the source cut into more segments
   VectorXc phi, psi;
-  double rms = 0;        ///< of the source boundary's distances from the outline
-  double hausdorff = 0;  ///< the largest distance either way
+  double rms = 0;          ///< of the source boundary's distances from the outline
+  double hausdorff = 0;    ///< the largest distance either way
+  double pins_missed = 0;  ///< the largest distance of a pin from where it was wanted
+  int pins_held = 0;       ///< that were wanted outside of the outline, and are held just inside
   /// Of f_z, inside a loop a fiftieth of each edge from the boundary (argument principle): the
   /// picture folds around each; the turning number is one more.
   int zeros = 0;
@@ -71,6 +74,8 @@ class OutlineFit {
   void take_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
+  /// Where pins can be: those wanted outside are just inside of the nearest place.
+  Points held(const Points& pinned) const;
   VectorXc pin_targets(const Points& pinned) const;
   void project(const VectorXc& values, VectorXc& targets);
   void take_normals(const VectorXc& values, const VectorXc& targets, VectorXc& normals) const;
@@ -80,9 +85,10 @@ class OutlineFit {
   Cage cage_;
   FlatCage flat_;
   Polyline source_, target_;
-  Points pins_;
-  double unit_;     ///< L
-  Complex centre_;  ///< what is fitted is f less this
+  Points pins_, pinned_;
+  double unit_;                            ///< L
+  Complex centre_;                         ///< what is fitted is f less this
+  std::unique_ptr<ConformalStart> start_;  ///< none for the published method
   Cage basis_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;

@@ -13,6 +13,8 @@ namespace holomorph {
 namespace {
 
 constexpr Index kPoints = 800;
+constexpr double kPinWeight = 10;
+constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
 /// An outline seen from the disk: angles at equal arc lengths, increasing from the first on.
@@ -21,6 +23,16 @@ struct Seen {
   double length = 0, offset = 0;  ///< arc length of the first angle
   VectorXd angles;
   Points points;
+  RiemannMap map;
+
+  /// In the disk; what is outside the outline, or all but on it, is just inside its nearest place.
+  Complex in_disk(Complex z) const {
+    constexpr double kMost = 0.98;
+    if (winding_number(points, z) != 0)
+      if (const Complex w = map.at(z); std::abs(w) < kMost) return w;
+    const Polyline::Nearest at = line->nearest(z);
+    return std::polar(kMost, angle_at(line->length_at(at.segment, at.parameter)));
+  }
 
   /// By linear interpolation.
   double angle_at(double arc_length) const {
@@ -60,12 +72,13 @@ double nearest_length(const Polyline& outline, Complex z) {
 /// The zipper is best where it starts: at the place nearest to the middle.
 Seen seen(const Polyline& outline) {
   const Complex centre = deepest_point(outline);
-  Seen result{&outline, outline.length(), nearest_length(outline, centre), {}, {}};
+  const double offset = nearest_length(outline, centre);
+  Points points;
   for (Index i = 0; i < kPoints; ++i)
-    result.points.push_back(outline.at(result.offset + outline.length() * static_cast<double>(i) /
-                                                           static_cast<double>(kPoints)));
-  result.angles = RiemannMap(result.points, centre).angles();
-  return result;
+    points.push_back(outline.at(offset + outline.length() * static_cast<double>(i) /
+                                             static_cast<double>(kPoints)));
+  RiemannMap map(points, centre);
+  return {&outline, outline.length(), offset, map.angles(), std::move(points), std::move(map)};
 }
 
 /// The map of the disk to itself that takes three points of the circle to three others, on angles.
@@ -77,10 +90,10 @@ class DiskMap {
     inverse << b(1, 1), -b(0, 1), -b(1, 0), b(0, 0);
     m_ = inverse * a;
   }
-  double operator()(double angle) const {
-    const Complex z = std::polar(1.0, angle);
-    return std::arg((m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1)));
+  Complex operator()(Complex z) const {
+    return (m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1));
   }
+  double operator()(double angle) const { return std::arg((*this)(std::polar(1.0, angle))); }
 
  private:
   /// Takes three points of the circle to 0, 1 and infinity.
@@ -94,23 +107,37 @@ class DiskMap {
   Eigen::Matrix2cd m_;
 };
 
-struct Search {
-  const Seen& source;
-  const Seen& target;
-  double upright = 0;  ///< weight of the turn's square
+/// In the unit disk, squared.
+double hyperbolic_square(Complex z, Complex w) {
+  constexpr double kFarthest = 1 - 1e-9;
+  const double rho = std::abs((z - w) / (1.0 - std::conj(w) * z));
+  const double distance = 2 * std::atanh(std::min(rho, kFarthest));
+  return distance * distance;
+}
+
+}  // namespace
+
+struct ConformalStart::Search {
+  Seen source, target;
+  double upright = 0;                 ///< weight of the turn's square
+  std::vector<Complex> pins, pinned;  ///< in the disks of source and target
 
   /// Where three arc lengths of the source go.
   struct Pairs {
     std::array<double, 3> from, to;
   };
+  Pairs chosen{};
 
-  std::vector<double> target_lengths(const Pairs& pairs) const {
+  DiskMap disk_map(const Pairs& pairs) const {
     std::array<double, 3> from{}, to{};
     for (size_t k = 0; k < 3; ++k) {
       from[k] = source.angle_at(pairs.from[k]);
       to[k] = target.angle_at(pairs.to[k]);
     }
-    const DiskMap map(from, to);
+    return {from, to};
+  }
+
+  std::vector<double> target_lengths(const DiskMap& map) const {
     std::vector<double> lengths;
     double before = -std::numeric_limits<double>::infinity();
     for (const double angle : source.angles) {
@@ -132,8 +159,10 @@ struct Search {
           k < 2 ? pairs.to[k + 1] - pairs.to[k] : pairs.to[0] + target.length - pairs.to[2];
       if (!(gap > 1e-3 * target.length)) return std::numeric_limits<double>::infinity();
     }
-    const std::vector<double> t = target_lengths(pairs);
-    double sum = 0;
+    const DiskMap map = disk_map(pairs);
+    const std::vector<double> t = target_lengths(map);
+    double sum = 0, missed = 0;
+    for (size_t i = 0; i < pinned.size(); ++i) missed += hyperbolic_square(map(pins[i]), pinned[i]);
     for (size_t i = 0; i < t.size(); ++i) {
       const double step = (i + 1 < t.size() ? t[i + 1] : t[0] + target.length) - t[i];
       constexpr double kLeast = 1e-12;  // of a turn: points that coincide
@@ -142,7 +171,7 @@ struct Search {
       sum += log * log;
     }
     const double turned = upright > 0 ? turn(t) : 0;
-    return sum / static_cast<double>(t.size()) + upright * turned * turned;
+    return sum / static_cast<double>(t.size()) + upright * turned * turned + kPinWeight * missed;
   }
 
   /// Nelder and Mead's simplex in the three target lengths.
@@ -194,18 +223,48 @@ struct Search {
     return std::arg(both - std::conj(from_sum) * to_sum / n);
   }
 
-  Pairs best() const {
-    std::vector<std::pair<double, Pairs>> starts;
+  /// Three thirds of the source to three thirds of the target, from different places.
+  std::vector<Pairs> by_thirds() const {
+    std::vector<Pairs> starts;
     for (int offset = 0; offset < kOffsets; ++offset)
       for (int shift = 0; shift < kShifts; ++shift) {
-        Pairs pairs{};
+        Pairs& pairs = starts.emplace_back();
         for (size_t k = 0; k < 3; ++k) {
           const double third = static_cast<double>(k) / 3;
           pairs.from[k] = source.length * (third + offset / 6.0);
           pairs.to[k] = target.length * (third + static_cast<double>(shift) / kShifts);
         }
-        starts.emplace_back(cost(pairs), pairs);
       }
+    return starts;
+  }
+
+  /// The disk's maps that take a pin to its place, by their turn.
+  std::vector<Pairs> through_pin(Complex pin, Complex place) const {
+    std::vector<Pairs> starts;
+    for (int shift = 0; shift < kShifts; ++shift) {
+      Pairs& pairs = starts.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        pairs.from[k] = source.length * static_cast<double>(k) / 3;
+        const Complex z = std::polar(1.0, source.angle_at(pairs.from[k]));
+        const Complex turned =
+            std::polar(1.0, 2 * kPi * shift / kShifts) * (z - pin) / (1.0 - std::conj(pin) * z);
+        const Complex image = (turned + place) / (1.0 + std::conj(place) * turned);
+        pairs.to[k] = target.arc_length_at(std::arg(image));
+        if (k > 0)
+          pairs.to[k] += std::ceil((pairs.to[k - 1] - pairs.to[k]) / target.length) * target.length;
+      }
+    }
+    return starts;
+  }
+
+  Pairs best() const {
+    std::vector<std::pair<double, Pairs>> starts;
+    const auto add = [&](const std::vector<Pairs>& more) {
+      for (const Pairs& pairs : more) starts.emplace_back(cost(pairs), pairs);
+    };
+    add(by_thirds());
+    for (size_t i = 0; i < std::min(pinned.size(), kPinsTried); ++i)
+      add(through_pin(pins[i], pinned[i]));
     std::ranges::sort(starts, {}, [](const auto& start) { return start.first; });
     std::pair<double, Pairs> best = starts[0];
     for (size_t i = 0; i < kRefined; ++i) {
@@ -214,9 +273,51 @@ struct Search {
     }
     return best.second;
   }
+
+  void want(const Points& places) {
+    check(places.empty() || places.size() == pins.size(), "outline start: a place for each pin");
+    pinned.clear();
+    for (const Complex& z : places) pinned.push_back(target.in_disk(z));
+  }
+
+  Correspondence correspondence() const {
+    Correspondence result;
+    result.source_length = source.length;
+    result.target_length = target.length;
+    result.target = target_lengths(disk_map(chosen));
+    for (Index i = 0; i < kPoints; ++i)
+      result.source.push_back(source.offset + source.length * static_cast<double>(i) /
+                                                  static_cast<double>(kPoints));
+    result.log_stretch = std::sqrt(cost(chosen));
+    return result;
+  }
 };
 
-}  // namespace
+ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
+                               const Points& pins)
+    : search_(new Search{seen(source), seen(target), upright, {}, {}}) {
+  for (const Complex& z : pins) search_->pins.push_back(search_->source.in_disk(z));
+}
+
+ConformalStart::~ConformalStart() = default;
+
+Correspondence ConformalStart::best(const Points& pinned) {
+  search_->want(pinned);
+  search_->chosen = search_->best();
+  return search_->correspondence();
+}
+
+Correspondence ConformalStart::follow(const Points& pinned) {
+  search_->want(pinned);
+  std::vector<Search::Pairs> starts{search_->chosen};
+  if (!pinned.empty()) {
+    const auto more = search_->through_pin(search_->pins[0], search_->pinned[0]);
+    starts.insert(starts.end(), more.begin(), more.end());
+  }
+  search_->chosen = search_->refined(*std::ranges::min_element(
+      starts, {}, [&](const Search::Pairs& pairs) { return search_->cost(pairs); }));
+  return search_->correspondence();
+}
 
 Complex deepest_point(const Polyline& outline) {
   const Box box = box_of(outline.points());
@@ -249,22 +350,6 @@ double Correspondence::operator()(double length) const {
                t = last ? target[0] + target_length : target[i + 1];
   return target[i] + (length - source[i]) / (s - source[i]) * (t - target[i]) +
          turns * target_length;
-}
-
-Correspondence conformal_correspondence(const Polyline& source, const Polyline& target,
-                                        double upright) {
-  const Seen from = seen(source), to = seen(target);
-  const Search search{from, to, upright};
-  const Search::Pairs pairs = search.best();
-  Correspondence result;
-  result.source_length = from.length;
-  result.target_length = to.length;
-  result.target = search.target_lengths(pairs);
-  for (Index i = 0; i < kPoints; ++i)
-    result.source.push_back(from.offset +
-                            from.length * static_cast<double>(i) / static_cast<double>(kPoints));
-  result.log_stretch = std::sqrt(search.cost(pairs));
-  return result;
 }
 
 }  // namespace holomorph

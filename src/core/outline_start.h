@@ -4,6 +4,8 @@
 // Both are mapped to the disk; what is left is one of the disk's own maps, with three parameters.
 #pragma once
 
+#include <memory>
+
 #include "core/polyline.h"
 
 namespace holomorph {
@@ -22,10 +24,29 @@ struct Correspondence {
   double operator()(double length) const;
 };
 
-/// Minimises the mean square of ln of the relative stretch, plus `upright` times the square of the
-/// angle by which the picture is turned: with 0, how the two stand does not matter. Both closed,
-/// simple and counter-clockwise. Throws Error when an outline touches itself. Cost: about 30 ms.
-Correspondence conformal_correspondence(const Polyline& source, const Polyline& target,
-                                        double upright);
+/// The conformal maps of one outline's inside to another's: both seen from the disk, and which of
+/// the disk's own maps is between them.
+class ConformalStart {
+ public:
+  /// Both closed, simple and counter-clockwise, pins inside the source. What is minimised is the
+  /// mean square of ln of the relative stretch along the boundary, plus `upright` times the square
+  /// of the angle by which the picture is turned (with 0, how the two stand does not matter), plus
+  /// 10 times the squares of the hyperbolic distances of the pins' images from where they are
+  /// wanted. Throws Error when an outline touches itself. Cost: about 20 ms.
+  ConformalStart(const Polyline& source, const Polyline& target, double upright,
+                 const Points& pins = {});
+  ~ConformalStart();
+  ConformalStart(const ConformalStart&) = delete;
+  ConformalStart& operator=(const ConformalStart&) = delete;
+
+  /// With pins wanted there, or without any. Cost: 3 to 25 ms.
+  Correspondence best(const Points& pinned = {});
+  /// The same, on from the last one; about 4 ms.
+  Correspondence follow(const Points& pinned);
+
+ private:
+  struct Search;
+  std::unique_ptr<Search> search_;
+};
 
 }  // namespace holomorph

@@ -35,7 +35,8 @@ std::vector<bool> covered(RasterJob job, const RasterResult& picture) {
 
 TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const Image* source,
                          double scale) {
-  constexpr double kReach = 0.02;  // of the picture: more than an outline is missed by
+  // Of the picture, more than an outline is missed by; and px that filters look at.
+  constexpr double kReach = 0.02, kFilter = 4;
   if (!source || !scene.has_cage())
     throw Error(ErrorKind::bad_input, "a texture needs a picture and a cage");
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
@@ -48,7 +49,8 @@ TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const I
   job.pixels_per_unit = scale;
   job.surroundings = false;
   RasterResult drawn = rasterized(job);
-  bleed(drawn.image, covered(job, drawn), kReach * std::max(drawn.image.width, drawn.image.height));
+  bleed(drawn.image, covered(job, drawn),
+        kReach * std::max(drawn.image.width, drawn.image.height) + kFilter);
   TexturedSurface result{std::move(drawn.image), {}};
   const double width = result.texture.width / scale, height = result.texture.height / scale;
   for (const Complex& z : surface.plane) {

@@ -125,7 +125,7 @@ TEST_CASE("Correspondence: an outline goes to itself, wherever the two stand") {
     const Points outline = outlines::random(seed, seed % 2, 300);
     const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
     const Polyline source(outline, true), target(moved(outline, factor, shift), true);
-    const Correspondence pairs = conformal_correspondence(source, target, 0);
+    const Correspondence pairs = ConformalStart(source, target, 0).best();
     CHECK(pairs.log_stretch <= 0.02);
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
@@ -142,7 +142,7 @@ TEST_CASE("Correspondence: a square is not turned on its way to a circle or an e
     for (Complex& z : round) z = {z.real(), height * z.imag()};
     std::rotate(round.begin(), round.begin() + 77, round.end());
     const Polyline target(round, true);
-    const Correspondence pairs = conformal_correspondence(square, target, 1);
+    const Correspondence pairs = ConformalStart(square, target, 1).best();
     // The middle of the right side goes to the right.
     const Complex to = target.at(pairs(600));
     CHECK(std::abs(std::arg(to)) <= 0.2);
@@ -330,6 +330,59 @@ TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
     for (const int v : onto.rest.mesh->boundary)
       CHECK(std::abs(std::abs(onto.map.f[v]) - std::abs(scaled[0])) <= 0.01 * std::abs(scaled[0]));
   }
+}
+
+TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing folds") {
+  // Onto a disk there is one for each place and turn, however near to the edge.
+  const Points outline = circle({20, 10}, 150, 80);
+  const Complex pin(30, 0);
+  OutlineFit fit(polygon_cage(circle(0, 100, 60)), outline, {pin}, {});
+  const double size = Polyline(outline, true).diagonal();
+  for (const double radius : {0.0, 60.0, 120.0, 140.0}) {
+    INFO("radius " << radius);
+    for (const bool rough : {false, true}) {
+      const Complex wanted = Complex(20, 10) + std::polar(radius, rough ? 1.1 : 1.0);
+      if (rough)
+        fit.follow({wanted});
+      else
+        fit.solve({wanted});
+      const OutlineMatch match = fit.after(fit.iterations());
+      const Complex there = (cauchy_coordinates(match.basis, Points{pin}) * match.phi)[0];
+      CHECK(match.zeros == 0);
+      CHECK(match.hausdorff < 0.01 * size);
+      CHECK(std::abs(there - wanted) < 0.01 * size);
+      CHECK(match.pins_missed == Approx(std::abs(there - wanted)).margin(1e-9));
+      CHECK(match.pins_held == 0);
+    }
+  }
+  // Outside of the outline it cannot be: it is held inside.
+  const Complex outside = Complex(20, 10) + std::polar(400.0, 2.0);
+  fit.solve({outside});
+  const OutlineMatch held = fit.after(fit.iterations());
+  CHECK(held.pins_held == 1);
+  CHECK(held.zeros == 0);
+  CHECK(held.hausdorff < 0.01 * size);
+  const Complex there = (cauchy_coordinates(held.basis, Points{pin}) * held.phi)[0];
+  CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
+}
+
+TEST_CASE("Outline: pins that contradict each other are said to") {
+  const Cage cage = polygon_cage(outlines::random(41, false, 50));
+  const Points around = outlines::random(42, false, 300);
+  Onto onto(cage, around);
+  const auto point = onto.deformer->point_map(onto.pose);
+  // Two pins where the map takes them anyway, then far nearer to each other.
+  onto.rest.pins = {{{-40, 0}}, {{40, 0}}};
+  onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
+  const Complex a = point->at({-40, 0}).f, b = point->at({40, 0}).f;
+  SampledMap map;
+  onto.deformer->deform({cage, {{a}, {b}}}, map, {});
+  INFO(map.note);
+  CHECK(map.note.find("contradict") == std::string::npos);
+  onto.deformer->deform({cage, {{a}, {0.8 * a + 0.2 * b}}}, map, {});
+  CHECK_THAT(map.note, Catch::Contains("pins contradict each other") && Catch::Contains("missed"));
+  onto.deformer->deform({cage, {{a}, {b + 1e5}}}, map, {});
+  CHECK_THAT(map.note, Catch::Contains("outside of it and held inside"));
 }
 
 TEST_CASE("Outline: pins are followed while they are dragged, and solved from nothing after that") {

@@ -1,6 +1,7 @@
 // Method `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "core/cauchy_array.h"
 #include "core/cauchy_map.h"
@@ -124,18 +125,27 @@ class OutlineDeformer final : public Deformer {
   std::string note(const OutlineMatch& match) const {
     constexpr double kReached = 0.01;
     const double size = Polyline(rest_.outline, true).diagonal();
-    char text[240];
-    std::snprintf(
-        text, sizeof text,
-        "The outline is met to %.2g %% of its size on average and %.2g %% at worst, in %d "
-        "%s",
-        100 * match.rms / size, 100 * match.hausdorff / size, match.iterations,
-        match.iterations == 1 ? "step" : "steps");
-    std::string note = text;
+    const auto percent = [&](double length) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.2g %%", 100 * length / size);
+      return std::string(text);
+    };
+    std::string note = "The outline is met to " + percent(match.rms) +
+                       " of its size on average and " + percent(match.hausdorff) +
+                       " at worst, in " + std::to_string(match.iterations) +
+                       (match.iterations == 1 ? " step" : " steps");
     if (match.zeros > 0) note += "; the picture folds: f' has zeros";
-    if (match.hausdorff > kReached * size)
-      note += pins_.used.empty() ? "; not all of it is reached: more softness goes farther"
-                                 : "; the pins keep the shape from it";
+    const bool reached = match.hausdorff <= kReached * size,
+               pinned = match.pins_missed <= kReached * size;
+    if (match.pins_held > 0)
+      note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
+                                   : "; pins are wanted outside of it and held inside";
+    else if (pins_.used.size() > 1 && !(reached && pinned))
+      // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
+      note += "; the pins contradict each other there, one is missed by " +
+              percent(match.pins_missed) + ": fewer pins or more softness help";
+    else if (!reached)
+      note += "; not all of it is reached: more softness goes farther";
     return note;
   }
 
