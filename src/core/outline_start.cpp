@@ -13,6 +13,7 @@ namespace holomorph {
 namespace {
 
 constexpr Index kPoints = 800;
+constexpr size_t kStride = 4;  ///< of the places that the search looks at
 constexpr double kPinWeight = 10;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
@@ -24,6 +25,7 @@ struct Seen {
   VectorXd angles;
   Points points;
   RiemannMap map;
+  Points on_circle = {};  ///< e^(i angle)
 
   /// In the disk; what is outside the outline, or all but on it, is just inside its nearest place.
   Complex in_disk(Complex z) const {
@@ -78,7 +80,9 @@ Seen seen(const Polyline& outline) {
     points.push_back(outline.at(offset + outline.length() * static_cast<double>(i) /
                                              static_cast<double>(kPoints)));
   RiemannMap map(points, centre);
-  return {&outline, outline.length(), offset, map.angles(), std::move(points), std::move(map)};
+  Seen result{&outline, outline.length(), offset, map.angles(), std::move(points), std::move(map)};
+  for (const double angle : result.angles) result.on_circle.push_back(std::polar(1.0, angle));
+  return result;
 }
 
 /// The map of the disk to itself that takes three points of the circle to three others, on angles.
@@ -93,7 +97,11 @@ class DiskMap {
   Complex operator()(Complex z) const {
     return (m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1));
   }
-  double operator()(double angle) const { return std::arg((*this)(std::polar(1.0, angle))); }
+  /// Of a point of the circle.
+  double angle(Complex z) const {
+    const Complex above = m_(0, 0) * z + m_(0, 1), below = m_(1, 0) * z + m_(1, 1);
+    return std::arg(above * std::conj(below));
+  }
 
  private:
   /// Takes three points of the circle to 0, 1 and infinity.
@@ -137,11 +145,12 @@ struct ConformalStart::Search {
     return {from, to};
   }
 
-  std::vector<double> target_lengths(const DiskMap& map) const {
+  /// Of every `stride`-th place.
+  std::vector<double> target_lengths(const DiskMap& map, size_t stride = 1) const {
     std::vector<double> lengths;
     double before = -std::numeric_limits<double>::infinity();
-    for (const double angle : source.angles) {
-      double length = target.arc_length_at(map(angle));
+    for (size_t i = 0; i < source.on_circle.size(); i += stride) {
+      double length = target.arc_length_at(map.angle(source.on_circle[i]));
       if (lengths.empty())
         length -= std::floor(length / target.length) * target.length;
       else
@@ -160,7 +169,7 @@ struct ConformalStart::Search {
       if (!(gap > 1e-3 * target.length)) return std::numeric_limits<double>::infinity();
     }
     const DiskMap map = disk_map(pairs);
-    const std::vector<double> t = target_lengths(map);
+    const std::vector<double> t = target_lengths(map, kStride);
     double sum = 0, missed = 0;
     for (size_t i = 0; i < pinned.size(); ++i) missed += hyperbolic_square(map(pins[i]), pinned[i]);
     for (size_t i = 0; i < t.size(); ++i) {
@@ -212,12 +221,12 @@ struct ConformalStart::Search {
     return pairs;
   }
 
-  /// By how much a picture is turned whose boundary goes there.
+  /// By how much a picture is turned of whose boundary every kStride-th place goes there.
   double turn(const std::vector<double>& lengths) const {
     Complex from_sum = 0, to_sum = 0, both = 0;
     const double n = static_cast<double>(lengths.size());
     for (size_t i = 0; i < lengths.size(); ++i) {
-      const Complex from = source.points[i], to = target.line->at(lengths[i]);
+      const Complex from = source.points[kStride * i], to = target.line->at(lengths[i]);
       from_sum += from, to_sum += to, both += std::conj(from) * to;
     }
     return std::arg(both - std::conj(from_sum) * to_sum / n);
