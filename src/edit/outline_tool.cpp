@@ -1,11 +1,11 @@
-// O: an outline is drawn in one go, closed and smoothed when it is let go, and the picture's shape
-// goes onto it; on the outline itself a drag bends it.
+// O: an outline is drawn in one go, closed and smoothed when it is let go, or click by click, and
+// the picture's shape goes onto it; on the outline itself a drag bends it.
 #include <algorithm>
 
 #include "core/outline_match.h"
 #include "core/polyline.h"
 #include "edit/freehand.h"
-#include "edit/tool.h"
+#include "edit/pen_path.h"
 
 namespace holomorph {
 namespace {
@@ -18,8 +18,12 @@ class OutlineTool final : public Tool {
   ToolId id() const override { return ToolId::outline; }
 
   void input(const Input& input, Workspace& workspace) override {
+    if (path_.active()) {
+      if (path_.follow(input, workspace.viewport, workspace.handle_px)) close(workspace);
+      return;
+    }
     if (drawing_.active()) {
-      if (drawing_.follow(input)) finish(workspace);
+      if (drawing_.follow(input)) finish(input, workspace);
       return;
     }
     if (pull_) return follow_pull(input, workspace);
@@ -37,26 +41,38 @@ class OutlineTool final : public Tool {
 
   void cancel(Workspace& workspace) override {
     drawing_.cancel();
+    path_.cancel();
     if (pull_) workspace.preview.reset();
     pull_.reset();
   }
   bool key(Key key, Workspace& workspace) override {
+    const PenPath::Answer answer = path_.key(key);
+    if (answer == PenPath::Answer::close) close(workspace);
+    if (answer == PenPath::Answer::too_few)
+      workspace.say("An outline needs three points at least.");
+    if (answer != PenPath::Answer::ignored) return true;
     if (key != Key::escape || !busy()) return false;
     cancel(workspace);
     return true;
   }
-  bool busy() const override { return drawing_.active() || pull_.has_value(); }
+  bool busy() const override { return path_.active() || drawing_.active() || pull_.has_value(); }
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
     overlay.line = drawing_.line();
     if (drawing_.active()) overlay.line_end = overlay.line.front();
+    path_.show(overlay);
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return "Make a cage first: its shape goes onto the outline";
+    if (path_.active() && path_.closes()) return "Click to close the outline";
+    if (path_.active())
+      return "Click for corners, drag for smooth points; Enter or the first point closes; "
+             "Backspace "
+             "takes one back";
     if (drawing_.active()) return "Let go to close the outline; Esc gives it up";
     if (hovered_ || pull_) return "Drag to bend the outline, with Ctrl to move all of it";
-    return "Drag to draw the outline that the picture's shape goes onto";
+    return "Drag to draw the outline that the picture's shape goes onto, or click its points";
   }
 
  private:
@@ -74,11 +90,26 @@ class OutlineTool final : public Tool {
     return distance * workspace.viewport.zoom <= workspace.handle_px;
   }
 
-  void finish(Workspace& workspace) {
+  /// A drawing that goes nowhere is a click: the first of the points of a path.
+  void finish(const Input& input, Workspace& workspace) {
+    const Complex first = drawing_.line().front();
+    const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
+      return std::abs(z - first) * workspace.viewport.zoom < kDragThresholdPx;
+    });
     Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.viewport);
-    if (outline.empty())
-      return workspace.say("Keep the button down and draw all around the new shape.");
-    take_outline(workspace, "Draw outline", std::move(outline));
+    if (clicked) {
+      path_.set_point(first);
+      path_.follow(input, workspace.viewport, workspace.handle_px);
+    } else if (outline.empty()) {
+      workspace.say("Keep the button down and draw all around the new shape, or click its points.");
+    } else {
+      take_outline(workspace, "Draw outline", std::move(outline));
+    }
+  }
+
+  void close(Workspace& workspace) {
+    // A refused drawing stays, so that a point can be taken back.
+    if (take_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
   }
 
   void follow_pull(const Input& input, Workspace& workspace) {
@@ -101,24 +132,28 @@ class OutlineTool final : public Tool {
   }
 
   Freehand drawing_;
+  PenPath path_;
   std::optional<Pull> pull_;
   bool hovered_ = false;
 };
 
 }  // namespace
 
-void take_outline(Workspace& workspace, const std::string& label, Points outline,
+bool take_outline(Workspace& workspace, const std::string& label, Points outline,
                   std::optional<SurfaceReference> surface) {
   try {
     check_outline(outline);
   } catch (const Error& error) {
-    return workspace.complain(error);
+    workspace.complain(error);
+    return false;
   }
   workspace.layer = Layer::pose;
   workspace.show_surface = true;
-  if (workspace.commit(
+  if (!workspace.commit(
           label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface))))
-    workspace.playback = {0, true};
+    return false;
+  workspace.playback = {0, true};
+  return true;
 }
 
 std::unique_ptr<Tool> outline_tool() {

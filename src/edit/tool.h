@@ -83,8 +83,8 @@ class HandleDrag {
 };
 
 /// A new outline as one step, with its convergence played; refused with a toast when it is none.
-/// With the surface whose boundary it is, that is shown.
-void take_outline(Workspace& workspace, const std::string& label, Points outline,
+/// With the surface whose boundary it is, that is shown. Returns whether it was taken.
+bool take_outline(Workspace& workspace, const std::string& label, Points outline,
                   std::optional<SurfaceReference> surface = {});
 
 /// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
