@@ -2,6 +2,7 @@
 // closed form cancels there like the distance to the power of the degree.
 #include "core/cauchy_map.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -118,8 +119,11 @@ CauchySum::Value CauchySum::at(Complex z) const {
       const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)),
                         std::atan2(cross(-root.s, root.q), dot(-root.s, root.q)));
       turns += log.imag();
-      const double beside = root.s.imag() * root.s.imag() * std::norm(slope);
-      if (root.s.real() >= -0.1 && root.q.real() >= -0.1 && beside < nearest) {
+      // Where a curve goes on smoothly, its neighbours' extensions come as near: beyond its ends
+      // a segment is as far as its end.
+      const double beyond = std::max({0.0, -root.s.real(), -root.q.real()});
+      const double beside = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);
+      if (beyond <= 0.1 && beside < nearest) {
         nearest = beside;
         across = &segment;
         crossed = root;

@@ -1,6 +1,7 @@
 // Cauchy coordinates over curved segments: the theorems of straight cages, and the defining
 // integral.
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "core/cauchy.h"
 #include "core/cauchy_map.h"
@@ -233,5 +234,36 @@ TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees
     INFO("degree " << degree << ": " << worst << ", slopes " << worst_slope);
     CHECK(worst <= (degree < 8 ? 1e-13 : 5e-13));
     CHECK(worst_slope <= 1e-11);
+  }
+}
+
+TEST_CASE("Curved rest: single points on the boundary are their own segment's, however it is cut") {
+  // Where a segment was cut, its neighbours' extensions pass through its points, too.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> by(-1, 1);
+  for (const bool straight : {true, false}) {
+    Cage fine;
+    const Cage cage = straight ? polygon_cage(shapes::l_shape()) : curved_star(7, 3, 0.2, 2);
+    constexpr int kParts = 6;
+    for (Index e = 0; e < cage.size(); ++e) {
+      Points rest = cage.controls(e);
+      for (int k = kParts; k > 1; --k) {
+        SplitCurve halves = split(rest, 1.0 / k);
+        halves.before.pop_back();
+        fine.segments.push_back(halves.before);
+        rest = halves.after;
+      }
+      rest.pop_back();
+      fine.segments.push_back(rest);
+    }
+    VectorXc displacement(fine.control_count());
+    for (Complex& d : displacement) d = {by(random), by(random)};
+    const CauchySum sum(fine, displacement);
+    Points points;
+    for (Index e = 0; e < fine.size(); ++e)
+      for (int k = 1; k < 20; ++k) points.push_back(position_of(fine, {e, k / 20.0}));
+    const VectorXc exact = cauchy_coordinates(fine, points) * displacement;
+    for (size_t i = 0; i < points.size(); ++i)
+      REQUIRE(std::abs(sum.at(points[i]).f - exact[static_cast<Index>(i)]) < 1e-6);
   }
 }
