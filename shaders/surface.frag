@@ -24,6 +24,6 @@ void main() {
   bool behind = dot(n, seen) > 0.0;
   if (behind) n = -n;
   vec3 light = normalize(vec3(-0.35, 0.55, 1.0));
-  float lit = (0.42 + 0.62 * max(dot(n, light), 0.0)) * (behind ? 0.55 : 1.0);
+  float lit = (0.5 + 0.55 * max(dot(n, light), 0.0)) * (behind ? 0.55 : 1.0);
   color = vec4(min(lit, 1.0) * (here.rgb + (1.0 - here.a) * clay), 1.0);
 }

@@ -112,7 +112,7 @@ void method_section(Workspace& workspace) {
       ImGui::SetTooltip("%s", spec.hint.c_str());
   }
   if (workspace.map.has_map() && !workspace.map.map().note.empty())
-    ImGui::TextWrapped("%s", workspace.map.map().note.c_str());
+    wrapped_text(workspace.map.map().note);
 }
 
 void one_handle(Workspace& workspace, Handle handle) {

@@ -209,10 +209,9 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   if (!note.empty()) {
     ImGui::TextColored(note_color, "%s", note.c_str());
     ImGui::SameLine();
-    const float room = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
-    if (ImGui::CalcTextSize(hint.c_str()).x > room) hint.clear();  // half a hint helps nobody
   }
-  ImGui::TextUnformatted(hint.c_str());
+  const float room = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
+  ImGui::TextUnformatted(fitted_text(hint, room).c_str());
   ImGui::PopClipRect();
   ImGui::SameLine(display.x - width - 14 * s);
   ImGui::TextDisabled("%s", right);
@@ -305,7 +304,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   ImGui::TextUnformatted("Samples");
   // All in one row, if that does not make them too small.
   const float count = static_cast<float>(std::max<size_t>(samples.size(), 1)),
-              tile = std::clamp((display.x - 116 * s) / count - 20 * s, 130 * s, 200 * s);
+              tile = std::clamp((display.x - 116 * s) / count - 20 * s, 110 * s, 200 * s);
   for (size_t i = 0; i < samples.size(); ++i) {
     const Sample& sample = samples[i];
     ImGui::PushID(static_cast<int>(i));

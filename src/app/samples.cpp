@@ -21,6 +21,7 @@ constexpr Row kRows[] = {
     {"octopus", "Octopus", "Nothing folds, however you pull its pins: try to break it."},
     {"snake", "Snake", "One stroke along its body: move, bend or redraw the line."},
     {"heart", "Heart", "The fish's shape goes onto a drawn line: draw your own with O."},
+    {"tiger", "Tiger", "A painted face goes onto a mask in space: drag the mask to turn it."},
     {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
 constexpr double kThumbnail = 320;  ///< pixels of the longer side
 

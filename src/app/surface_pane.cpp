@@ -79,16 +79,33 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
 }
 
 void SurfacePane::draw_header(Workspace& workspace, float scale) {
+  const std::string name = Path(shown_->file).filename().string();
+  const float button = ImGui::GetFrameHeight(), combo = 140 * scale, gap = 8 * scale,
+              right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - button;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(Path(shown_->file).filename().c_str());
+  ImGui::TextUnformatted(name.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
-  const float button = ImGui::GetFrameHeight(), combo = 130 * scale;
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(
-      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - combo - button - 24 * scale));
-  ImGui::SetNextItemWidth(combo);
-  const auto chosen = static_cast<size_t>(shown_->flattening);
-  if (begin_combo("##flattening", kFlattenings[chosen])) {
+  // In a narrow pane the choice has a row of its own.
+  const bool one_row = ImGui::CalcTextSize(name.c_str()).x + combo + 2 * gap < right;
+  if (one_row) {
+    ImGui::SameLine(right - combo - gap);
+    choose_flattening(workspace, combo);
+  }
+  ImGui::SameLine(right);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
+  if (ImGui::Button("\uf00d", {button, 0})) run(action_named("view.surface"), workspace);
+  ImGui::PopStyleVar();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
+  if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
+  if (problem_.empty()) return;
+  ImGui::TextWrapped("%s", problem_.c_str());
+  if (flat_ && ImGui::Button("Lay it out again"))
+    lay_out(workspace, "Lay out surface", shown_->flattening);
+}
+
+void SurfacePane::choose_flattening(Workspace& workspace, float width) {
+  ImGui::SetNextItemWidth(width);
+  if (begin_combo("##flattening", kFlattenings[static_cast<size_t>(shown_->flattening)])) {
     for (const Flattening how : {Flattening::lscm, Flattening::circle})
       if (ImGui::Selectable(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
           how != shown_->flattening)
@@ -98,13 +115,6 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "How the surface is flattened: its boundary finds its own shape, or is a circle");
-  ImGui::SameLine();
-  if (ImGui::Button("\uf00d", {button, 0})) run(action_named("view.surface"), workspace);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
-  if (problem_.empty()) return;
-  ImGui::TextWrapped("%s", problem_.c_str());
-  if (flat_ && ImGui::Button("Lay it out again"))
-    lay_out(workspace, "Lay out surface", shown_->flattening);
 }
 
 void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,

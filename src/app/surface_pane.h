@@ -17,8 +17,7 @@ class SurfacePane {
   void draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
   bool hovered() const { return hovered_; }
   static const char* hint() {
-    return "Drag to turn, with the right button to move, wheel to come nearer; double-click shows "
-           "all of it";
+    return "Drag turns, right drag moves, the wheel comes nearer; double-click shows all";
   }
   const OrbitCamera& camera() const { return camera_; }
   bool has_picture() const { return laid_.has_value(); }
@@ -32,6 +31,7 @@ class SurfacePane {
 
   void follow(const Scene& scene);
   void draw_header(Workspace& workspace, float scale);
+  void choose_flattening(Workspace& workspace, float width);
   void draw_surface(const Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
   void navigate(float height);
 

@@ -2,6 +2,7 @@
 #include "app/theme.h"
 
 #include <filesystem>
+#include <sstream>
 
 namespace holomorph {
 namespace {
@@ -105,6 +106,32 @@ CanvasColors canvas_colors(bool light) {
   colors.warning = light ? IM_COL32(200, 40, 40, 255) : IM_COL32(255, 110, 100, 255);
   colors.accent = light ? IM_COL32(47, 111, 222, 255) : IM_COL32(91, 155, 255, 255);
   return colors;
+}
+
+void wrapped_text(const std::string& text) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const auto fits = [&](const std::string& line) {
+    return ImGui::CalcTextSize(line.c_str()).x <= width;
+  };
+  std::string lines, line;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!line.empty() && !fits(line + " " + word)) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += line.empty() ? word : " " + word;
+  }
+  ImGui::TextUnformatted((lines + line).c_str());
+}
+
+std::string fitted_text(const std::string& text, float width) {
+  std::string fitted = text;
+  while (!fitted.empty() && ImGui::CalcTextSize(fitted.c_str()).x > width) {
+    const size_t end = fitted.find_last_of(",;");
+    fitted.resize(end == std::string::npos ? 0 : end);
+  }
+  return fitted;
 }
 
 }  // namespace holomorph

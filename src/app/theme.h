@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 #include "core/heat.h"
 
 namespace holomorph {
@@ -12,6 +14,11 @@ void apply_theme(double scale, bool light);
 
 /// The large font of titles.
 ImFont* title_font();
+
+/// Text on as many lines as it needs; ImGui's own wrapping breaks within numbers like 1.6, too.
+void wrapped_text(const std::string& text);
+/// As many clauses of a text, which commas and semicolons end, as fit into a width.
+std::string fitted_text(const std::string& text, float width);
 
 /// Colours of what is drawn over the canvas.
 struct CanvasColors {

@@ -365,7 +365,10 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
   }
   if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
-  if (reader.has("surface")) scene.surface = read_surface(reader["surface"]);
+  if (reader.has("surface")) {
+    scene.surface = read_surface(reader["surface"]);
+    if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
+  }
   if (reader.has("method")) read_method(reader["method"], scene);
   scene.extra = reader.others(
       {"format", "version", "image", "cage", "pins", "strokes", "outline", "surface", "method"});

@@ -226,7 +226,8 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and what it i
                     Catch::Contains("gone.obj") && Catch::Contains("no such file"));
   const auto complaint = [&](const std::string& surface) -> std::string {
     try {
-      scene_from_json(R"({"format": "holomorph", "version": 1, "cage": {"rest": []}, "surface": )" +
+      scene_from_json(R"({"format": "holomorph", "version": 1, "cage": {"rest": []}, )"
+                      R"("outline": [[0, 0], [1, 0], [0, 1]], "surface": )" +
                           surface + "}",
                       "s.json");
     } catch (const Error& error) {
