@@ -313,6 +313,30 @@ class WindowTest(unittest.TestCase):
             json.dump(scene, file)
         self.assertFalse(info(os.path.join(self.work, "free.json"))["locally_injective"])
 
+    def test_a_fold_is_shown_and_taken_out(self):
+        scene = os.path.join(self.work, "folded.json")
+        subprocess.run([PROGRAM, "new", self.picture, "--out", scene, "--vertices", "12"], check=True, capture_output=True)
+        values = load(scene)
+        pose = values["cage"]["pose"]
+        pose[0], pose[4] = pose[4], pose[0]
+        with open(scene, "w") as file:
+            json.dump(values, file)
+        with Editor(PROGRAM, [scene]) as editor:
+            s = editor.wait(lambda s: s["folds"], "the fold")
+            shot = self.screenshot(editor, "folded")
+            # The status bar's button stands after the red words.
+            row = shot[int(s["top"] + s["height"]) + 4:int(s["top"] + s["height"]) + 28, :int(s["width"])]
+            red = numpy.flatnonzero(((row[..., 0] > 200) & (row[..., 1] < 150)).any(axis=0))
+            editor.press(red.max() + 40, s["top"] + s["height"] + 15)
+            editor.wait(lambda t: abs(t["center"][0] - s["center"][0]) + abs(t["center"][1] - s["center"][1]) > 20,
+                        "the place of the fold")
+            self.screenshot(editor, "folded-shown")
+            editor.key("ctrl+shift+p")
+            editor.type("make it fold")
+            editor.key("Return")
+            editor.wait(lambda s: s["method"] == "bounded" and not s["folds"] and s["status"] == "certified",
+                        "a map without folds", 30)
+
     def test_others_projections_are_compared_side_by_side(self):
         for name in ("octopus.json", "octopus.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
