@@ -48,6 +48,40 @@ constexpr int kPicture = 0, kColors = 1, kMatrix = 2, kControls = 3;  // texture
 
 }  // namespace
 
+namespace {
+
+int mode_of(Placement placement) {
+  return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2;
+}
+
+/// As the fragment shader counts them.
+enum class Coloring { picture, heat, checker, flat };
+
+void clear_canvas(const Frame& frame) {
+  const int left = static_cast<int>(frame.canvas_left),
+            width = static_cast<int>(frame.canvas_width),
+            height = static_cast<int>(frame.canvas_height),
+            bottom = frame.window_height - static_cast<int>(frame.canvas_top) - height;
+  glViewport(left, bottom, width, height);
+  glScissor(left, bottom, width, height);
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glStencilMask(0xff);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearColor(frame.background[0], frame.background[1], frame.background[2],
+               frame.map_alone ? 0 : 1);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+}  // namespace
+
 struct Renderer::Objects {
   Program shaders = warp_program();
   GLuint program = shaders.id();
@@ -60,6 +94,63 @@ struct Renderer::Objects {
   int columns = 0;
 
   GLint at(const char* name) const { return shaders.at(name); }
+
+  /// The program with its textures; `to_clip` by columns.
+  void use(const float (&to_clip)[9], bool is_diverging) const {
+    glUseProgram(program);
+    glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip);
+    glUniform2f(at("picture_size"), static_cast<float>(std::max(width, 1.0)),
+                static_cast<float>(std::max(height, 1.0)));
+    glUniform1i(at("picture"), kPicture);
+    glUniform1i(at("colors"), kColors);
+    glUniform1i(at("operator_matrix"), kMatrix);
+    glUniform1i(at("operator_controls"), kControls);
+    glUniform1i(at("column_count"), columns);
+    glUniform1i(at("row_count"), vertex_count);
+    const auto bind = [](int unit, GLenum target, GLuint texture) {
+      glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+      glBindTexture(target, texture);
+    };
+    bind(kMatrix, GL_TEXTURE_BUFFER, columns > 0 ? matrix_texture : 0);
+    bind(kControls, GL_TEXTURE_BUFFER, columns > 0 ? controls_texture : 0);
+    bind(kColors, GL_TEXTURE_1D, is_diverging ? diverging : sequential);
+    bind(kPicture, GL_TEXTURE_2D, picture);
+  }
+  void color(Coloring coloring, const Color& flat = {}, float alpha = 1) const {
+    glUniform1i(at("coloring"), static_cast<int>(coloring));
+    glUniform4f(at("flat_color"), flat[0], flat[1], flat[2], alpha);
+  }
+  /// In the colours that were set.
+  void draw_mesh(Placement placement) const {
+    if (placement == Placement::by_operator && columns == 0) placement = Placement::positions;
+    glUniform1i(at("mode"), mode_of(placement));
+    glBindVertexArray(vertex_array);
+    glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+  }
+  /// The picture's rectangle.
+  void draw_quad() const {
+    glUniform1i(at("mode"), mode_of(Placement::at_rest));
+    glBindVertexArray(quad_array);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+
+  /// The picture where the rest cage is not.
+  void draw_surroundings() const {
+    if (index_count > 0) {
+      glEnable(GL_STENCIL_TEST);
+      glStencilFunc(GL_ALWAYS, 1, 0xff);
+      glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      color(Coloring::flat);
+      draw_mesh(Placement::at_rest);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glStencilFunc(GL_EQUAL, 0, 0xff);
+      glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    }
+    color(Coloring::picture);
+    draw_quad();
+    glDisable(GL_STENCIL_TEST);
+  }
 };
 
 Renderer::Renderer() {
@@ -213,120 +304,33 @@ void Renderer::set_controls(const VectorXc& controls) {
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RG32F, gl.controls);
 }
 
-namespace {
-
-int mode_of(Placement placement) {
-  return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2;
-}
-
-}  // namespace
-
 void Renderer::draw(const Frame& frame) {
-  Objects& gl = *gl_;
-  const int left = static_cast<int>(frame.canvas_left),
-            width = static_cast<int>(frame.canvas_width);
-  const int height = static_cast<int>(frame.canvas_height);
-  const int bottom = frame.window_height - static_cast<int>(frame.canvas_top) - height;
-  glViewport(left, bottom, width, height);
-  glScissor(left, bottom, width, height);
-  glEnable(GL_SCISSOR_TEST);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_STENCIL_TEST);
-  glStencilMask(0xff);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(frame.background[0], frame.background[1], frame.background[2],
-               frame.map_alone ? 0 : 1);
-  glClearStencil(0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-
-  glUseProgram(gl.program);
-  const double sx = 2 * frame.zoom / width, sy = 2 * frame.zoom / height;
-  const float to_clip[9] = {static_cast<float>(sx),
-                            0,
-                            0,
-                            0,
-                            static_cast<float>(sy),
-                            0,
-                            static_cast<float>(-sx * frame.center.real()),
-                            static_cast<float>(-sy * frame.center.imag()),
-                            1};
-  glUniformMatrix3fv(gl.at("to_clip"), 1, GL_FALSE, to_clip);
-  glUniform2f(gl.at("picture_size"), static_cast<float>(std::max(gl.width, 1.0)),
-              static_cast<float>(std::max(gl.height, 1.0)));
-  glUniform1i(gl.at("picture"), kPicture);
-  glUniform1i(gl.at("colors"), kColors);
-  glUniform1i(gl.at("operator_matrix"), kMatrix);
-  glUniform1i(gl.at("operator_controls"), kControls);
-  glUniform1i(gl.at("column_count"), gl.columns);
-  glUniform1i(gl.at("row_count"), gl.vertex_count);
-  glActiveTexture(GL_TEXTURE0 + kMatrix);
-  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.matrix_texture : 0);
-  glActiveTexture(GL_TEXTURE0 + kControls);
-  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.controls_texture : 0);
-  glActiveTexture(GL_TEXTURE0 + kColors);
-  glBindTexture(GL_TEXTURE_1D, frame.diverging ? gl.diverging : gl.sequential);
-  glActiveTexture(GL_TEXTURE0 + kPicture);
-  glBindTexture(GL_TEXTURE_2D, gl.picture);
-
-  const auto coloring = [&](int kind) { glUniform1i(gl.at("coloring"), kind); };
-  const auto mode = [&](Placement placement) { glUniform1i(gl.at("mode"), mode_of(placement)); };
-  const auto draw_mesh = [&] {
-    glBindVertexArray(gl.vertex_array);
-    glDrawElements(GL_TRIANGLES, gl.index_count, GL_UNSIGNED_INT, nullptr);
-  };
+  const Objects& gl = *gl_;
+  clear_canvas(frame);
+  const double sx = 2 * frame.zoom / std::floor(frame.canvas_width),
+               sy = 2 * frame.zoom / std::floor(frame.canvas_height);
+  const auto single = [](double x) { return static_cast<float>(x); };
+  gl.use({single(sx), 0, 0, 0, single(sy), 0, single(-sx * frame.center.real()),
+          single(-sy * frame.center.imag()), 1},
+         frame.diverging);
   const bool picture = gl.width > 0;
-  const Placement placement = frame.placement == Placement::by_operator && gl.columns == 0
-                                  ? Placement::positions
-                                  : frame.placement;
-
-  if (frame.map_alone) {
-    mode(placement);
-    coloring(3);
-    glUniform4f(gl.at("flat_color"), frame.backdrop[0], frame.backdrop[1], frame.backdrop[2], 1);
-    draw_mesh();
-  } else if (picture) {  // what shows through where the picture is transparent
-    mode(Placement::at_rest);
-    coloring(3);
-    glUniform4f(gl.at("flat_color"), frame.backdrop[0], frame.backdrop[1], frame.backdrop[2], 1);
-    glBindVertexArray(gl.quad_array);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  }
-  if (picture && frame.view == View::image &&
-      !frame.map_alone) {  // what lies outside the rest cage stays
-    if (gl.index_count > 0) {
-      glEnable(GL_STENCIL_TEST);
-      glStencilFunc(GL_ALWAYS, 1, 0xff);
-      glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      mode(Placement::at_rest);
-      coloring(3);
-      draw_mesh();
-      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-      glStencilFunc(GL_EQUAL, 0, 0xff);
-      glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-    }
-    mode(Placement::at_rest);
-    coloring(0);
-    glBindVertexArray(gl.quad_array);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    glDisable(GL_STENCIL_TEST);
-  }
+  // What shows through where the picture is transparent.
+  gl.color(Coloring::flat, frame.backdrop);
+  if (frame.map_alone)
+    gl.draw_mesh(frame.placement);
+  else if (picture)
+    gl.draw_quad();
+  if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings();
   if (gl.index_count > 0 && (picture || frame.view != View::image)) {
-    mode(placement);
-    coloring(frame.view == View::image ? 0 : frame.view == View::checker ? 2 : 1);
-    draw_mesh();
+    gl.color(frame.view == View::image     ? Coloring::picture
+             : frame.view == View::checker ? Coloring::checker
+                                           : Coloring::heat);
+    gl.draw_mesh(frame.placement);
   }
   if (gl.index_count > 0 && frame.wireframe) {
-    mode(placement);
-    coloring(3);
-    glUniform4f(gl.at("flat_color"), 0.05f, 0.15f, 0.35f, 0.35f);
+    gl.color(Coloring::flat, {0.05f, 0.15f, 0.35f}, 0.35f);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    draw_mesh();
+    gl.draw_mesh(frame.placement);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   glBindVertexArray(0);
@@ -338,20 +342,8 @@ void Renderer::draw(const Frame& frame) {
 std::vector<Complex> Renderer::placed_vertices(Placement placement) {
   Objects& gl = *gl_;
   std::vector<float> flat(2 * static_cast<size_t>(gl.vertex_count));
-  glUseProgram(gl.program);
-  const float identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  glUniformMatrix3fv(gl.at("to_clip"), 1, GL_FALSE, identity);
-  glUniform1i(gl.at("operator_matrix"), kMatrix);
-  glUniform1i(gl.at("operator_controls"), kControls);
-  glUniform1i(gl.at("picture"), kPicture);
-  glUniform1i(gl.at("colors"), kColors);
-  glUniform1i(gl.at("column_count"), gl.columns);
-  glUniform1i(gl.at("row_count"), gl.vertex_count);
+  gl.use({1, 0, 0, 0, 1, 0, 0, 0, 1}, false);
   glUniform1i(gl.at("mode"), mode_of(placement));
-  glActiveTexture(GL_TEXTURE0 + kMatrix);
-  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.matrix_texture : 0);
-  glActiveTexture(GL_TEXTURE0 + kControls);
-  glBindTexture(GL_TEXTURE_BUFFER, gl.columns > 0 ? gl.controls_texture : 0);
   upload(gl.feedback, GL_TRANSFORM_FEEDBACK_BUFFER, nullptr, flat.size() * sizeof(float),
          GL_STREAM_READ);
   glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, gl.feedback);

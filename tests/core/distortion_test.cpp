@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <catch2/catch.hpp>
 
+#include "core/injectivity.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -63,4 +64,33 @@ TEST_CASE("The zeros of the derivative, the turning number and flips are found")
       [](Complex) { return Complex(0); });
   CHECK(report_of(mesh, identity).locally_injective());
   CHECK(report_of(mesh, identity).simple_boundary);
+}
+
+TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with its sign") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(40, 30), {300});
+  for (const auto& [a, b] : {std::pair<Complex, Complex>({1.5, 0.5}, {0.3, -0.2}),
+                             {{0.2, 0.1}, {0.9, 0.3}},
+                             {{1, 0}, {0, 0}}}) {
+    VectorXc f(static_cast<Index>(mesh.vertices.size()));
+    for (Index i = 0; i < f.size(); ++i) {
+      const Complex z = mesh.vertices[static_cast<size_t>(i)];
+      f[i] = a * z + b * std::conj(z) + Complex(3, -2);
+    }
+    const Injectivity found = injectivity_of(mesh, f);
+    CHECK(found.least_stretch == Approx(std::abs(a) - std::abs(b)));
+    CHECK(found.folds() == (std::abs(a) < std::abs(b)));
+    CHECK(found.boundary_turns == Approx(found.folds() ? -1 : 1));
+  }
+  // z^3 + 3 r z presses everything to nothing near its branch points.
+  VectorXc f(static_cast<Index>(mesh.vertices.size()));
+  for (Index i = 0; i < f.size(); ++i) {
+    const Complex z = mesh.vertices[static_cast<size_t>(i)] - Complex(20, 15);
+    f[i] = z * z * z + 3 * 36.0 * z;
+  }
+  const Injectivity found = injectivity_of(mesh, f);
+  CHECK(found.boundary_turns == Approx(3));
+  CHECK(std::abs(found.least_stretch) < 0.1 * 3 * 36);
+  REQUIRE(found.fold);
+  CHECK(std::min(std::abs(*found.fold - Complex(0, 2 * 216)),
+                 std::abs(*found.fold + Complex(0, 2 * 216))) < 120);
 }
