@@ -26,6 +26,8 @@ class FileDialog {
   using Answer = std::function<std::string(const Path& path, double scale)>;
 
   void ask(FileQuestion question, Answer answer);
+  /// Where questions without a start begin from now on.
+  void start_in(const Path& folder) { folder_ = folder; }
   bool open() const { return open_; }
   /// Draws the dialog while it is open.
   void draw(double scale);

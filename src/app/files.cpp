@@ -37,6 +37,7 @@ void Files::adopt(Document document) {
 std::string Files::open(const Path& path) {
   try {
     adopt(Document::open(path));
+    dialog_.start_in(std::filesystem::absolute(path).parent_path());
     remember(preferences_, std::filesystem::absolute(path).lexically_normal());
     keep_preferences();
   } catch (const Error& error) {

@@ -231,7 +231,8 @@ void draw_context_menu(Workspace& workspace) {
   for (const char* id :
        {"edit.delete", "edit.reset", "edit.free_angle", "cage.corner", "cage.raise", "cage.lower",
         "edit.select_all", "view.frame", "view.fit", "cage.rest"})
-    action_item(action_named(id), workspace);
+    if (const Action& action = action_named(id); action.enabled(workspace))
+      action_item(action, workspace);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }

@@ -89,6 +89,7 @@ bool is_linear(const Method& method) {
 /// With a bent outline for the cage's shape.
 Setup outlined(Setup s) {
   s.rest.outline = flattened(s.rest.cage).points;
+  s.rest.parameters["vertices"] = 60;
   for (Complex& z : s.rest.outline) z = bend(z);
   for (PosePin& pin : s.pose.pins) pin.position += Complex(1, 2);
   return s;
