@@ -218,8 +218,7 @@ std::string Files::export_surface(const Path& path, double scale) {
     const Document& document = workspace_.document;
     const Scene& scene = document.scene();
     const LaidSurface surface = laid_surface_of(scene);
-    for (const char* kind : {".obj", ".png", ".mtl"})
-      check_not_a_source(Path(path).replace_extension(kind), document.sources());
+    for (const Path& file : files_of_textured(path)) check_not_a_source(file, document.sources());
     write_textured(path, surface, textured(surface, scene, document.image(), scale));
     workspace_.say("Exported " + path.filename().string() + " with its material and picture.");
   } catch (const Error& error) {

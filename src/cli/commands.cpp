@@ -241,10 +241,11 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
   require_cage(loaded.scene, command.scene);
   const LaidSurface surface = laid_surface_of(loaded.scene);
-  Path texture = command.out;
-  check_out(texture.replace_extension(".png"), command.scene, loaded);
-  write_textured(command.out, surface,
-                 textured(surface, loaded.scene, loaded.image.get(), command.scale));
+  for (const Path& file : files_of_textured(command.out)) check_out(file, command.scene, loaded);
+  const TexturedSurface on = textured(surface, loaded.scene, loaded.image.get(), command.scale);
+  write_textured(command.out, surface, on);
+  std::fprintf(stderr, "%s, with material and a picture of %d x %d pixels\n", command.out.c_str(),
+               on.texture.width, on.texture.height);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // times slower for it.
 #pragma once
 
+#include <cmath>
+
 #include "core/types.h"
 
 namespace holomorph {
@@ -15,6 +17,14 @@ inline Complex inverse(Complex x) {
 inline Complex quotient(Complex x, Complex y) {
   const double over = 1 / std::norm(y);
   return {over * dot(y, x), over * cross(y, x)};
+}
+
+/// What comes next after `before` among numbers that mean the same up to whole turns and never
+/// fall: what rounding has put just before it is taken to be there.
+inline double next_in_turn(double before, double number, double turn) {
+  constexpr double kRounding = 1e-6;
+  const double step = (number - before) / turn, on = step - std::floor(step);
+  return on > 1 - kRounding ? before : before + on * turn;
 }
 
 }  // namespace holomorph

@@ -2,7 +2,7 @@
 // turn; they are no fold.
 #include "core/injectivity.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace holomorph {
 namespace {
@@ -29,20 +29,72 @@ double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
   return std::abs(fz) - std::abs(fzbar);
 }
 
-struct Place {
-  double stretch = std::numeric_limits<double>::infinity();
+struct Shrunken {
+  double least = 1;
   Complex at;  ///< posed
 };
 
-Place most_shrunken(const Mesh& mesh, const VectorXc& f) {
-  Place least;
+Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
+  constexpr double kSpecks = 1e-3;
+  struct Part {
+    double stretch, area;
+    const Triangle* triangle;
+  };
+  std::vector<Part> parts;
+  double total = 0;
   const Points& z = mesh.vertices;
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const double here = stretch(z[j] - z[i], z[k] - z[i], f[j] - f[i], f[k] - f[i]);
-    if (here < least.stretch) least = {here, (f[i] + f[j] + f[k]) / 3.0};
+  for (const Triangle& t : mesh.triangles) {
+    const auto [i, j, k] = t;
+    const double area = cross(z[j] - z[i], z[k] - z[i]);
+    parts.push_back({stretch(z[j] - z[i], z[k] - z[i], f[j] - f[i], f[k] - f[i]), area, &t});
+    total += area;
   }
-  return least;
+  if (parts.empty()) return {};
+  // A heap: only the least of them are looked at.
+  const auto later = [](const Part& a, const Part& b) { return a.stretch > b.stretch; };
+  std::ranges::make_heap(parts, later);
+  for (double left = kSpecks * total; parts.size() > 1 && parts.front().area < left;) {
+    left -= parts.front().area;
+    std::ranges::pop_heap(parts, later);
+    parts.pop_back();
+  }
+  const auto [i, j, k] = *parts.front().triangle;
+  return {parts.front().stretch, (f[i] + f[j] + f[k]) / 3.0};
 }
+
+/// The vertices of a closed polygon without which it would be off by more than a tolerance, first
+/// and farthest ones among them (Douglas, Peucker 1973).
+class Drawn {
+ public:
+  Drawn(const Points& polygon, double tolerance) : polygon_(polygon), tolerance_(tolerance) {
+    const auto farthest = std::ranges::max_element(
+        polygon, {}, [&](Complex z) { return std::abs(z - polygon.front()); });
+    const size_t middle = static_cast<size_t>(farthest - polygon.begin());
+    points_.push_back(polygon.front());
+    keep_between(0, middle);
+    points_.push_back(polygon[middle]);
+    keep_between(middle, polygon.size());
+  }
+  const Points& points() const { return points_; }
+
+ private:
+  void keep_between(size_t from, size_t to) {
+    const Complex a = polygon_[from], b = polygon_[to % polygon_.size()];
+    double farthest = tolerance_;
+    size_t at = 0;
+    for (size_t i = from + 1; i < to; ++i)
+      if (const double off = nearest_on_segment(a, b, polygon_[i]).distance; off > farthest)
+        farthest = off, at = i;
+    if (at == 0) return;
+    keep_between(from, at);
+    points_.push_back(polygon_[at]);
+    keep_between(at, to);
+  }
+
+  const Points& polygon_;
+  double tolerance_;
+  Points points_;
+};
 
 }  // namespace
 
@@ -52,10 +104,11 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   Points image;
   for (const int v : mesh.boundary) image.push_back(f[v]);
   if (image.empty()) return found;
-  found.boundary_turns = turning_number(image);
-  const Place least = most_shrunken(mesh, f);
-  found.least_stretch = least.stretch;
-  if (!found.fold && found.folds()) found.fold = least.at;
+  constexpr double kVisible = 3e-4;
+  found.boundary_turns = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
+  const Shrunken shrunken = most_shrunken(mesh, f);
+  found.least_stretch = shrunken.least;
+  if (!found.fold && found.folds()) found.fold = shrunken.at;
   if (const auto crossing = self_crossing(image)) found.crossing = crossing->point;
   return found;
 }

@@ -8,15 +8,16 @@
 namespace holomorph {
 
 struct Injectivity {
-  /// How often the boundary's image turns: 1, and 1 more for each zero of f' of a conformal map,
-  /// around which the picture folds; -1 for a picture on its back.
+  /// How often the boundary's image turns, drawn to 3e-4 of its size: 1, and 1 more for each zero
+  /// of f' of a conformal map, around which the picture folds; -1 for a picture on its back.
+  /// Smaller loops, as corners of outlines leave them, cannot be seen.
   double boundary_turns = 1;
   /// Where the picture is turned over most, posed; none when that is less than 1e-4 of its area. If
   /// nothing is turned over and the boundary still turns more than once, where most is pressed to
   /// nothing: near a zero of f'.
   std::optional<Complex> fold;
-  /// The least |f_z| - |f_zbar| of the triangles, the factor of the most shrunken direction; below
-  /// 0 where one is turned over.
+  /// The least |f_z| - |f_zbar| of the triangles, but for a thousandth of the picture: the factor
+  /// of the most shrunken direction; below 0 where it is turned over.
   double least_stretch = 1;
   /// Where the boundary's image crosses itself: parts may lie over each other without a fold.
   std::optional<Complex> crossing;

@@ -15,6 +15,7 @@ constexpr size_t kPinTerm = 1;
 constexpr double kInset = 0.02;  ///< of the loop that zeros are counted in, in edges
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
+constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
 constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
 
 /// The loop cut at arc lengths of its flattened self, all its own vertices kept.
@@ -82,27 +83,89 @@ Complex mean(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Equal shares of both lengths, from the pair of starts that moves the least.
-Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
-  constexpr Index kPoints = 200;
-  const Points from = at_equal_lengths(source, kPoints), to = at_equal_lengths(target, kPoints);
-  const Complex centre_from = mean(from), centre_to = mean(to);
-  Index best = 0;
-  double least = -1;
-  for (Index shift = 0; shift < kPoints; ++shift) {
-    double sum = 0;
-    for (Index i = 0; i < kPoints; ++i)
-      sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
-                       to[static_cast<size_t>((i + shift) % kPoints)] + centre_to);
-    if (least < 0 || sum < least) least = sum, best = shift;
+/// How far two correspondences of the same outlines lie apart, in turns of the target.
+double difference(const Correspondence& a, const Correspondence& b) {
+  double most = 0;
+  for (const double s : a.source) {
+    const double off = (a(s) - b(s)) / a.target_length;
+    most = std::max(most, std::abs(off - std::round(off)));
   }
+  return most;
+}
+
+/// The arc lengths of a closed polyline's vertices that are none of a smooth curve's.
+std::vector<double> corners_of(const Polyline& curve) {
+  constexpr double kCorner = kPi / 6;
+  std::vector<double> corners;
+  const Points& points = curve.points();
+  for (Index i = 0; i < curve.segments(); ++i) {
+    const size_t n = points.size(), k = static_cast<size_t>(i);
+    const Complex in = points[k] - points[(k + n - 1) % n], out = points[(k + 1) % n] - points[k];
+    if (std::abs(std::arg(out / in)) > kCorner) corners.push_back(curve.length_at(i, 0));
+  }
+  return corners;
+}
+
+constexpr Index kShifts = 200;
+
+/// Equal shares of both lengths, the source's start being `shift` / kShifts of the target's length
+/// after the target's.
+Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
   Correspondence result;
   result.source_length = source.length();
   result.target_length = target.length();
   result.source = {0, 0.5 * source.length()};
-  const double offset = target.length() * static_cast<double>(best) / kPoints;
+  const double offset = target.length() * static_cast<double>(shift) / kShifts;
   result.target = {offset, offset + 0.5 * target.length()};
   return result;
+}
+
+/// From the pair of starts that moves the least.
+Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
+  const Points from = at_equal_lengths(source, kShifts), to = at_equal_lengths(target, kShifts);
+  const Complex centre_from = mean(from), centre_to = mean(to);
+  Index best = 0;
+  double least = INFINITY;
+  for (Index shift = 0; shift < kShifts; ++shift) {
+    double sum = 0;
+    for (Index i = 0; i < kShifts; ++i)
+      sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
+                       to[static_cast<size_t>((i + shift) % kShifts)] + centre_to);
+    if (sum < least) least = sum, best = shift;
+  }
+  return by_equal_shares(source, target, best);
+}
+
+/// By how much a curve has turned at equal shares of its length, once around.
+std::vector<double> turning(const Polyline& curve) {
+  const Points points = at_equal_lengths(curve, kShifts);
+  const auto way = [&](Index i) {
+    const auto at = [&](Index k) { return points[static_cast<size_t>(k % kShifts)]; };
+    return at(i + 1) - at(i);
+  };
+  std::vector<double> turned{0};
+  for (Index i = 1; i < kShifts; ++i)
+    turned.push_back(turned.back() + std::arg(way(i) / way(i - 1)));
+  return turned;
+}
+
+/// From the pair of starts after which both turn most alike: right for strips, however one is bent.
+Correspondence by_turning(const Polyline& source, const Polyline& target) {
+  const std::vector<double> from = turning(source), to = turning(target);
+  Index best = 0;
+  double least = INFINITY;
+  for (Index shift = 0; shift < kShifts; ++shift) {
+    double sum = 0, squares = 0;
+    for (Index i = 0; i < kShifts; ++i) {
+      const Index k = i + shift;
+      const double off = to[static_cast<size_t>(k % kShifts)] + (k < kShifts ? 0 : 2 * kPi) -
+                         from[static_cast<size_t>(i)];
+      sum += off, squares += off * off;
+    }
+    const double variance = squares - sum * sum / kShifts;
+    if (variance < least) least = variance, best = shift;
+  }
+  return by_equal_shares(source, target, best);
 }
 
 }  // namespace
@@ -119,20 +182,26 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       centre_(box_of(target_.points()).center()) {
   if (!settings_.published)
     start_ = std::make_unique<ConformalStart>(source_, target_, settings_.upright, pins_);
-  const Correspondence start = start_ ? start_->best() : by_arc_length(source_, target_);
+  if (start_ && start_->is_crowded()) start_.reset();
+  build(start_                ? start_->best()
+        : settings_.published ? by_arc_length(source_, target_)
+                              : by_turning(source_, target_));
+}
+
+void OutlineFit::build(const Correspondence& start) {
+  built_ = start;
+  ++builds_;
   take_basis(start);
   take_samples();
-  first_ = start_targets(start);
   fit_.emplace(terms());
 }
 
 void OutlineFit::solve(const Points& pinned) {
-  fit_->reset();
   pinned_ = pinned;
   const Points wanted = held(pinned);
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
-  std::ranges::fill(hints_, 0);
-  fit_->start(start_ && !pins_.empty() ? start_targets(start_->best(wanted)) : first_);
+  if (start_ && !pins_.empty()) build(start_->best(wanted));
+  fit_->reset();
+  begin(built_, wanted);
   run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
       kSettled, settings_.most_iterations);
 }
@@ -141,14 +210,21 @@ void OutlineFit::follow(const Points& pinned) {
   if (iterates_.empty()) return solve(pinned);
   pinned_ = pinned;
   const Points wanted = held(pinned);
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
   if (start_ && !pins_.empty()) {
-    std::ranges::fill(hints_, 0);
-    fit_->start(start_targets(start_->follow(wanted)));
+    const Correspondence start = start_->follow(wanted);
+    if (difference(start, built_) > kFar) build(start);
+    begin(start, wanted);
   } else {
+    if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
     fit_->resume();
   }
   run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
+}
+
+void OutlineFit::begin(const Correspondence& start, const Points& wanted) {
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  std::ranges::fill(hints_, 0);
+  fit_->start(start_targets(start));
 }
 
 void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
@@ -193,7 +269,8 @@ OutlineMatch OutlineFit::after(int iteration) const {
 }
 
 // Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
-// own, which stay, so that each of its segments is cut into parts of its own.
+// own, which stay, so that each of its segments is cut into parts of its own, and for those that
+// come to the target's corners: f' is a power there.
 void OutlineFit::take_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto share = [&](double s) {
@@ -218,10 +295,21 @@ void OutlineFit::take_basis(const Correspondence& start) {
       cuts.push_back(0.5 * (low + high));
     }
   }
+  const Correspondence back = start.inverse();
+  const double length = start.source_length;
+  for (const double corner : corners_of(target_)) {
+    const double at = back(corner), once = at - std::floor(at / length) * length;
+    const auto nearest =
+        std::ranges::min_element(cuts, {}, [&](double cut) { return std::abs(cut - once); });
+    if (nearest != cuts.end()) *nearest = once;
+  }
   basis_ = cut_at(cage_, flat_, source_, std::move(cuts));
 }
 
 void OutlineFit::take_samples() {
+  samples_.clear();
+  middles_.clear();
+  sizes_.clear();
   Points inset;
   for (Index e = 0; e < basis_.size(); ++e) {
     const Complex way = basis_.vertex(e + 1) - basis_.vertex(e);
@@ -295,20 +383,21 @@ void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
 }
 
 Points OutlineFit::held(const Points& pinned) const {
-  const double margin = 0.02 * target_.diagonal();
+  constexpr int kWays = 16;
   if (settings_.published) return pinned;
   Points inside = pinned;
   for (Complex& z : inside) {
     if (winding_number(target_.points(), z) != 0) continue;
-    const Polyline::Nearest at = target_.nearest(z);
-    const auto& points = target_.points();
-    const size_t s = static_cast<size_t>(at.segment);
-    const Complex along = points[(s + 1) % points.size()] - points[s];
-    // Less where the outline is thin there.
-    for (double step = margin; step > 1e-6 * margin; step /= 2) {
-      z = at.point + step * kI * along / std::abs(along);
-      if (winding_number(points, z) != 0 && target_.nearest(z).distance > 0.5 * step) break;
-    }
+    const Complex nearest = target_.nearest(z).point;
+    // A little inside, less where the outline is thin: of the places around, the deepest one.
+    double depth = 0;
+    for (double step = 0.05 * target_.diagonal(); depth == 0; step /= 2)
+      for (int k = 0; k < kWays; ++k) {
+        const Complex place = nearest + std::polar(step, 2 * kPi * k / kWays);
+        if (winding_number(target_.points(), place) == 0) continue;
+        if (const double here = target_.nearest(place).distance; here > depth)
+          depth = here, z = place;
+      }
   }
   return inside;
 }

@@ -58,18 +58,23 @@ class OutlineFit {
   OutlineFit(const OutlineFit&) = delete;
   OutlineFit& operator=(const OutlineFit&) = delete;
 
-  /// Cost: for 200 vertices 5 ms an iteration.
+  /// Cost: for 200 vertices 5 ms an iteration, and 60 ms for a basis where there are pins.
   void solve(const Points& pinned);
-  /// The same, roughly, on from the last solution: four iterations at most.
+  /// The same, roughly: four iterations at most, from a start near the last one where there are
+  /// pins, else from the last solution.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return basis_; }
+  /// How many bases there have been: pins that go far need another one.
+  int builds() const { return builds_; }
   /// How many iterations the last call made.
   int iterations() const { return static_cast<int>(iterates_.size()) - 1; }
   /// The map after so many of them.
   OutlineMatch after(int iteration) const;
 
  private:
+  void build(const Correspondence& start);
+  void begin(const Correspondence& start, const Points& wanted);
   void take_basis(const Correspondence& start);
   void take_samples();
   std::vector<FitTerm> terms();
@@ -86,16 +91,18 @@ class OutlineFit {
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
-  double unit_;                            ///< L
-  Complex centre_;                         ///< what is fitted is f less this
-  std::unique_ptr<ConformalStart> start_;  ///< none for the published method
+  double unit_;     ///< L
+  Complex centre_;  ///< what is fitted is f less this
+  /// None for the published method, and for strips too long for it.
+  std::unique_ptr<ConformalStart> start_;
   Cage basis_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
   std::vector<Index> hints_;
   MatrixXc at_samples_;                 ///< C there
   PlanarMatrix<double> slopes_inside_;  ///< C' along the loop inside
-  VectorXc first_;                      ///< targets to start from
+  Correspondence built_;                ///< what the basis was made for
+  int builds_ = 0;
   std::optional<AlternatingFit> fit_;
   std::vector<VectorXc> iterates_;
   std::vector<double> energies_;

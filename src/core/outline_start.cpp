@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "core/arithmetic.h"
 #include "core/curve.h"
 #include "core/error.h"
 #include "core/riemann.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr Index kPoints = 800;
 constexpr size_t kStride = 4;  ///< of the places that the search looks at
-constexpr double kPinWeight = 10;
+constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
@@ -27,13 +28,15 @@ struct Seen {
   RiemannMap map;
   Points on_circle = {};  ///< e^(i angle)
 
-  /// In the disk; what is outside the outline, or all but on it, is just inside its nearest place.
+  /// In the disk; what is outside the outline is just inside its nearest place.
   Complex in_disk(Complex z) const {
-    constexpr double kMost = 0.98;
-    if (winding_number(points, z) != 0)
-      if (const Complex w = map.at(z); std::abs(w) < kMost) return w;
+    constexpr double kMost = 1 - 1e-9, kInside = 0.98;
+    if (winding_number(points, z) != 0) {
+      const Complex w = map.at(z);
+      return w * std::min(1.0, kMost / std::abs(w));
+    }
     const Polyline::Nearest at = line->nearest(z);
-    return std::polar(kMost, angle_at(line->length_at(at.segment, at.parameter)));
+    return std::polar(kInside, angle_at(line->length_at(at.segment, at.parameter)));
   }
 
   /// By linear interpolation.
@@ -148,14 +151,11 @@ struct ConformalStart::Search {
   /// Of every `stride`-th place.
   std::vector<double> target_lengths(const DiskMap& map, size_t stride = 1) const {
     std::vector<double> lengths;
-    double before = -std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < source.on_circle.size(); i += stride) {
-      double length = target.arc_length_at(map.angle(source.on_circle[i]));
-      if (lengths.empty())
-        length -= std::floor(length / target.length) * target.length;
-      else
-        while (length < before) length += target.length;
-      lengths.push_back(before = length);
+      const double length = target.arc_length_at(map.angle(source.on_circle[i]));
+      lengths.push_back(lengths.empty()
+                            ? length - std::floor(length / target.length) * target.length
+                            : next_in_turn(lengths.back(), length, target.length));
     }
     return lengths;
   }
@@ -302,6 +302,10 @@ struct ConformalStart::Search {
   }
 };
 
+Correspondence Correspondence::inverse() const {
+  return {target, source, target_length, source_length, log_stretch};
+}
+
 ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
                                const Points& pins)
     : search_(new Search{seen(source), seen(target), upright, {}, {}}) {
@@ -309,6 +313,17 @@ ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, d
 }
 
 ConformalStart::~ConformalStart() = default;
+
+bool ConformalStart::is_crowded() const {
+  constexpr double kApart = 1e-12, kMost = 0.2;
+  const auto crowded = [&](const Seen& seen) {
+    Index close = 0;
+    for (Index i = 1; i < seen.angles.size(); ++i)
+      close += seen.angles[i] - seen.angles[i - 1] < kApart;
+    return static_cast<double>(close) > kMost * static_cast<double>(seen.angles.size());
+  };
+  return crowded(search_->source) || crowded(search_->target);
+}
 
 Correspondence ConformalStart::best(const Points& pinned) {
   search_->want(pinned);

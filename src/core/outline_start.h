@@ -22,6 +22,8 @@ struct Correspondence {
 
   /// The target's arc length for one of the source's.
   double operator()(double length) const;
+  /// From the target's arc lengths to the source's.
+  Correspondence inverse() const;
 };
 
 /// The conformal maps of one outline's inside to another's: both seen from the disk, and which of
@@ -39,6 +41,9 @@ class ConformalStart {
   ConformalStart(const ConformalStart&) = delete;
   ConformalStart& operator=(const ConformalStart&) = delete;
 
+  /// Whether places of one of the outlines cannot be told apart on the disk's circle any more, as
+  /// those at the ends of strips twelve times as long as wide: no start can be found then.
+  bool is_crowded() const;
   /// With pins wanted there, or without any. Cost: 3 to 25 ms.
   Correspondence best(const Points& pinned = {});
   /// The same, on from the last one; about 4 ms.

@@ -79,10 +79,9 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex centre) {
     const Complex on_axis(-straight * straight, 0);
     const Complex on_circle =
         i == 0 ? Complex(1) : (on_axis - centre_) / (on_axis - std::conj(centre_));
-    double angle = std::arg(on_circle);
-    if (i > 0)
-      while (angle <= angles_[static_cast<Index>(i) - 1]) angle += 2 * kPi;
-    angles_[static_cast<Index>(i)] = angle;
+    const double angle = std::arg(on_circle);
+    angles_[static_cast<Index>(i)] =
+        i == 0 ? angle : next_in_turn(angles_[static_cast<Index>(i) - 1], angle, 2 * kPi);
   }
 }
 

@@ -52,7 +52,8 @@ class Nearest {
 
 }  // namespace
 
-void bleed(Image& image, const std::vector<bool>& covered, double reach) {
+void bleed(Image& image, const std::vector<bool>& covered, double reach,
+           const std::function<bool(int, int)>& is_shown) {
   check(covered.size() == static_cast<size_t>(image.width) * static_cast<size_t>(image.height),
         "bleed: whether each pixel is covered");
   const Nearest nearest(image.width, image.height, covered);
@@ -60,8 +61,9 @@ void bleed(Image& image, const std::vector<bool>& covered, double reach) {
     for (int c = 0; c < image.width; ++c) {
       const Pixel from = nearest.at(c, r);
       const double distance = Nearest::distance(c, r, from);
-      if (distance > 0 && distance <= reach)
-        std::memcpy(image.at(c, r), image.at(from.c, from.r), 4);
+      if (!(distance > 0 && distance <= reach)) continue;
+      std::memcpy(image.at(c, r), image.at(from.c, from.r), 3);
+      image.at(c, r)[3] = is_shown(c, r) ? image.at(from.c, from.r)[3] : 0;
     }
 }
 

@@ -94,8 +94,17 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.source)
     least = {0, 0, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
              std::max(1, static_cast<int>(std::lround(height * scale)))};
-  double left = least.left, top = least.top, right = least.width, bottom = least.height;
-  if (job.mesh && !(job.crop && job.source)) {
+  if (job.shows) {
+    const Box& box = *job.shows;
+    least.left = static_cast<int>(std::floor(std::clamp(box.left * scale, -1e8, 1e8)));
+    least.top = static_cast<int>(std::floor(std::clamp((height - box.top) * scale, -1e8, 1e8)));
+    check_size(box.width() * scale + 1, box.height() * scale + 1);
+    least.width = static_cast<int>(std::ceil(box.right * scale)) - least.left;
+    least.height = static_cast<int>(std::ceil((height - box.bottom) * scale)) - least.top;
+  }
+  double left = least.left, top = least.top, right = least.left + least.width,
+         bottom = least.top + least.height;
+  if (job.mesh && !job.shows && !(job.crop && job.source)) {
     const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
     constexpr double kRounding = 1e-3;  // operators in single precision
@@ -113,7 +122,7 @@ RasterResult rasterized(const RasterJob& job) {
               static_cast<int>(bottom - top)};
   Image image =
       drawn(job, frame.left / scale, height - frame.top / scale, frame.width, frame.height);
-  if (!job.crop) trim(image, frame, least);
+  if (!job.crop && !job.shows) trim(image, frame, least);
   return {std::move(image), {frame.left / scale, height - (frame.top + frame.height) / scale}};
 }
 

@@ -21,6 +21,7 @@ struct RasterJob {
   double pixels_per_unit = 1;  ///< output pixels per image pixel
   bool surroundings = true;    ///< draw the source outside the rest cage, too
   bool crop = false;           ///< keep the source's rectangle; else nothing is cut off
+  std::optional<Box> shows;    ///< exactly this part of the plane, in whole pixels around it
   int threads = 0;             ///< 0: as many as the machine has cores
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/polyline.h"
 #include "raster/bleed.h"
 #include "raster/raster.h"
 #include "scene/file.h"
@@ -13,21 +14,12 @@ namespace holomorph {
 
 namespace {
 
-/// Which pixels of a picture the posed map covers wholly: a checker is opaque there.
-std::vector<bool> covered(RasterJob job, const RasterResult& picture) {
+/// Which pixels the posed map covers wholly: a checker is opaque there.
+std::vector<bool> covered(RasterJob job) {
   job.view = View::checker;
-  const auto [checker, corner] = rasterized(job);
-  const Image& image = picture.image;
-  // Both are cut to what they show.
-  const double height = (picture.corner.imag() - corner.imag()) * job.pixels_per_unit;
-  const int right = static_cast<int>(
-                std::lround((picture.corner.real() - corner.real()) * job.pixels_per_unit)),
-            down = checker.height - image.height - static_cast<int>(std::lround(height));
+  const Image checker = rasterized(job).image;
   std::vector<bool> inside;
-  for (int r = down; r < down + image.height; ++r)
-    for (int c = right; c < right + image.width; ++c)
-      inside.push_back(c >= 0 && c < checker.width && r >= 0 && r < checker.height &&
-                       checker.at(c, r)[3] == 255);
+  for (size_t i = 3; i < checker.pixels.size(); i += 4) inside.push_back(checker.pixels[i] == 255);
   return inside;
 }
 
@@ -35,8 +27,8 @@ std::vector<bool> covered(RasterJob job, const RasterResult& picture) {
 
 TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const Image* source,
                          double scale) {
-  // Of the picture, more than an outline is missed by; and px that filters look at.
-  constexpr double kReach = 0.02, kFilter = 4;
+  // Of the picture, more than most outlines are missed by; and px that filters look at.
+  constexpr double kReach = 0.03, kFilter = 2;
   if (!source || !scene.has_cage())
     throw Error(ErrorKind::bad_input, "a texture needs a picture and a cage");
   const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
@@ -48,28 +40,44 @@ TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const I
   job.source = source;
   job.pixels_per_unit = scale;
   job.surroundings = false;
+  Box box = box_of(surface.plane);
+  const Complex margin = Complex(1, 1) * (kFilter + 1) / scale;
+  const Complex low(box.left, box.bottom), high(box.right, box.top);
+  box.include(low - margin);
+  box.include(high + margin);
+  job.shows = box;
   RasterResult drawn = rasterized(job);
-  bleed(drawn.image, covered(job, drawn),
-        kReach * std::max(drawn.image.width, drawn.image.height) + kFilter);
+  const int rows = drawn.image.height;
+  const double width = drawn.image.width / scale, height = rows / scale;
+  const Polyline edge(surface.outline(), true);
+  const auto is_shown = [&](int c, int r) {
+    const Complex z = drawn.corner + Complex(c + 0.5, rows - r - 0.5) / scale;
+    return edge.nearest(z).distance * scale <= kFilter || winding_number(edge.points(), z) != 0;
+  };
+  bleed(drawn.image, covered(job), kReach * std::max(drawn.image.width, rows) + 2 * kFilter,
+        is_shown);
   TexturedSurface result{std::move(drawn.image), {}};
-  const double width = result.texture.width / scale, height = result.texture.height / scale;
   for (const Complex& z : surface.plane) {
-    const double u = (z.real() - drawn.corner.real()) / width,
-                 v = (z.imag() - drawn.corner.imag()) / height;
-    // Beyond the picture it is transparent, as its edge is there.
-    result.coordinates.push_back({std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, 1.0)});
+    const Complex at = z - drawn.corner;
+    result.coordinates.push_back({at.real() / width, at.imag() / height});
   }
   return result;
 }
 
+std::array<Path, 3> files_of_textured(const Path& path) {
+  const auto with = [&](const char* extension) { return Path(path).replace_extension(extension); };
+  return {path, with(".mtl"), with(".png")};
+}
+
 void write_textured(const std::filesystem::path& path, const LaidSurface& surface,
                     const TexturedSurface& textured) {
-  Path material = path, texture = path;
-  material.replace_extension(".mtl");
-  texture.replace_extension(".png");
+  if (lower_case(path.extension().string()) != ".obj")
+    throw Error(ErrorKind::bad_input,
+                path.string() + ": a textured surface is an OBJ file; end the name with .obj");
+  const auto [obj, material, texture] = files_of_textured(path);
   write_file(texture, encode_png(textured.texture));
   write_file(material, material_of(texture.filename().string()));
-  write_file(path, obj_of(surface.surface, textured.coordinates, material.filename().string()));
+  write_file(obj, obj_of(surface.surface, textured.coordinates, material.filename().string()));
 }
 
 }  // namespace holomorph

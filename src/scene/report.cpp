@@ -5,6 +5,7 @@
 
 #include "core/cauchy.h"
 #include "core/clock.h"
+#include "core/injectivity.h"
 
 namespace holomorph {
 namespace {
@@ -78,6 +79,7 @@ SceneReport report_of(const Scene& scene) {
   report.mesh_triangles = static_cast<int>(prepared->mesh->triangles.size());
   report.prepare_milliseconds = prepared->milliseconds;
   report.map = report_of(*prepared->mesh, map);
+  report.folds_visibly = injectivity_of(*prepared->mesh, map.f).folds();
   const double length = perimeter(outline_of(scene.rest)) / (2 * kPi);
   report.smoothness_energy =
       smoothness(*prepared->mesh, prepared->rest.derivative_samples, map, length);
@@ -104,6 +106,7 @@ std::string json_of(const SceneReport& report) {
       {"simple_boundary", report.map.simple_boundary},
       {"flipped_triangles", report.map.flipped_triangles},
       {"locally_injective", report.map.locally_injective()},
+      {"folds_visibly", report.folds_visibly},
       {"certified", report.status == "certified"},
       {"cage_vertices", report.cage_vertices},
       {"pins", report.pins},
@@ -127,7 +130,10 @@ std::string text_of(const SceneReport& report) {
       report.prepare_milliseconds, report.pose_milliseconds, report.map.max_k, report.map.min_sigma,
       report.map.max_sigma, report.map.zeros.size(), report.map.turning_number,
       report.map.simple_boundary ? "yes" : "no", report.map.flipped_triangles,
-      report.mesh_triangles, report.map.locally_injective() ? "none found" : "yes",
+      report.mesh_triangles,
+      report.map.locally_injective() ? "none found"
+      : report.folds_visibly         ? "yes"
+                                     : "specks only",
       report.status == "certified" ? "yes" : "no", report.cage_vertices, report.pins,
       report.mesh_vertices, report.mesh_triangles);
   return text;

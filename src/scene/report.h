@@ -15,6 +15,7 @@ struct SceneReport {
   double smoothness_energy = 0;  ///< mean |f_zz|^2 L^2 over triangles, dimensionless
   double pin_rms = 0;            ///< root mean square distance of pins from their targets, pixels
   MapReport map;
+  bool folds_visibly = false;  ///< as the editor tells it: but for specks
 };
 
 /// Prepares the scene's map in full precision and measures it. Throws Error for a scene without a

@@ -94,3 +94,20 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
   CHECK(std::min(std::abs(*found.fold - Complex(0, 2 * 216)),
                  std::abs(*found.fold + Complex(0, 2 * 216))) < 120);
 }
+
+TEST_CASE("Injectivity: loops that cannot be seen are no folds, others are") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(400, 300), {3000});
+  for (const double reach : {2.0, 120.0}) {
+    // A corner is turned over.
+    VectorXc f(static_cast<Index>(mesh.vertices.size()));
+    for (Index i = 0; i < f.size(); ++i) {
+      const Complex z = mesh.vertices[static_cast<size_t>(i)];
+      const double depth = reach - z.real() - z.imag();  // beyond the line x + y = reach
+      f[i] = depth > 0 ? z + 1.2 * depth * Complex(1, 1) : z;
+    }
+    const Injectivity found = injectivity_of(mesh, f);
+    INFO("reach " << reach);
+    CHECK(found.folds() == (reach > 10));
+    CHECK((found.least_stretch < 0) == (reach > 10));
+  }
+}

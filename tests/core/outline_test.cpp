@@ -366,6 +366,65 @@ TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing 
   CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
 }
 
+TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing folds") {
+  const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}},
+      strip{{0, 0}, {1000, 0}, {1000, 200}, {0, 200}}, round = circle({150, 150}, 150, 60);
+  struct Case {
+    Points from, to;
+    Complex pin;
+    std::vector<Complex> wanted;
+  };
+  for (const auto& [from, to, pin, wanted] :
+       {Case{square, square, {150, 150}, {{180, 150}, {225, 150}, {280, 150}, {200, 200}}},
+        Case{round, square, {150, 150}, {{240, 150}}},
+        Case{strip, strip, {800, 100}, {{650, 100}, {300, 100}}}}) {
+    OutlineFit fit(polygon_cage(from), to, {pin}, {});
+    const double size = Polyline(to, true).diagonal();
+    for (const Complex& place : wanted)
+      for (const bool rough : {false, true}) {
+        INFO(place << (rough ? " followed" : ""));
+        if (rough)
+          fit.follow({place});
+        else
+          fit.solve({place});
+        const OutlineMatch match = fit.after(fit.iterations());
+        CHECK(match.zeros == 0);
+        CHECK(match.pins_missed < 2e-3 * size);
+        CHECK(match.hausdorff < 0.025 * size);  // a corner is rounded
+      }
+  }
+  // Beyond a side, and beyond a corner, which is no nearer place to be held at.
+  OutlineFit fit(polygon_cage(square), square, {{150, 150}}, {});
+  for (const Complex outside : {Complex(450, 150), Complex(400, 400), Complex(-90, -20)}) {
+    fit.solve({outside});
+    const OutlineMatch match = fit.after(fit.iterations());
+    INFO(outside);
+    CHECK(match.pins_held == 1);
+    CHECK(match.pins_missed < 0.01 * Polyline(square, true).diagonal());
+    CHECK(match.hausdorff < 0.04 * Polyline(square, true).diagonal());
+  }
+}
+
+TEST_CASE("Outline: strips whose ends the disk cannot tell apart are matched all the same") {
+  for (const double aspect : {8.0, 20.0, 40.0}) {
+    INFO("aspect " << aspect);
+    const double length = 100 * aspect;
+    const Points straight{{0, 0}, {length, 0}, {length, 100}, {0, 100}};
+    Points bent;
+    for (const int side : {0, 1})
+      for (int i = 0; i <= 100; ++i) {
+        const double t = side == 0 ? i / 100.0 : 1 - i / 100.0;
+        bent.push_back(std::polar(length / 3 + (side == 0 ? 50 : -50), 3 * t - 1.5));
+      }
+    for (const Points& onto : {straight, bent}) {
+      const OutlineMatch match = matched({polygon_cage(straight), onto, {}, {}}, {});
+      CHECK(match.zeros == 0);
+      CHECK(match.hausdorff < 0.015 * Polyline(onto, true).diagonal());
+      CHECK(match.basis.size() < 300);
+    }
+  }
+}
+
 TEST_CASE("Outline: pins that contradict each other are said to") {
   const Cage cage = polygon_cage(outlines::random(41, false, 50));
   const Points around = outlines::random(42, false, 300);

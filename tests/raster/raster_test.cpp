@@ -190,7 +190,7 @@ TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others st
   for (size_t i = 0; i < covered.size(); ++i) covered[i] = random() % 60 == 0;
   const double reach = 6;
   Image after = before;
-  bleed(after, covered, reach);
+  bleed(after, covered, reach, [](int, int) { return true; });
   int bled = 0, kept = 0;
   for (int r = 0; r < h; ++r)
     for (int c = 0; c < w; ++c) {
@@ -214,7 +214,14 @@ TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others st
     }
   CHECK((bled > 500 && kept > 30));
   Image none = before;
-  bleed(none, std::vector<bool>(covered.size()), 100);
+  bleed(none, std::vector<bool>(covered.size()), 100, [](int, int) { return true; });
+  CHECK(none.pixels == before.pixels);
+  Image hidden = before;
+  bleed(hidden, covered, reach, [](int, int) { return false; });
+  for (size_t i = 0; i < covered.size(); ++i) {
+    const bool changed = std::memcmp(&hidden.pixels[4 * i], &before.pixels[4 * i], 3) != 0;
+    if (changed) REQUIRE(hidden.pixels[4 * i + 3] == 0);
+  }
   CHECK(none.pixels == before.pixels);
 }
 
@@ -228,22 +235,32 @@ TEST_CASE("A texture has the picture's colours up to the surface's edge and a li
   const std::string file = std::string(HOLOMORPH_SOURCE) + "/assets/mask.obj";
   scene.surface = SurfaceReference{file, Flattening::circle};
   Box onto;
-  onto.include({40, 20});
-  onto.include({160, 140});
+  onto.include({40, -20});
+  onto.include({160, 190});  // beyond the picture
   scene.outline =
       laid_onto(surface_of_obj(read_file(file), file).surface, Flattening::circle, onto).outline();
   scene.method = "outline";
   for (const double scale : {0.5, 1.0, 3.0}) {
     const TexturedSurface on = textured(laid_surface_of(scene), scene, &image, scale);
     const int w = on.texture.width, h = on.texture.height;
-    CHECK(on.texture.at(0, 0)[3] == 0);  // what is around the cage is not part of it
-    for (const Complex& uv : on.coordinates)
+    CHECK(on.texture.at(0, 0)[3] == 0);  // what is around the surface is not part of it
+    for (const Complex& uv : on.coordinates) {
+      REQUIRE(std::min({uv.real(), uv.imag(), 1 - uv.real(), 1 - uv.imag()}) > 0);
       for (const Complex& off : {Complex(0), Complex(1, 0), Complex(-1, 0), Complex(0, 1)}) {
-        const int c = std::clamp(static_cast<int>(uv.real() * w + off.real()), 0, w - 1),
-                  r = std::clamp(static_cast<int>((1 - uv.imag()) * h + off.imag()), 0, h - 1);
+        const int c = static_cast<int>(uv.real() * w + off.real()),
+                  r = static_cast<int>((1 - uv.imag()) * h + off.imag());
+        REQUIRE((c >= 0 && c < w && r >= 0 && r < h));
         REQUIRE(on.texture.at(c, r)[3] == 255);
         REQUIRE(on.texture.at(c, r)[1] == 40);
       }
+    }
+    // The same similarity everywhere: a pixel is a pixel.
+    const LaidSurface laid = laid_surface_of(scene);
+    const Complex first = on.coordinates[0], last = on.coordinates.back();
+    CHECK((last - first).real() * w ==
+          Approx(scale * (laid.plane.back() - laid.plane[0]).real()).margin(1e-6));
+    CHECK((last - first).imag() * h ==
+          Approx(scale * (laid.plane.back() - laid.plane[0]).imag()).margin(1e-6));
   }
   CHECK_THROWS_AS(textured(laid_surface_of(scene), scene, nullptr), Error);
 }

@@ -26,7 +26,7 @@ class OutlineDeformer final : public Deformer {
       return;
     }
     fit_ = new_fit();
-    value_ = planar_coordinates<T>(fit_->basis(), rest.samples);
+    take_values();
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
@@ -112,8 +112,15 @@ class OutlineDeformer final : public Deformer {
       fit_->follow(wanted);
     else
       fit_->solve(wanted);
+    if (fit_->builds() != built_) take_values();
     solved_ = std::move(wanted);
     draft_ = draft;
+  }
+
+  void take_values() {
+    built_ = fit_->builds();
+    value_ = planar_coordinates<T>(fit_->basis(), rest_.samples);
+    slope_ = {};
   }
 
   static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
@@ -136,14 +143,14 @@ class OutlineDeformer final : public Deformer {
                        (match.iterations == 1 ? " step" : " steps");
     if (match.zeros > 0) note += "; the picture folds: f' has zeros";
     const bool reached = match.hausdorff <= kReached * size,
-               pinned = match.pins_missed <= kReached * size;
+               met = match.pins_missed <= kReached * size;
     if (match.pins_held > 0)
       note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
                                    : "; pins are wanted outside of it and held inside";
-    else if (pins_.used.size() > 1 && !(reached && pinned))
-      // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
-      note += "; the pins contradict each other there, one is missed by " +
-              percent(match.pins_missed) + ": fewer pins or more softness help";
+    if (!met) note += "; a pin is missed by " + percent(match.pins_missed);
+    // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
+    if (pins_.used.size() > 1 && !(reached && met))
+      note += "; the pins contradict each other there: fewer of them or more softness help";
     else if (!reached)
       note += "; not all of it is reached: more softness goes farther";
     return note;
@@ -154,9 +161,10 @@ class OutlineDeformer final : public Deformer {
   ActingPins pins_;
   std::unique_ptr<Deformer> free_;  ///< cage and pins, until there is an outline
   std::unique_ptr<OutlineFit> fit_;
-  PlanarMatrix<T> value_, slope_;
-  std::optional<Points> solved_;  ///< pins' places
-  bool draft_ = false;            ///< roughly
+  int built_ = 0;
+  PlanarMatrix<T> value_, slope_;  ///< C and C' of that basis
+  std::optional<Points> solved_;   ///< pins' places
+  bool draft_ = false;             ///< roughly
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
