@@ -20,7 +20,7 @@ vec4 bled(vec4 here) {
 
 void main() {
   vec4 here = textured ? bled(texture(picture, uv)) : vec4(0.0);
-  vec3 n = normalize(seen_normal);
+  vec3 n = seen_normal / max(length(seen_normal), 1e-30);
   bool behind = dot(n, seen) > 0.0;
   if (behind) n = -n;
   vec3 light = normalize(vec3(-0.35, 0.55, 1.0));

@@ -4,6 +4,15 @@
 #include <utility>
 
 namespace holomorph {
+namespace {
+
+/// Texture px per plane unit: a power of two, so that a box a pixel larger has the same.
+double texture_zoom(const Box& box) {
+  const double most = is_software_driver() ? 1024 : 2048;
+  return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
+}
+
+}  // namespace
 
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   update_heat(workspace);
@@ -36,12 +45,20 @@ Frame Canvas::frame_of(const Workspace& workspace) const {
   return frame;
 }
 
+Box Canvas::whole_pixels(const Box& box) {
+  const double zoom = texture_zoom(box), width = std::ceil(zoom * box.width() + 1) / zoom,
+               height = std::ceil(zoom * box.height() + 1) / zoom;
+  Box whole;
+  whole.include(box.center() - 0.5 * Complex(width, height));
+  whole.include(box.center() + 0.5 * Complex(width, height));
+  return whole;
+}
+
 void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay) {
-  const double most = is_software_driver() ? 1024 : 2048;  // px
   Frame frame = frame_of(workspace);
-  frame.zoom = most / std::max(box.width(), box.height());
-  frame.window_width = static_cast<int>(std::ceil(frame.zoom * box.width()));
-  frame.window_height = static_cast<int>(std::ceil(frame.zoom * box.height()));
+  frame.zoom = texture_zoom(box);
+  frame.window_width = static_cast<int>(std::lround(frame.zoom * box.width()));
+  frame.window_height = static_cast<int>(std::lround(frame.zoom * box.height()));
   frame.canvas_width = frame.window_width;
   frame.canvas_height = frame.window_height;
   frame.center = box.center();

@@ -22,8 +22,10 @@ class Canvas {
   /// Uploads what changed since the last frame and draws. The map must be up to date.
   void draw(Workspace& workspace, const CanvasFrame& frame);
 
-  /// Draws the posed map alone, this box of the plane filling the picture, with `clay` where the
-  /// picture is transparent. What changed must have been uploaded by draw.
+  /// A box of the plane, enlarged to the whole pixels that draw_map makes of it.
+  static Box whole_pixels(const Box& box);
+  /// Draws the posed map alone, such a box filling the picture, with `clay` where the picture is
+  /// transparent. What changed must have been uploaded by draw.
   void draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay);
 
   const HeatScale& heat_scale() const { return heat_scale_; }

@@ -121,7 +121,11 @@ class Editor {
     if (key.mods == Modifiers{} && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
-    if (current_tool().busy() && !only_looks(key)) return;  // a gesture is finished first
+    if (current_tool().busy() && !only_looks(key)) {  // a gesture is finished first
+      if (key == Shortcut{'Z', {true, false, false}})
+        current_tool().key(Key::backspace, workspace_);
+      return;
+    }
     if (const Action* action = action_for(key, workspace_)) holomorph::run(*action, workspace_);
   }
 
@@ -243,7 +247,7 @@ class Editor {
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
-      if (surface_pane_.hovered()) status.hint = SurfacePane::hint();
+      if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
         status.cursor_at_rest = workspace_.rest_at(input.position);

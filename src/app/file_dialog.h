@@ -28,6 +28,7 @@ class FileDialog {
   void ask(FileQuestion question, Answer answer);
   /// Where questions without a start begin from now on.
   void start_in(const Path& folder) { folder_ = folder; }
+  const Path& folder() const { return folder_; }
   bool open() const { return open_; }
   /// Draws the dialog while it is open.
   void draw(double scale);

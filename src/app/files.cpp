@@ -57,10 +57,23 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
-  if (lower_case(path.extension().string()) == ".obj" && workspace_.document.scene().has_cage())
+  const std::string kind = lower_case(path.extension().string());
+  const Document& document = workspace_.document;
+  if ((kind == ".obj" || kind == ".svg") && document.scene().has_cage())
     complain(import_outline(path));
+  else if (kind == ".svg" && document.image())
+    complain(import_svg(path, false));
+  else if (kind == ".obj" && document.image())
+    complain(path.filename().string() +
+             ": the picture needs a cage before it can go onto a surface. Make one and drop the "
+             "surface again");
   else
     ask_open(path);
+}
+
+Path Files::beside_document(const std::string& name) const {
+  const Path& document = workspace_.document.path();
+  return (document.empty() ? dialog_.folder() : document.parent_path()) / name;
 }
 
 void Files::ask_sample(const Path& scene) {
@@ -112,7 +125,7 @@ void Files::save(bool as, const Then& then) {
   if (!as && !document.path().empty()) return complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.image_path().empty())
-    start = Path(document.image_path()).replace_extension(".json");
+    start = beside_document(document.image_path().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
   dialog_.ask({FileQuestion::Mode::save, "Save the scene", "Save", {".json"}, start, false},
               [this, then](const Path& path, double) { return save_to(path, then); });
@@ -141,11 +154,9 @@ std::string Files::export_to(const Path& path, double scale) {
 
 void Files::ask_export() {
   const Document& document = workspace_.document;
-  Path start = export_path_;
-  if (start.empty()) start = document.path().empty() ? document.image_path() : document.path();
-  if (start.empty()) start = "picture";
-  // Never offer to replace the source picture itself.
-  if (export_path_.empty()) start.replace_filename(start.stem().string() + "-bent.png");
+  const Path& source = document.path().empty() ? document.image_path() : document.path();
+  const std::string stem = source.empty() ? "picture" : source.stem().string();
+  const Path start = export_path_.empty() ? beside_document(stem + "-bent.png") : export_path_;
   dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
               [this](const Path& path, double scale) { return export_to(path, scale); });
 }
@@ -196,10 +207,9 @@ std::string Files::import_outline(const Path& path) {
 }
 
 void Files::ask_export_svg() {
-  Path start = workspace_.document.path().empty() ? workspace_.document.image_path()
-                                                  : workspace_.document.path();
-  if (start.empty()) start = "cage";
-  start.replace_extension(".svg");
+  const Document& document = workspace_.document;
+  const Path& source = document.path().empty() ? document.image_path() : document.path();
+  const Path start = beside_document((source.empty() ? "cage" : source.stem().string()) + ".svg");
   dialog_.ask({FileQuestion::Mode::save, "Export the cage", "Export", {".svg"}, start, false},
               [this](const Path& path, double) -> std::string {
                 try {
@@ -229,9 +239,9 @@ std::string Files::export_surface(const Path& path, double scale) {
 
 void Files::ask_export_surface() {
   const Document& document = workspace_.document;
-  Path start = document.path().empty() ? document.image_path() : document.path();
-  const Path surface(document.scene().surface->file);
-  start.replace_filename(start.stem().string() + "-" + surface.stem().string() + ".obj");
+  const Path& source = document.path().empty() ? document.image_path() : document.path();
+  const Path start = beside_document(source.stem().string() + "-" +
+                                     Path(document.scene().surface->file).stem().string() + ".obj");
   dialog_.ask({FileQuestion::Mode::save,
                "Export the surface with the picture on it",
                "Export",

@@ -19,7 +19,8 @@ class Files {
   /// what is wrong, or "".
   std::string open(const Path& path);
   void ask_open(const Path& path);
-  /// The same for a dropped file, but a surface becomes the outline where there is a cage.
+  /// The same for a dropped file, but surfaces and SVG paths become the outline where there is a
+  /// cage, and a path the cage where there is none.
   void drop(const Path& path);
   /// Opens a copy of a scene, which has no file of its own yet.
   void ask_sample(const Path& scene);
@@ -48,6 +49,8 @@ class Files {
   std::string export_to(const Path& path, double scale);
   /// Shows a problem that no dialog is there to show.
   void complain(const std::string& problem);
+  /// A name in the folder of the document, or where files were chosen last.
+  Path beside_document(const std::string& name) const;
   void ask_export();
   void ask_svg(bool pose);
   std::string import_svg(const Path& path, bool pose);

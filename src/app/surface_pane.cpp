@@ -13,24 +13,35 @@ namespace {
 
 constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 
-/// A laid surface again from its file, where the outline is.
+/// The surface again from its file, its boundary where the outline is.
 void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
   const Scene& scene = workspace.document.scene();
   try {
-    const Path file(scene.surface->file);
-    take_outline(workspace, label, outline_of_file(file, 0, box_of(scene.outline), how),
-                 surface_of_file(file, how));
+    SurfaceReference surface = *scene.surface;
+    surface.flattening = how;
+    take_outline(workspace, label, outline_of_file(surface.file, 0, box_of(scene.outline), how),
+                 surface);
   } catch (const Error& error) {
     workspace.complain(error);
   }
 }
 
+/// When a file was last changed; the same for all that are missing.
+std::filesystem::file_time_type time_of(const Path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? std::filesystem::file_time_type::min() : time;
+}
+
 }  // namespace
 
 void SurfacePane::follow(const Scene& scene) {
-  if (shown_ != scene.surface) {
+  if (const auto time = time_of(scene.surface->file); shown_ != scene.surface || time != read_) {
     shown_ = scene.surface;
+    read_ = time;
     flat_.reset();
+    laid_.reset();
+    problem_.clear();
     fitted_ = 0;
     outline_.clear();
     try {
@@ -40,6 +51,7 @@ void SurfacePane::follow(const Scene& scene) {
       drawing_->renderer.set_surface(flat_->surface);
     } catch (const Error& error) {
       problem_ = about(shown_->file, error).what();
+      problem_ += ". The picture still goes onto its outline.";
     }
   }
   if (!flat_ || outline_ == scene.outline) return;
@@ -48,20 +60,18 @@ void SurfacePane::follow(const Scene& scene) {
   problem_.clear();
   try {
     laid_ = laid_along(*flat_, outline_);
-    const Box box = box_of(laid_->plane);
+    box_ = Canvas::whole_pixels(box_of(laid_->plane));
     Points coordinates;
     for (const Complex& z : laid_->plane)
       coordinates.push_back(
-          {(z.real() - box.left) / box.width(), (z.imag() - box.bottom) / box.height()});
+          {(z.real() - box_.left) / box_.width(), (z.imag() - box_.bottom) / box_.height()});
     drawing_->renderer.set_coordinates(coordinates);
   } catch (const Error&) {
-    problem_ = "The outline is no longer the surface's boundary: it was bent.";
+    problem_ = "The outline is not the surface's boundary: one of the two was changed.";
   }
 }
 
 void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style) {
-  if (!drawing_) drawing_ = std::make_unique<Drawing>();
-  follow(workspace.scene());
   const Viewport& view = workspace.viewport;
   const float s = static_cast<float>(style.scale);
   const PanelSizes sizes = PanelSizes::at(style.scale);
@@ -71,9 +81,15 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
   ImGui::SetNextWindowSize({right - left, static_cast<float>(view.height)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 8 * s});
   ImGui::Begin("Surface", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  draw_header(workspace, s);
   hovered_ = false;
-  if (flat_) draw_surface(workspace, canvas, style);
+  try {
+    if (!drawing_) drawing_ = std::make_unique<Drawing>();
+    follow(workspace.scene());
+    draw_header(workspace, s);
+    if (flat_) draw_surface(workspace, canvas, style);
+  } catch (const Error& error) {  // of the driver: the rest of the window does without
+    ImGui::TextWrapped("%s", error.what());
+  }
   ImGui::End();
   ImGui::PopStyleVar();
 }
@@ -128,7 +144,7 @@ void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
     moved_ = false;
   }
   const Color clay{0.72f, 0.70f, 0.67f};
-  if (laid_) canvas.draw_map(workspace, box_of(laid_->plane), drawing_->flat, clay);
+  if (laid_) canvas.draw_map(workspace, box_, drawing_->flat, clay);
   // Twice the pixels each way, which the display averages.
   const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
   drawing_->space.bind(width, height);

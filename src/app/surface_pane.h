@@ -37,9 +37,11 @@ class SurfacePane {
 
   std::unique_ptr<Drawing> drawing_;
   std::optional<SurfaceReference> shown_;
-  Points outline_;                   ///< that `laid_` was laid along
-  std::optional<LaidSurface> flat_;  ///< as it was flattened; none when it cannot be read
+  std::filesystem::file_time_type read_;  ///< its file's time when it was read
+  Points outline_;                        ///< that `laid_` was laid along
+  std::optional<LaidSurface> flat_;       ///< as it was flattened; none when it cannot be read
   std::optional<LaidSurface> laid_;
+  Box box_;  ///< of the plane, that the texture shows
   OrbitCamera camera_;
   double fitted_ = 0;    ///< aspect of the view that the camera shows all in; 0: it is to be fitted
   bool moved_ = false;   ///< the user has moved the camera

@@ -297,13 +297,13 @@ struct ConformalStart::Search {
     for (Index i = 0; i < kPoints; ++i)
       result.source.push_back(source.offset + source.length * static_cast<double>(i) /
                                                   static_cast<double>(kPoints));
-    result.log_stretch = std::sqrt(cost(chosen));
+    result.badness = std::sqrt(cost(chosen));
     return result;
   }
 };
 
 Correspondence Correspondence::inverse() const {
-  return {target, source, target_length, source_length, log_stretch};
+  return {target, source, target_length, source_length, badness};
 }
 
 ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
@@ -359,7 +359,6 @@ Complex deepest_point(const Polyline& outline) {
         if (distance > most && winding_number(outline.points(), z) != 0) most = distance, best = z;
       }
   }
-  // A domain thinner than the grid: beside the middle of its longest side.
   if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
   return best;
 }

@@ -18,7 +18,7 @@ Complex deepest_point(const Polyline& outline);
 struct Correspondence {
   std::vector<double> source, target;  ///< both increasing, the same number
   double source_length = 0, target_length = 0;
-  double log_stretch = 0;  ///< root of what was minimised
+  double badness = 0;  ///< root of what was minimised
 
   /// The target's arc length for one of the source's.
   double operator()(double length) const;
@@ -30,11 +30,11 @@ struct Correspondence {
 /// the disk's own maps is between them.
 class ConformalStart {
  public:
-  /// Both closed, simple and counter-clockwise, pins inside the source. What is minimised is the
-  /// mean square of ln of the relative stretch along the boundary, plus `upright` times the square
-  /// of the angle by which the picture is turned (with 0, how the two stand does not matter), plus
-  /// 10 times the squares of the hyperbolic distances of the pins' images from where they are
-  /// wanted. Throws Error when an outline touches itself. Cost: about 20 ms.
+  /// Both closed, simple and counter-clockwise, and outliving this; pins inside the source. What is
+  /// minimised is the mean square of ln of the relative stretch along the boundary, plus `upright`
+  /// times the square of the angle by which the picture is turned (with 0, how the two stand does
+  /// not matter), plus 10 times the squares of the hyperbolic distances of the pins' images from
+  /// where they are wanted. Throws Error when an outline touches itself. Cost: about 20 ms.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
   ~ConformalStart();
@@ -46,7 +46,7 @@ class ConformalStart {
   bool is_crowded() const;
   /// With pins wanted there, or without any. Cost: 3 to 25 ms.
   Correspondence best(const Points& pinned = {});
-  /// The same, on from the last one; about 4 ms.
+  /// The same, on from the last one, which there must be; about 4 ms.
   Correspondence follow(const Points& pinned);
 
  private:

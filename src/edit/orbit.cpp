@@ -28,7 +28,7 @@ OrbitCamera OrbitCamera::around(const Surface& surface, double aspect) {
     facing += (at(b) - at(a)).cross(at(c) - at(a));
   }
   OrbitCamera camera;
-  camera.target = box.center();
+  camera.target = camera.middle = box.center();
   camera.radius = 1e-9;
   for (const Eigen::Vector3d& p : surface.vertices)
     camera.radius = std::max(camera.radius, (p - camera.target).norm());
@@ -54,6 +54,9 @@ void OrbitCamera::pan_px(Complex delta, double height) {
   const double per_px = 2 * distance * std::tan(kHalfAngle) / std::max(height, 1.0);
   target += turned(yaw, pitch).transpose() *
             Eigen::Vector3d(-per_px * delta.real(), per_px * delta.imag(), 0);
+  // No farther than where the surface is still between the clipping planes.
+  const Eigen::Vector3d off = target - middle;
+  if (off.norm() > 2 * radius) target = middle + 2 * radius * off.normalized();
 }
 
 void OrbitCamera::zoom(double factor) {

@@ -10,7 +10,8 @@ struct OrbitCamera {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   double yaw = 0, pitch = 0;  ///< of the camera seen from the target: 0, 0 is on +z
   double distance = 3;
-  double radius = 1;  ///< of what is seen, around its middle
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of what is seen
+  double radius = 1;                                 ///< around that
 
   bool operator==(const OrbitCamera&) const = default;
 

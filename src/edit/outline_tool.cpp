@@ -147,11 +147,11 @@ bool take_outline(Workspace& workspace, const std::string& label, Points outline
     workspace.complain(error);
     return false;
   }
-  workspace.layer = Layer::pose;
-  workspace.show_surface = true;
   if (!workspace.commit(
           label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface))))
     return false;
+  workspace.layer = Layer::pose;
+  workspace.show_surface = true;
   workspace.playback = {0, true};
   return true;
 }

@@ -11,6 +11,7 @@ constexpr size_t kFewest = 3;
 void PenPath::set_point(Complex at) {
   nodes_.push_back({at, 0});
   placing_ = true;
+  closes_ = false;
 }
 
 bool PenPath::follow(const Input& input, const Viewport& view, double handle_px) {
@@ -43,9 +44,9 @@ PenPath::Answer PenPath::key(Key key) {
   if (key == Key::enter) return nodes_.size() >= kFewest ? Answer::close : Answer::too_few;
   if (key == Key::backspace || key == Key::del) {
     nodes_.pop_back();
-    placing_ = false;
+    placing_ = closes_ = false;
   } else if (key == Key::escape) {
-    nodes_.clear();
+    cancel();
   } else {
     return Answer::ignored;
   }

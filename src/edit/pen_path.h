@@ -18,7 +18,10 @@ class PenPath {
   enum class Answer { ignored, used, close, too_few };
   /// Enter closes, Backspace takes a point back, Escape gives all up.
   Answer key(Key key);
-  void cancel() { nodes_.clear(); }
+  void cancel() {
+    nodes_.clear();
+    placing_ = closes_ = false;
+  }
 
   /// Straight between corners, else cubic.
   Cage cage() const;

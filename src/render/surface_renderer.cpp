@@ -42,8 +42,11 @@ void SurfaceRenderer::set_surface(const Surface& surface) {
   vertex_count_ = static_cast<int>(surface.vertices.size());
   index_count_ = static_cast<int>(3 * surface.triangles.size());
   Eigen::Matrix3Xf places(3, vertex_count_), normals = Eigen::Matrix3Xf::Zero(3, vertex_count_);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
+  middle_ = vertex_count_ > 0 ? Eigen::Vector3d(box.center()) : Eigen::Vector3d::Zero();
   for (int i = 0; i < vertex_count_; ++i)
-    places.col(i) = surface.vertices[static_cast<size_t>(i)].cast<float>();
+    places.col(i) = (surface.vertices[static_cast<size_t>(i)] - middle_).cast<float>();
   for (const auto& [a, b, c] : surface.triangles) {
     const Eigen::Vector3f area =
         (places.col(b) - places.col(a)).cross(places.col(c) - places.col(a));
@@ -90,8 +93,9 @@ void SurfaceRenderer::draw(const SurfaceFrame& frame) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 
   glUseProgram(program_.id());
-  const Eigen::Matrix4f to_view = frame.to_view.cast<float>(),
-                        to_clip = frame.to_clip.cast<float>();
+  Eigen::Matrix4d from_middle = frame.to_view;
+  from_middle.topRightCorner<3, 1>() += frame.to_view.topLeftCorner<3, 3>() * middle_;
+  const Eigen::Matrix4f to_view = from_middle.cast<float>(), to_clip = frame.to_clip.cast<float>();
   glUniformMatrix4fv(program_.at("to_view"), 1, GL_FALSE, to_view.data());
   glUniformMatrix4fv(program_.at("to_clip"), 1, GL_FALSE, to_clip.data());
   glUniform3f(program_.at("clay"), frame.clay[0], frame.clay[1], frame.clay[2]);

@@ -1,6 +1,7 @@
 // A small format, read line by line.
 #include "scene/surface_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <map>
@@ -30,6 +31,7 @@ class ObjReader {
       const size_t end = rest_.find('\n');
       line_ = rest_.substr(0, end);
       rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+      const std::string_view whole = line_;
       if (const size_t comment = line_.find('#'); comment != std::string_view::npos)
         line_ = line_.substr(0, comment);
       const std::string_view kind = word();
@@ -42,7 +44,7 @@ class ObjReader {
       } else if (kind == "f") {
         face();
       } else if (kind == "mtllib") {
-        materials_ = trimmed(line_);
+        materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // a name may have a #
       }
       if (points_.size() > kMost) fail("more than a million vertices");
     }
@@ -151,11 +153,30 @@ SurfaceFile surface_of_obj(const std::string& text, const std::string& name) {
 }
 
 std::string texture_of_materials(const std::string& text) {
-  constexpr std::string_view kKey = "map_Kd ";
+  constexpr std::string_view kKey = "map_Kd";
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    line = trimmed(line);
-    if (line.starts_with(kKey)) return trimmed(line.substr(kKey.size()));
+    std::string name = trimmed(line);
+    if (!name.starts_with(kKey) || name.size() == kKey.size() ||
+        !std::isspace(static_cast<unsigned char>(name[kKey.size()])))
+      continue;
+    name = trimmed(name.substr(kKey.size()));
+    // An option is a word with a minus and what follows it up to the next word that is no number.
+    while (name.starts_with("-")) {
+      std::istringstream words(name);
+      std::string option, next, rest;
+      words >> option;
+      const auto is_value = [](const std::string& word) {
+        return word == "on" || word == "off" ||
+               word.find_first_not_of("0123456789.+-eE") == std::string::npos;
+      };
+      while (words >> next && is_value(next)) {
+      }
+      std::getline(words, rest);
+      name = trimmed(next + rest);
+    }
+    std::ranges::replace(name, '\\', '/');
+    return name;
   }
   return "";
 }

@@ -442,6 +442,9 @@ class WindowTest(unittest.TestCase):
             end = time.time() + 20
             while not os.path.exists(textured) and time.time() < end:
                 time.sleep(0.1)
+            lines = open(textured).read().split("\n")
+            uv = numpy.array([[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vt ")])
+            self.assertTrue(len(uv) > 1000 and uv.min() > 0 and uv.max() < 1)
             # Closed and shown again; saved and opened again.
             action(editor, "surface in space")
             editor.wait(lambda s: not s["on_surface"] and s["width"] == whole["width"], "the whole canvas")

@@ -126,7 +126,7 @@ TEST_CASE("Correspondence: an outline goes to itself, wherever the two stand") {
     const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
     const Polyline source(outline, true), target(moved(outline, factor, shift), true);
     const Correspondence pairs = ConformalStart(source, target, 0).best();
-    CHECK(pairs.log_stretch <= 0.02);
+    CHECK(pairs.badness <= 0.02);
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
             0.01 * target.diagonal());

@@ -325,8 +325,12 @@ TEST_CASE(
   CHECK_FALSE(desk.tool().busy());
   CHECK(desk.steps() == steps + 1);
   CHECK(desk.scene().method == "outline");
-  const Points& outline = desk.scene().outline;
+  const Points outline = desk.scene().outline;
   CHECK(outline.size() > 8);  // two sides are curves
+  desk.press({600, 600});     // the next path does not begin where this one ended
+  desk.release({600, 600});
+  CHECK_FALSE(desk.tool().overlay().closes);
+  CHECK(desk.tool().key(Key::escape, desk.workspace));
   CHECK(std::ranges::count(outline, Complex(300, 10)) == 1);
   CHECK(std::ranges::count(outline, Complex(150, 280)) == 0);
   CHECK(desk.workspace.playback.playing);

@@ -82,6 +82,10 @@ TEST_CASE("Orbit: dragging turns what is in front along, and panning keeps it un
   CHECK(at.x() * height / 2 == Approx(30));
   CHECK(at.y() * height / 2 == Approx(-50));
 
+  moved.pan_px({1e6, -1e6}, height);  // never beyond what can be seen from another side
+  moved.turn_px({200, 0}, height);
+  for (const Eigen::Vector3d& p : slope().vertices) CHECK(std::abs(shown(moved, 1, p).z()) < 1);
+
   OrbitCamera near = camera;
   near.zoom(2);
   CHECK(near.distance == Approx(camera.distance / 2));

@@ -280,6 +280,15 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
   const auto back = pixel(50, 50);
   CHECK((back[0] < 0.7 * front[0] && back[0] > 0));
+  // Far from the origin nothing trembles.
+  Surface far = square;
+  const Eigen::Vector3d away(3e7, -2e7, 1e7);
+  for (Eigen::Vector3d& p : far.vertices) p += away;
+  renderer.set_surface(far);
+  renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
+  frame.to_view.topRightCorner<3, 1>() -= away;
+  CHECK(pixel(50, 50) == back);
+  frame.to_view.topRightCorner<3, 1>() += away;
   // What is nearer hides what is behind it, in whatever order they come.
   Surface two = square;
   for (int k = 0; k < 4; ++k)

@@ -284,3 +284,14 @@ TEST_CASE("A written surface is read back with its texture coordinates") {
   CHECK(box_of(boundary).height() == Approx(100).epsilon(0.01));
   CHECK_THROWS_WITH(texture_boundary({leaf, {}}, 10, 10), Catch::Contains("no texture"));
 }
+
+TEST_CASE(
+    "Materials: the first picture, whatever blanks, options and slashes are around its name") {
+  CHECK(texture_of_materials("newmtl a\nKd 1 1 1\n  map_Kd\tmy fish.png \r\nmap_Kd b.png\n") ==
+        "my fish.png");
+  CHECK(texture_of_materials("map_Kd -s 1 1 1 -clamp on folder\\a #2.png") == "folder/a #2.png");
+  CHECK(texture_of_materials("map_Kdx a.png\nmap_Ka b.png\n").empty());
+  CHECK(texture_of_materials("").empty());
+  CHECK(surface_of_obj("mtllib fish #2.mtl \r\nv 0 0 0\nv 1 0 0 # a\nv 0 1 0\nf 1 2 3\n", "s.obj")
+            .materials == "fish #2.mtl");
+}

@@ -158,7 +158,11 @@ class StrokesDeformer final : public Deformer {
     out.iterations = moved_.iterations;
     if (!moved_.settled) out.status = SampledMap::Status::iterating;
     char text[80];
-    std::snprintf(text, sizeof text, "Strokes are missed by %.2g px on average.", moved_.miss);
+    constexpr double kMet = 0.005;  // px
+    if (moved_.miss < kMet)
+      std::snprintf(text, sizeof text, "Strokes are met.");
+    else
+      std::snprintf(text, sizeof text, "Strokes are missed by %.2g px on average.", moved_.miss);
     out.note = text + (note_.empty() ? "" : " " + note_);
     out.f += product(value_, moved_.phi);
     if (soft_) out.f += product(value_, moved_.psi).conjugate();
