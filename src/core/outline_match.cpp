@@ -18,10 +18,13 @@ constexpr int kMostRough = 4;
 constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
 constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
 
-/// The loop cut at arc lengths of its flattened self, all its own vertices kept.
-Cage cut_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
-            std::vector<double> lengths) {
-  std::vector<std::vector<double>> cuts(static_cast<size_t>(cage.size()));
+/// Increasing parameters for each segment of a cage.
+using Cuts = std::vector<std::vector<double>>;
+
+/// Those at arc lengths of its flattened self.
+Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
+             std::vector<double> lengths) {
+  Cuts cuts(static_cast<size_t>(cage.size()));
   std::ranges::sort(lengths);
   for (const double length : lengths) {
     const Polyline::Nearest at = line.nearest(line.at(length));
@@ -33,15 +36,19 @@ Cage cut_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
                           : 1;
     cuts[static_cast<size_t>(segment)].push_back(from + at.parameter * (to - from));
   }
+  for (std::vector<double>& places : cuts) std::ranges::sort(places);
+  return cuts;
+}
+
+/// All the cage's own vertices are kept.
+Cage cut(const Cage& cage, const Cuts& cuts) {
+  // Pieces of less than a thousandth are none.
+  constexpr double kLeast = 1e-3;
   Cage fine;
   for (Index e = 0; e < cage.size(); ++e) {
     Points rest = cage.controls(e);
     double before = 0;
-    std::vector<double>& places = cuts[static_cast<size_t>(e)];
-    std::ranges::sort(places);
-    // Pieces of less than a thousandth are none.
-    constexpr double kLeast = 1e-3;
-    for (const double t : places) {
+    for (const double t : cuts[static_cast<size_t>(e)]) {
       if (t - before < kLeast || 1 - t < kLeast) continue;
       SplitCurve halves = split(rest, (t - before) / (1 - before));
       halves.before.pop_back();
@@ -53,6 +60,23 @@ Cage cut_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
     fine.segments.push_back(std::move(rest));
   }
   return fine;
+}
+
+/// A frame of the shape's own: its first vertex at 0, its first chord along the real axis, its
+/// perimeter 1. What is computed there does not depend on where the drawing stands.
+Similarity frame_of(const Cage& cage) {
+  const Complex way = cage.vertex(1) - cage.vertex(0);
+  return {1.0 / (way / std::abs(way) * perimeter(flattened(cage).points)), cage.vertex(0), 0};
+}
+
+Points in(const Similarity& frame, Points points) {
+  for (Complex& z : points) z = frame(z);
+  return points;
+}
+
+Cage in(const Similarity& frame, Cage cage) {
+  for (Points& segment : cage.segments) segment = in(frame, std::move(segment));
+  return cage;
 }
 
 MatrixXc coordinates(const Cage& cage, std::span<const BoundaryPoint> places, int order) {
@@ -173,11 +197,13 @@ Correspondence by_turning(const Polyline& source, const Polyline& target) {
 OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& pins,
                        const OutlineSettings& settings)
     : settings_(settings),
-      cage_(counter_clockwise(source)),
+      given_(counter_clockwise(source)),
+      frame_(frame_of(given_)),
+      cage_(in(frame_, given_)),
       flat_(flattened(cage_)),
       source_(flat_.points, true),
-      target_(checked(outline), true),
-      pins_(pins),
+      target_(in(frame_, checked(outline)), true),
+      pins_(in(frame_, pins)),
       unit_(source_.length() / (2 * kPi)),
       centre_(box_of(target_.points()).center()) {
   if (!settings_.published)
@@ -197,8 +223,8 @@ void OutlineFit::build(const Correspondence& start) {
 }
 
 void OutlineFit::solve(const Points& pinned) {
-  pinned_ = pinned;
-  const Points wanted = held(pinned);
+  pinned_ = in(frame_, pinned);
+  const Points wanted = held(pinned_);
   if (start_ && !pins_.empty()) build(start_->best(wanted));
   fit_->reset();
   begin(built_, wanted);
@@ -208,8 +234,8 @@ void OutlineFit::solve(const Points& pinned) {
 
 void OutlineFit::follow(const Points& pinned) {
   if (iterates_.empty()) return solve(pinned);
-  pinned_ = pinned;
-  const Points wanted = held(pinned);
+  pinned_ = in(frame_, pinned);
+  const Points wanted = held(pinned_);
   if (start_ && !pins_.empty()) {
     const Correspondence start = start_->follow(wanted);
     if (difference(start, built_) > kFar) build(start);
@@ -238,33 +264,35 @@ void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
 
 OutlineMatch OutlineFit::after(int iteration) const {
   OutlineMatch match;
-  match.basis = basis_;
+  match.basis = given_basis_;
   match.iterations = iteration;
   match.energies = energies_;
   const VectorXc& x = iterates_.at(static_cast<size_t>(iteration));
   const Index n = basis_.control_count();
-  match.phi = x.head(n).array() + centre_;
-  VectorXc values = at_samples_ * match.phi;
-  if (settings_.stiffness > 0) {
-    match.psi = x.tail(n);
-    values += at_samples_.conjugate() * match.psi;
-  }
+  const VectorXc phi = x.head(n).array() + centre_, psi = x.tail(x.size() - n);
+  const auto sum_of = [&](const MatrixXc& c) -> VectorXc {
+    if (psi.size() == 0) return c * phi;
+    return c * phi + c.conjugate() * psi;
+  };
+  const Complex axis = 1.0 / frame_.factor;
+  const double size = std::abs(axis);
+  match.phi = axis * phi.array() + frame_.from;
+  match.psi = axis * psi;
   const Points wanted = held(pinned_);
-  const MatrixXc at_pins = cauchy_coordinates(basis_, pins_);
-  VectorXc pins = at_pins * match.phi;
-  if (settings_.stiffness > 0) pins += at_pins.conjugate() * match.psi;
+  const VectorXc pins = sum_of(cauchy_coordinates(basis_, pins_));
   for (size_t i = 0; i < wanted.size(); ++i) {
     match.pins_held += wanted[i] != pinned_[i];
     match.pins_missed =
-        std::max(match.pins_missed, std::abs(pins[static_cast<Index>(i)] - wanted[i]));
+        std::max(match.pins_missed, size * std::abs(pins[static_cast<Index>(i)] - wanted[i]));
   }
+  const VectorXc values = sum_of(at_samples_);
   double sum = 0;
   for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
-  match.rms = std::sqrt(sum / static_cast<double>(values.size()));
+  match.rms = size * std::sqrt(sum / static_cast<double>(values.size()));
   const Polyline image(Points(values.begin(), values.end()), true);
   match.hausdorff =
-      std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
-  match.zeros = turns_of(product(slopes_inside_, match.phi));
+      size * std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
+  match.zeros = turns_of(product(slopes_inside_, phi));
   return match;
 }
 
@@ -303,7 +331,9 @@ void OutlineFit::take_basis(const Correspondence& start) {
         std::ranges::min_element(cuts, {}, [&](double cut) { return std::abs(cut - once); });
     if (nearest != cuts.end()) *nearest = once;
   }
-  basis_ = cut_at(cage_, flat_, source_, std::move(cuts));
+  const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
+  basis_ = cut(cage_, places);
+  given_basis_ = cut(given_, places);
 }
 
 void OutlineFit::take_samples() {

@@ -8,6 +8,7 @@
 #include "core/alternating_fit.h"
 #include "core/cauchy_array.h"
 #include "core/outline_start.h"
+#include "core/similarity.h"
 
 namespace holomorph {
 
@@ -64,7 +65,7 @@ class OutlineFit {
   /// pins, else from the last solution.
   void follow(const Points& pinned);
 
-  const Cage& basis() const { return basis_; }
+  const Cage& basis() const { return given_basis_; }
   /// How many bases there have been: pins that go far need another one.
   int builds() const { return builds_; }
   /// How many iterations the last call made.
@@ -87,6 +88,8 @@ class OutlineFit {
   void run(AlternatingFit::Mode mode, double settled, int most);
 
   OutlineSettings settings_;
+  Cage given_, given_basis_;  ///< the source and its cut self where they stand
+  Similarity frame_;          ///< of the source's own; all that follows is in it
   Cage cage_;
   FlatCage flat_;
   Polyline source_, target_;

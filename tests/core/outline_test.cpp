@@ -235,6 +235,20 @@ TEST_CASE("Outline: moving, turning or scaling either shape changes nothing but 
                 inner, moved(inner, factor, shift), 1, 0) <= kRounding);
   CHECK(differs(matched({polygon_cage(moved(shape, 4, 0)), moved(outline, 4, 0), {}, {}}, settings),
                 inner, moved(inner, 4, 0), 4, 0) <= 1e-12);
+  // Both together, as they are drawn.
+  const Points pin{{10, 20}}, pinned{{40, -30}};
+  for (const bool with_pin : {false, true}) {
+    const auto both = [&](Complex turn, Complex move) {
+      return matched({polygon_cage(moved(shape, turn, move)), moved(outline, turn, move),
+                      with_pin ? moved(pin, turn, move) : Points{},
+                      with_pin ? moved(pinned, turn, move) : Points{}},
+                     {});
+    };
+    const OutlineMatch here = both(1, 0), there = both(factor, shift);
+    const VectorXc f = cauchy_coordinates(here.basis, inner) * here.phi,
+                   g = cauchy_coordinates(there.basis, moved(inner, factor, shift)) * there.phi;
+    CHECK((factor * f.array() + shift - g.array()).abs().maxCoeff() / 2400 <= 1e-11);
+  }
 }
 
 TEST_CASE("Outline: as published, a square nears a blob as the paper's figure says") {
