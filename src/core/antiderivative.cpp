@@ -10,14 +10,15 @@
 
 namespace holomorph {
 
-MeshTree::MeshTree(const Mesh& mesh) : mesh_(mesh) {
+MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
   const int count = static_cast<int>(mesh.vertices.size());
   check(count > 0, "a mesh has vertices");
   const Complex center = box_of(mesh.vertices).center();
-  root_ =
-      static_cast<int>(std::ranges::min_element(mesh.vertices, {},
-                                                [&](Complex z) { return std::norm(z - center); }) -
-                       mesh.vertices.begin());
+  root_ = root ? *root
+               : static_cast<int>(
+                     std::ranges::min_element(mesh.vertices, {},
+                                              [&](Complex z) { return std::norm(z - center); }) -
+                     mesh.vertices.begin());
   std::vector<std::vector<int>> neighbours(static_cast<size_t>(count));
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {

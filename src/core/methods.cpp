@@ -8,7 +8,8 @@ namespace holomorph {
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
     std::vector<Method> rows{cage_method(),     pins_method(),    arap_method(),
-                             har_arap_method(), outline_method(), strokes_method()};
+                             har_arap_method(), outline_method(), strokes_method(),
+                             harmonic_method()};
     rows.push_back(bounded_method(rows));
     return rows;
   }();

@@ -24,6 +24,10 @@ Method outline_method();
 /// `strokes`: curves inside go onto other curves, free to slide (Segall, Ben-Chen 2016).
 Method strokes_method();
 
+/// `harmonic`: f = h b, with harmonic coordinates h (Weber, Gotsman 2010, sec. 5): the cage's image
+/// is the posed cage.
+Method harmonic_method();
+
 /// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
 Method bounded_method(const std::vector<Method>& references);
 
