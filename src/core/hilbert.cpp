@@ -60,9 +60,9 @@ std::vector<double> powers_of(double angle) {
     for (double power = base; power < kHighestPower; ++power)
       if (std::abs(power - std::round(power)) > 1e-3) powers.push_back(power);
   std::ranges::sort(powers);
-  const auto same =
-      std::ranges::unique(powers, [](double a, double b) { return std::abs(a - b) < 1e-6; });
-  powers.erase(same.begin(), same.end());
+  powers.erase(std::unique(powers.begin(), powers.end(),
+                           [](double a, double b) { return std::abs(a - b) < 1e-6; }),
+               powers.end());
   powers.resize(std::min(powers.size(), kMostPowers));
   return powers;
 }
@@ -137,21 +137,21 @@ std::vector<double> HilbertCoordinates::solve() {
   boundary_ = {};
   std::vector<BoundaryPoint> places, on_polygon;
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const auto& [edge, from, to] = pieces_[i];
-    const Complex a = polygon_[static_cast<size_t>(edge)],
-                  b = polygon_[static_cast<size_t>(edge + 1) % polygon_.size()];
+    const Piece& piece = pieces_[i];
+    const Complex a = polygon_[static_cast<size_t>(piece.edge)],
+                  b = polygon_[static_cast<size_t>(piece.edge + 1) % polygon_.size()];
     Points& controls = boundary_.segments.emplace_back();
     for (int k = 0; k < kDegree; ++k)
-      controls.push_back(a + (from + (to - from) * k / kDegree) * (b - a));
+      controls.push_back(a + (piece.from + (piece.to - piece.from) * k / kDegree) * (b - a));
     const auto add = [&](double t) {
       places.push_back({static_cast<Index>(i), t});
-      on_polygon.push_back({edge, from + t * (to - from)});
+      on_polygon.push_back({piece.edge, piece.from + t * (piece.to - piece.from)});
     };
     for (int k = 0; k < kPlaces; ++k) add((k + 0.5) / kPlaces);
     for (int k = 1; k <= kCornerPlaces; ++k) {
       const double near = std::pow(10.0, -k) / 3;
-      if (from == 0) add(near);
-      if (to == 1) add(1 - near);
+      if (piece.from == 0) add(near);
+      if (piece.to == 1) add(1 - near);
     }
   }
   Points points;
