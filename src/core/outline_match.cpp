@@ -413,21 +413,24 @@ void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
 }
 
 Points OutlineFit::held(const Points& pinned) const {
-  constexpr int kWays = 16;
+  constexpr int kWays = 16, kMostHalvings = 40;
   if (settings_.published) return pinned;
   Points inside = pinned;
   for (Complex& z : inside) {
     if (winding_number(target_.points(), z) != 0) continue;
     const Complex nearest = target_.nearest(z).point;
-    // A little inside, less where the outline is thin: of the places around, the deepest one.
-    double depth = 0;
-    for (double step = 0.05 * target_.diagonal(); depth == 0; step /= 2)
+    // A little inside, less where the outline is thin: of the places around, the deepest one. They
+    // turn from ring to ring, so that a needle narrower than the ways between is found, too.
+    double depth = 0, step = 0.05 * target_.diagonal();
+    for (int ring = 0; ring < kMostHalvings && depth == 0; ++ring, step /= 2)
       for (int k = 0; k < kWays; ++k) {
-        const Complex place = nearest + std::polar(step, 2 * kPi * k / kWays);
+        const double way = k + 0.38 * ring;
+        const Complex place = nearest + std::polar(step, 2 * kPi * way / kWays);
         if (winding_number(target_.points(), place) == 0) continue;
         if (const double here = target_.nearest(place).distance; here > depth)
           depth = here, z = place;
       }
+    if (depth == 0) z = deepest_point(target_);
   }
   return inside;
 }

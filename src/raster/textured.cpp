@@ -11,7 +11,6 @@
 #include "scene/live_map.h"
 
 namespace holomorph {
-
 namespace {
 
 /// Which pixels the posed map covers wholly: a checker is opaque there.

@@ -417,6 +417,18 @@ TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing f
     CHECK(match.pins_missed < 0.01 * Polyline(square, true).diagonal());
     CHECK(match.hausdorff < 0.04 * Polyline(square, true).diagonal());
   }
+  // Beyond a tip that is narrower than the ways which are looked at around it.
+  const Points tip{{0, 0}, {300, -50}, {300, 50}};
+  for (const double turn : {0.1, 0.3, 0.9, 2.0}) {
+    const Complex way = std::polar(1.0, turn);
+    OutlineFit at_tip(polygon_cage(tip), moved(tip, way, 0), {{250, 0}}, {});
+    at_tip.solve({-50.0 * way});
+    const OutlineMatch match = at_tip.after(at_tip.iterations());
+    INFO("turn " << turn);
+    CHECK(match.pins_held == 1);
+    CHECK(match.pins_missed < 6);
+    CHECK(match.hausdorff < 60);
+  }
 }
 
 TEST_CASE("Outline: strips whose ends the disk cannot tell apart are matched all the same") {
