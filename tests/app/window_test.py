@@ -313,6 +313,25 @@ class WindowTest(unittest.TestCase):
             json.dump(scene, file)
         self.assertFalse(info(os.path.join(self.work, "free.json"))["locally_injective"])
 
+    def test_a_dropped_path_is_the_cage_and_then_the_outline(self):
+        paths = {}
+        for name, d in (("cage", "M100 100 H900 V700 H100 Z"), ("outline", "M200 150 H850 L700 750 H250 Z")):
+            paths[name] = os.path.join(self.work, name + ".svg")
+            with open(paths[name], "w") as file:
+                file.write(f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{d}"/></svg>')
+        mask = os.path.join(SOURCE, "assets/mask.obj")
+        with Editor(PROGRAM, [self.picture]) as editor:
+            editor.drop(mask, 400, 400)  # a surface needs a cage, and that is said
+            time.sleep(0.5)
+            self.screenshot(editor, "surface-without-cage")
+            self.assertEqual((editor.state()["cage_points"], editor.state()["outline_points"]), (0, 0))
+            editor.drop(paths["cage"], 400, 400)
+            editor.wait(lambda s: s["cage_points"] == 4 and s["history"] == 2, "the cage")
+            editor.drop(paths["outline"], 400, 400)
+            editor.wait(lambda s: s["outline_points"] == 4 and s["method"] == "outline", "the outline")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["outline_points"] == 0 and s["cage_points"] == 4, "the cage alone")
+
     def test_a_fold_is_shown_and_taken_out(self):
         scene = os.path.join(self.work, "folded.json")
         subprocess.run([PROGRAM, "new", self.picture, "--out", scene, "--vertices", "12"], check=True, capture_output=True)
