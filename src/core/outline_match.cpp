@@ -6,6 +6,7 @@
 
 #include "core/argument.h"
 #include "core/cauchy.h"
+#include "core/equal_shares.h"
 
 namespace holomorph {
 namespace {
@@ -101,12 +102,6 @@ Points checked(Points points) {
   return points;
 }
 
-Complex mean(const Points& points) {
-  Complex sum = 0;
-  for (const Complex& z : points) sum += z;
-  return sum / static_cast<double>(points.size());
-}
-
 /// How far two correspondences of the same outlines lie apart, in turns of the target.
 double difference(const Correspondence& a, const Correspondence& b) {
   double most = 0;
@@ -128,68 +123,6 @@ std::vector<double> corners_of(const Polyline& curve) {
     if (std::abs(std::arg(out / in)) > kCorner) corners.push_back(curve.length_at(i, 0));
   }
   return corners;
-}
-
-constexpr Index kShifts = 200;
-
-/// Equal shares of both lengths, the source's start being `shift` / kShifts of the target's length
-/// after the target's.
-Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
-  Correspondence result;
-  result.source_length = source.length();
-  result.target_length = target.length();
-  result.source = {0, 0.5 * source.length()};
-  const double offset = target.length() * static_cast<double>(shift) / kShifts;
-  result.target = {offset, offset + 0.5 * target.length()};
-  return result;
-}
-
-/// From the pair of starts that moves the least.
-Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
-  const Points from = at_equal_lengths(source, kShifts), to = at_equal_lengths(target, kShifts);
-  const Complex centre_from = mean(from), centre_to = mean(to);
-  Index best = 0;
-  double least = INFINITY;
-  for (Index shift = 0; shift < kShifts; ++shift) {
-    double sum = 0;
-    for (Index i = 0; i < kShifts; ++i)
-      sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
-                       to[static_cast<size_t>((i + shift) % kShifts)] + centre_to);
-    if (sum < least) least = sum, best = shift;
-  }
-  return by_equal_shares(source, target, best);
-}
-
-/// By how much a curve has turned at equal shares of its length, once around.
-std::vector<double> turning(const Polyline& curve) {
-  const Points points = at_equal_lengths(curve, kShifts);
-  const auto way = [&](Index i) {
-    const auto at = [&](Index k) { return points[static_cast<size_t>(k % kShifts)]; };
-    return at(i + 1) - at(i);
-  };
-  std::vector<double> turned{0};
-  for (Index i = 1; i < kShifts; ++i)
-    turned.push_back(turned.back() + std::arg(way(i) / way(i - 1)));
-  return turned;
-}
-
-/// From the pair of starts after which both turn most alike: right for strips, however one is bent.
-Correspondence by_turning(const Polyline& source, const Polyline& target) {
-  const std::vector<double> from = turning(source), to = turning(target);
-  Index best = 0;
-  double least = INFINITY;
-  for (Index shift = 0; shift < kShifts; ++shift) {
-    double sum = 0, squares = 0;
-    for (Index i = 0; i < kShifts; ++i) {
-      const Index k = i + shift;
-      const double off = to[static_cast<size_t>(k % kShifts)] + (k < kShifts ? 0 : 2 * kPi) -
-                         from[static_cast<size_t>(i)];
-      sum += off, squares += off * off;
-    }
-    const double variance = squares - sum * sum / kShifts;
-    if (variance < least) least = variance, best = shift;
-  }
-  return by_equal_shares(source, target, best);
 }
 
 }  // namespace
