@@ -1,51 +1,54 @@
 // Conformal maps by the angles of their boundary: f' = exp(i H), which vanishes nowhere, so that no
 // such map folds (Weber, Gotsman 2010).
-//
-// exp(i H) is integrated along a tree of mesh edges, more finely towards the polygon's vertices,
-// where it is a power.
 #pragma once
 
+#include <variant>
+
+#include "core/angle_ways.h"
+#include "core/deformer.h"
 #include "core/hilbert.h"
-#include "core/mesh.h"
 
 namespace holomorph {
 
 class AngleMap {
  public:
-  /// For a mesh of the polygon's inside, whose boundary runs through all of its vertices. Cost: a
-  /// row of coordinates for each of about three places per mesh vertex.
-  AngleMap(const Mesh& mesh, const HilbertCoordinates& coordinates);
+  /// For a mesh of the inside of the coordinates' cage, and the map wanted at samples in it or on
+  /// its boundary. With Precision::single H is kept in float. Cost: a row of coordinates for each
+  /// of about three places per mesh vertex.
+  AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
+           const Points& samples, Precision precision);
 
-  /// f at the mesh's vertices for theta, two boundary angles in radians for each corner, before and
-  /// after it; f(anchor) = 0 and |f'(anchor)| = 1. The angle that remains at a corner, the inner
-  /// one less theta's jump there, must be positive. Cost: a product of places x angles, an
-  /// exponential and a sine for each place.
-  void map(const VectorXd& theta, VectorXc& f) const;
+  const HilbertCoordinates& coordinates() const { return *coordinates_; }
+  /// A mesh vertex in the middle.
+  Complex anchor() const { return anchor_; }
 
-  /// A vertex in the middle of the mesh.
-  int anchor() const { return anchor_; }
+  /// f at the samples for boundary angles theta in radians, as many as coordinates; f(anchor) = 0
+  /// and |f'(anchor)| = 1. The angle that remains at a vertex, the inner one less theta's jump
+  /// there, must be positive. With `draft` only what theta's changes since the last call bring is
+  /// computed, which agrees to rounding. Cost: a product of places x angles, an exponential and a
+  /// sine for each place.
+  void map(const VectorXd& theta, VectorXc& f, bool draft = false);
+
+  /// log f' at places inside, from the coordinates there.
+  VectorXc logarithm(const MatrixXc& rows, const VectorXd& theta) const;
 
  private:
-  /// What is added from one mesh vertex to the next: weighted places.
-  struct Step {
-    int from, to;
-    Index end;  ///< of its places; they start where those of the step before end
+  template <class T>
+  struct Parts {
+    Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> re, im;
   };
-  /// From a place without weight to the vertex of the polygon beside it.
-  struct Tail {
-    Index step, place;
-    Complex way;
-    int corner;  ///< -1: no corner
-  };
-  class Layout;
 
-  int anchor_ = 0;
-  Index vertices_ = 0;
-  std::vector<Step> steps_;
-  std::vector<Tail> tails_;
-  std::vector<Complex> weights_;
-  std::vector<double> angles_;  ///< inside, at each corner
-  MatrixXd re_, im_;            ///< H at the places, Im H = 0 at the anchor
+  void turn_to(const VectorXd& theta, bool draft);
+
+  std::shared_ptr<const HilbertCoordinates> coordinates_;
+  Complex anchor_;
+  Eigen::RowVectorXd at_anchor_;  ///< Im H there
+  AngleWays ways_;
+  std::vector<int> node_of_sample_;              ///< empty: the samples are the mesh's vertices
+  VectorXd angles_;                              ///< inside, at each vertex
+  std::variant<Parts<float>, Parts<double>> h_;  ///< H at the places, Im H = 0 at the anchor
+  VectorXd theta_, turn_, shrink_;               ///< the last ones, and Re H theta and Im H theta
+  VectorXc nodes_;                               ///< f at them
 };
 
 }  // namespace holomorph

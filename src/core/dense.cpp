@@ -24,6 +24,16 @@ VectorXd multiplied(CBLAS_TRANSPOSE transposed, const MatrixXd& a, const VectorX
   return y;
 }
 
+MatrixXd multiplied(CBLAS_TRANSPOSE transposed, const MatrixXd& a, const MatrixXd& b) {
+  MatrixXd c = MatrixXd::Zero(transposed == CblasTrans ? a.cols() : a.rows(), b.cols());
+  if (a.size() > 0 && b.size() > 0)
+    cblas_dgemm(CblasColMajor, transposed, CblasNoTrans, static_cast<int>(c.rows()),
+                static_cast<int>(c.cols()), static_cast<int>(b.rows()), 1.0, a.data(),
+                static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()), 1.0, c.data(),
+                static_cast<int>(c.rows()));
+  return c;
+}
+
 template <class Syrk, class Matrix>
 void add_gram_by(Syrk syrk, const Matrix& k, Index columns, Index first, Matrix& out) {
   if (columns == 0 || k.rows() == 0) return;
@@ -53,6 +63,23 @@ VectorXd product(const MatrixXd& a, const VectorXd& x) {
 }
 VectorXd transposed_product(const MatrixXd& a, const VectorXd& x) {
   return multiplied(CblasTrans, a, x);
+}
+
+MatrixXd matrix_product(const MatrixXd& a, const MatrixXd& b) {
+  return multiplied(CblasNoTrans, a, b);
+}
+MatrixXd transposed_matrix_product(const MatrixXd& a, const MatrixXd& b) {
+  return multiplied(CblasTrans, a, b);
+}
+MatrixXc matrix_product(const MatrixXc& a, const MatrixXc& b) {
+  MatrixXc c = MatrixXc::Zero(a.rows(), b.cols());
+  const Complex one = 1;
+  if (a.size() > 0 && b.size() > 0)
+    cblas_zgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(a.rows()),
+                static_cast<int>(b.cols()), static_cast<int>(a.cols()), &one, a.data(),
+                static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()), &one, c.data(),
+                static_cast<int>(c.rows()));
+  return c;
 }
 
 void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out) {
@@ -102,6 +129,15 @@ VectorXd Cholesky::solve(const VectorXd& right) const {
   cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower_.data(), n, x.data(),
               1);
   return x;
+}
+
+MatrixXd Cholesky::solve_all(MatrixXd right) const {
+  const int n = static_cast<int>(lower_.rows()), columns = static_cast<int>(right.cols());
+  if (right.size() == 0) return right;
+  for (const CBLAS_TRANSPOSE transposed : {CblasNoTrans, CblasTrans})
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, n, columns, 1.0,
+                lower_.data(), n, right.data(), n);
+  return right;
 }
 
 }  // namespace holomorph

@@ -10,6 +10,10 @@ namespace holomorph {
 /// A x and A^T x. A may be empty.
 VectorXd product(const MatrixXd& a, const VectorXd& x);
 VectorXd transposed_product(const MatrixXd& a, const VectorXd& x);
+/// A B and A^T B.
+MatrixXd matrix_product(const MatrixXd& a, const MatrixXd& b);
+MatrixXc matrix_product(const MatrixXc& a, const MatrixXc& b);
+MatrixXd transposed_matrix_product(const MatrixXd& a, const MatrixXd& b);
 
 /// Adds K K^T of the first `columns` columns to the lower triangle of out's block that starts at
 /// (first, first) and has K's rows. Cost: rows^2 * columns multiplications, half of them saved.
@@ -35,6 +39,8 @@ class Cholesky {
   /// Returns false when the matrix is not positive definite to rounding.
   bool factor(const MatrixXd& matrix);
   VectorXd solve(const VectorXd& right) const;
+  /// The same for all columns at once.
+  MatrixXd solve_all(MatrixXd right) const;
 
  private:
   MatrixXd lower_;

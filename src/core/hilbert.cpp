@@ -2,12 +2,12 @@
 #include "core/hilbert.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "core/cauchy.h"
 #include "core/cauchy_array.h"
 #include "core/dense.h"
+#include "core/quadrature.h"
 
 namespace holomorph {
 namespace {
@@ -67,35 +67,82 @@ std::vector<double> powers_of(double angle) {
   return powers;
 }
 
+/// A segment's length from its start to the parameter t.
+double length_to(const Points& controls, double t) {
+  constexpr int kNodes = 24;
+  if (controls.size() == 2) return t * std::abs(controls[1] - controls[0]);
+  const double degree = static_cast<double>(controls.size() - 1);
+  Points ways;
+  for (size_t i = 0; i + 1 < controls.size(); ++i) ways.push_back(controls[i + 1] - controls[i]);
+  const GaussRule& rule = gauss_rule(kNodes);
+  double length = 0;
+  for (size_t k = 0; k < kNodes; ++k)
+    length += rule.weights[k] * std::abs(bezier_point(ways, t * rule.nodes[k]));
+  return t * degree * length;
+}
+
+/// The part of a curve between two parameters.
+Points part_of(const Points& controls, double from, double to) {
+  const Points start = from > 0 ? split(controls, from).after : controls;
+  return to < 1 ? split(start, (to - from) / (1 - from)).before : start;
+}
+
 }  // namespace
 
-HilbertCoordinates::HilbertCoordinates(Points polygon, std::vector<Index> corners, double tolerance)
-    : HilbertCoordinates(std::move(polygon), corners,
-                         MatrixXd::Identity(2 * static_cast<Index>(corners.size()),
-                                            2 * static_cast<Index>(corners.size())),
-                         tolerance) {}
-
-HilbertCoordinates::HilbertCoordinates(Points polygon, std::vector<Index> corners, MatrixXd sums,
-                                       double tolerance)
-    : polygon_(std::move(polygon)), corners_(std::move(corners)), sums_(std::move(sums)) {
-  if (corners_.size() < 3)
+RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
+  if (corners.size() < 3)
     throw Error(ErrorKind::bad_input, "angles need three corners of the cage at least");
-  check(std::ranges::is_sorted(corners_) && corners_.front() >= 0 &&
-            corners_.back() < static_cast<Index>(polygon_.size()),
-        "Hilbert coordinates: corners are vertices, in order");
-  check(sums_.rows() == 2 * static_cast<Index>(corners_.size()),
-        "Hilbert coordinates: two values for each corner");
-  take_vertices();
-  take_linear();
-  const auto bends = [&](size_t vertex) {
-    return std::abs(vertices_[vertex % vertices_.size()].angle - kPi) > kFlat;
+  check(std::ranges::is_sorted(corners) && corners.front() >= 0 && corners.back() < cage.size(),
+        "corner values: corners are vertices, in order");
+  const Index p = static_cast<Index>(corners.size());
+  std::vector<double> lengths{0};  // up to each vertex
+  for (Index e = 0; e < cage.size(); ++e)
+    lengths.push_back(lengths.back() + length_to(cage.controls(e), 1));
+  RealParts parts;
+  parts.values = [cage, corners, lengths, p](std::span<const BoundaryPoint> places) {
+    MatrixXd values = MatrixXd::Zero(static_cast<Index>(places.size()), 2 * p);
+    const auto length_at = [&](Index corner) {
+      return lengths[static_cast<size_t>(corners[static_cast<size_t>(corner)])];
+    };
+    for (size_t i = 0; i < places.size(); ++i) {
+      const auto& [segment, t] = places[i];
+      double here = lengths[static_cast<size_t>(segment)] + length_to(cage.controls(segment), t);
+      // The last corner at or before the segment.
+      const Index after = std::ranges::upper_bound(corners, segment) - corners.begin(),
+                  from = (after + p - 1) % p, to = (from + 1) % p;
+      if (here < length_at(from)) here += lengths.back();
+      const double whole = length_at(to) + (to <= from ? lengths.back() : 0) - length_at(from);
+      const double share = (here - length_at(from)) / whole;
+      values(static_cast<Index>(i), 2 * from + 1) = 1 - share;
+      values(static_cast<Index>(i), 2 * to) = share;
+    }
+    return values;
   };
-  for (size_t e = 0; e < polygon_.size(); ++e) {
-    const Index edge = static_cast<Index>(e);
-    if (bends(e) || bends(e + 1))
-      pieces_.insert(pieces_.end(), {{edge, 0, 0.5}, {edge, 0.5, 1}});
+  parts.jumps = MatrixXd::Zero(cage.size(), 2 * p);
+  parts.linear = MatrixXd::Ones(2 * p, p == cage.size() && is_straight(cage) ? 3 : 1);
+  for (Index j = 0; j < p; ++j) {
+    const Index vertex = corners[static_cast<size_t>(j)];
+    parts.jumps(vertex, 2 * j) = -1;
+    parts.jumps(vertex, 2 * j + 1) = 1;
+    if (parts.linear.cols() == 1) continue;
+    const Complex z = cage.vertex(vertex);
+    for (const Index row : {2 * j, 2 * j + 1}) parts.linear.row(row) << 1, z.real(), z.imag();
+  }
+  return parts;
+}
+
+HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolerance)
+    : cage_(std::move(cage)), parts_(std::move(parts)) {
+  take_vertices();
+  shares_ = (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
+  const auto bends = [&](Index vertex) {
+    return std::abs(angle(vertex % cage_.size()) - kPi) > kFlat;
+  };
+  for (Index e = 0; e < cage_.size(); ++e) {
+    if (bends(e) || bends(e + 1) || cage_.degree(e) > 1)
+      pieces_.insert(pieces_.end(), {{e, 0, 0.5}, {e, 0.5, 1}});
     else
-      pieces_.push_back({edge, 0, 1});
+      pieces_.push_back({e, 0, 1});
   }
   std::vector<double> errors = solve();
   for (int round = 0; round < kMostRounds && error_ > tolerance; ++round) {
@@ -105,15 +152,19 @@ HilbertCoordinates::HilbertCoordinates(Points polygon, std::vector<Index> corner
 }
 
 void HilbertCoordinates::take_vertices() {
-  const size_t n = polygon_.size();
-  for (size_t j = 0; j < n; ++j) {
-    const Complex out = polygon_[(j + 1) % n] - polygon_[j],
-                  in = polygon_[j] - polygon_[(j + n - 1) % n];
-    Vertex vertex{polygon_[j], 0, std::arg(-in / out), {}};
+  const Index n = cage_.size();
+  const Points outline = flattened(cage_).points;
+  steps_ = MatrixXc::Zero(n, parts_.jumps.cols());
+  for (Index j = 0; j < n; ++j) {
+    const Points before = cage_.controls((j + n - 1) % n), after = cage_.controls(j);
+    const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
+    Vertex vertex{after[0], 0, std::arg(-in / out), {}};
     if (vertex.angle <= 0) vertex.angle += 2 * kPi;
-    vertex.tip = tip_of(polygon_, vertex.at,
+    vertex.tip = tip_of(outline, vertex.at,
                         -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
     vertex.powers = powers_of(vertex.angle);
+    // Along the boundary the logarithm's imaginary part falls by the inner angle at its vertex.
+    steps_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
     vertices_.push_back(std::move(vertex));
   }
 }
@@ -122,10 +173,10 @@ void HilbertCoordinates::cut(const std::vector<double>& errors, double tolerance
   const double most = std::max(tolerance / 2, error_ / 4);
   std::vector<Piece> finer;
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const auto& [edge, from, to] = pieces_[i];
+    const auto& [segment, from, to] = pieces_[i];
     const double middle = 0.5 * (from + to);
     if (errors[i] > most)
-      finer.insert(finer.end(), {{edge, from, middle}, {edge, middle, to}});
+      finer.insert(finer.end(), {{segment, from, middle}, {segment, middle, to}});
     else
       finer.push_back(pieces_[i]);
   }
@@ -135,17 +186,16 @@ void HilbertCoordinates::cut(const std::vector<double>& errors, double tolerance
 /// Fits all coordinates; returns each piece's largest error.
 std::vector<double> HilbertCoordinates::solve() {
   boundary_ = {};
-  std::vector<BoundaryPoint> places, on_polygon;
+  std::vector<BoundaryPoint> places, on_cage;
   for (size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
-    const Complex a = polygon_[static_cast<size_t>(piece.edge)],
-                  b = polygon_[static_cast<size_t>(piece.edge + 1) % polygon_.size()];
-    Points& controls = boundary_.segments.emplace_back();
-    for (int k = 0; k < kDegree; ++k)
-      controls.push_back(a + (piece.from + (piece.to - piece.from) * k / kDegree) * (b - a));
+    Points controls = part_of(cage_.controls(piece.segment), piece.from, piece.to);
+    controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
+    controls.pop_back();
+    boundary_.segments.push_back(std::move(controls));
     const auto add = [&](double t) {
       places.push_back({static_cast<Index>(i), t});
-      on_polygon.push_back({piece.edge, piece.from + t * (piece.to - piece.from)});
+      on_cage.push_back({piece.segment, piece.from + t * (piece.to - piece.from)});
     };
     for (int k = 0; k < kPlaces; ++k) add((k + 0.5) / kPlaces);
     for (int k = 1; k <= kCornerPlaces; ++k) {
@@ -157,7 +207,8 @@ std::vector<double> HilbertCoordinates::solve() {
   Points points;
   for (const BoundaryPoint& place : places) points.push_back(position_of(boundary_, place));
   const MatrixXc basis = this->basis(points, 0);
-  const MatrixXd wanted = boundary_values(on_polygon) - jumps(points, 0).real();
+  const MatrixXd wanted =
+      parts_.values(on_cage) - matrix_product(logarithms(points, 0), steps_).real();
 
   MatrixXd rows(basis.rows(), 2 * basis.cols());
   rows << basis.real(), -basis.imag();
@@ -168,20 +219,19 @@ std::vector<double> HilbertCoordinates::solve() {
   gram.diagonal().array() += 1e-14 * static_cast<double>(gram.rows());
   Cholesky cholesky;
   check(cholesky.factor(gram), "Hilbert coordinates: the normal equations are definite");
-  std::vector<double> errors(pieces_.size(), 0);
-  coefficients_.resize(basis.cols(), wanted.cols());
-  for (Index c = 0; c < wanted.cols(); ++c) {
-    VectorXd x = cholesky.solve(transposed_product(rows, wanted.col(c)));
-    for (int refined = 0; refined < kRefinements; ++refined)
-      x += cholesky.solve(transposed_product(rows, wanted.col(c) - product(rows, x)));
-    const VectorXd off = (product(rows, x) - wanted.col(c)).cwiseAbs();
-    for (Index i = 0; i < off.size(); ++i) {
-      double& error = errors[static_cast<size_t>(places[static_cast<size_t>(i)].segment)];
-      error = std::max(error, off[i]);
-    }
-    x.array() /= norms.array();
-    coefficients_.col(c) = x.head(basis.cols()) + kI * x.tail(basis.cols());
+  MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, wanted));
+  MatrixXd off = wanted - matrix_product(rows, x);
+  for (int refined = 0; refined < kRefinements; ++refined) {
+    x += cholesky.solve_all(transposed_matrix_product(rows, off));
+    off = wanted - matrix_product(rows, x);
   }
+  std::vector<double> errors(pieces_.size(), 0);
+  for (Index i = 0; i < off.rows(); ++i) {
+    double& error = errors[static_cast<size_t>(places[static_cast<size_t>(i)].segment)];
+    error = std::max(error, off.row(i).cwiseAbs().maxCoeff());
+  }
+  x.array().colwise() /= norms.array();
+  coefficients_ = x.topRows(basis.cols()) + kI * x.bottomRows(basis.cols());
   error_ = *std::ranges::max_element(errors);
   return errors;
 }
@@ -194,18 +244,16 @@ Complex HilbertCoordinates::logarithmic_slope(const Vertex& vertex, Complex z) c
   return 1.0 / (z - vertex.at) - 1.0 / (z - vertex.tip);
 }
 
-// Along the boundary the logarithm's imaginary part falls by the inner angle at its vertex.
-MatrixXc HilbertCoordinates::jumps(std::span<const Complex> points, int order) const {
-  MatrixXc values = MatrixXc::Zero(static_cast<Index>(points.size()), sums_.cols());
-  for (size_t j = 0; j < corners_.size(); ++j) {
-    const Vertex& vertex = vertices_[static_cast<size_t>(corners_[j])];
-    const Index row = 2 * static_cast<Index>(j);
-    const Eigen::RowVectorXd jump = (sums_.row(row + 1) - sums_.row(row)) / vertex.angle;
-    if (jump.isZero(0)) continue;
+MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int order) const {
+  MatrixXc values =
+      MatrixXc::Zero(static_cast<Index>(points.size()), static_cast<Index>(vertices_.size()));
+  for (size_t j = 0; j < vertices_.size(); ++j) {
+    const Index column = static_cast<Index>(j);
+    if (steps_.row(column).isZero(0)) continue;
     for (size_t i = 0; i < points.size(); ++i)
-      values.row(static_cast<Index>(i)) +=
-          kI * (order == 0 ? logarithm(vertex, points[i]) : logarithmic_slope(vertex, points[i])) *
-          jump;
+      values(static_cast<Index>(i), column) = order == 0
+                                                  ? logarithm(vertices_[j], points[i])
+                                                  : logarithmic_slope(vertices_[j], points[i]);
   }
   return values;
 }
@@ -217,7 +265,7 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
     for (Index e = 0; e < boundary_.size(); ++e)
       for (size_t i = 0; i < points.size(); ++i) {
         if (points[i] != boundary_.vertex(e)) continue;
-        const Complex way = boundary_.vertex(e + 1) - boundary_.vertex(e),
+        const Complex way = boundary_.controls(e)[1] - boundary_.vertex(e),
                       beside = points[i] + kInside * kI * way;
         cauchy.row(static_cast<Index>(i)) =
             cauchy_coordinates(boundary_, std::span<const Complex>(&beside, 1), order);
@@ -245,60 +293,29 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
 
 MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
   check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
-  MatrixXc values = jumps(points, order) + basis(points, order) * coefficients_;
-  if (linear_.size() == 0) return values;
-  Eigen::MatrixX3cd missing(values.rows(), 3);
+  constexpr size_t kBlock = 1024;  // rows of the basis that fit the cache
+  MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
+  for (size_t first = 0; first < points.size(); first += kBlock) {
+    const size_t count = std::min(kBlock, points.size() - first);
+    values.middleRows(static_cast<Index>(first), static_cast<Index>(count)) =
+        block(points.subspan(first, count), order);
+  }
+  return values;
+}
+
+MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
+  MatrixXc values = matrix_product(logarithms(points, order), steps_) +
+                    matrix_product(basis(points, order), coefficients_);
+  const Index sums = parts_.linear.cols();
+  MatrixXc missing(values.rows(), sums);
   for (Index i = 0; i < values.rows(); ++i) {
     const Complex z = points[static_cast<size_t>(i)];
-    if (order == 0)
-      missing.row(i) << 1, z, -kI * z;
-    else
-      missing.row(i) << 0, 1, -kI;
+    const std::array<Complex, 3> exact =
+        order == 0 ? std::array<Complex, 3>{1, z, -kI * z} : std::array<Complex, 3>{0, 1, -kI};
+    for (Index k = 0; k < sums; ++k) missing(i, k) = exact[static_cast<size_t>(k)];
   }
-  missing -= values * linear_;
+  missing -= values * parts_.linear;
   return values + missing * shares_;
-}
-
-// 1, x and y are linear along straight edges: they are the real parts of 1, z and -i z.
-void HilbertCoordinates::take_linear() {
-  if (corners_.size() < polygon_.size()) return;
-  MatrixXd at_corners(sums_.rows(), 3);
-  for (Index i = 0; i < at_corners.rows(); ++i) {
-    const Complex z = polygon_[static_cast<size_t>(i / 2)];
-    at_corners.row(i) << 1, z.real(), z.imag();
-  }
-  const MatrixXd columns = sums_.colPivHouseholderQr().solve(at_corners);
-  const double rounding = 1e-10 * at_corners.cwiseAbs().maxCoeff();
-  if (!((sums_ * columns - at_corners).cwiseAbs().maxCoeff() <= rounding)) return;
-  linear_ = columns;
-  shares_ = (columns.transpose() * columns).ldlt().solve(columns.transpose());
-}
-
-MatrixXd HilbertCoordinates::boundary_values(std::span<const BoundaryPoint> places) const {
-  std::vector<double> lengths{0};
-  for (size_t i = 0; i < polygon_.size(); ++i)
-    lengths.push_back(lengths.back() + std::abs(polygon_[(i + 1) % polygon_.size()] - polygon_[i]));
-  const size_t p = corners_.size();
-  const auto length_at = [&](size_t corner) {
-    return lengths[static_cast<size_t>(corners_[corner])];
-  };
-  MatrixXd values = MatrixXd::Zero(static_cast<Index>(places.size()), static_cast<Index>(2 * p));
-  for (size_t i = 0; i < places.size(); ++i) {
-    const auto& [edge, t] = places[i];
-    const size_t e = static_cast<size_t>(edge);
-    double here = lengths[e] + t * (lengths[e + 1] - lengths[e]);
-    // The last corner at or before the edge.
-    const auto after = std::ranges::upper_bound(corners_, edge);
-    const size_t from =
-                     static_cast<size_t>(after - corners_.begin() + static_cast<long>(p) - 1) % p,
-                 to = (from + 1) % p;
-    if (here < length_at(from)) here += lengths.back();
-    const double whole = length_at(to) + (to <= from ? lengths.back() : 0) - length_at(from);
-    const double share = (here - length_at(from)) / whole;
-    values(static_cast<Index>(i), static_cast<Index>(2 * from + 1)) = 1 - share;
-    values(static_cast<Index>(i), static_cast<Index>(2 * to)) = share;
-  }
-  return values * sums_;
 }
 
 }  // namespace holomorph

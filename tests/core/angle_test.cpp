@@ -28,6 +28,17 @@ Points animal() {
           {100, 200}, {88, 130},  {30, 120},  {4, 100}};
 }
 
+HilbertCoordinates coordinates_of(const Points& polygon, const std::vector<Index>& corners,
+                                  double tolerance = 1e-3) {
+  const Cage cage = polygon_cage(polygon);
+  return {cage, corner_values(cage, corners), tolerance};
+}
+
+AngleMap angle_map(const Mesh& mesh, HilbertCoordinates coordinates) {
+  return {mesh, std::make_shared<const HilbertCoordinates>(std::move(coordinates)), mesh.vertices,
+          Precision::full};
+}
+
 std::vector<Index> all_of(const Points& polygon) {
   std::vector<Index> all(polygon.size());
   std::iota(all.begin(), all.end(), 0);
@@ -83,9 +94,9 @@ TEST_CASE("Hilbert coordinates: their real parts are linear between corners, and
       std::vector<Index> corners;
       for (Index i = 0; i < static_cast<Index>(polygon.size()); i += every) corners.push_back(i);
       if (corners.size() < 3) continue;
-      const HilbertCoordinates coordinates(polygon, corners, 1e-4);
+      const HilbertCoordinates coordinates = coordinates_of(polygon, corners, 1e-4);
       const MatrixXc h = coordinates.at(points);
-      const MatrixXd wanted = coordinates.boundary_values(places);
+      const MatrixXd wanted = coordinates.parts().values(places);
       INFO(polygon.size() << " vertices, " << corners.size() << " corners, "
                           << coordinates.unknowns() << " unknowns");
       CHECK(coordinates.error() <= 1e-4);
@@ -96,9 +107,30 @@ TEST_CASE("Hilbert coordinates: their real parts are linear between corners, and
   }
 }
 
+TEST_CASE("Hilbert coordinates: curved boundaries are met as they are") {
+  Cage cage = polygon_cage(shapes::l_shape());
+  for (Points& segment : cage.segments) segment.resize(3);
+  cage = elevated_to(polygon_cage(shapes::l_shape()), cage);
+  for (Points& segment : cage.segments) {
+    segment[1] += Complex(6, -8);
+    segment[2] += Complex(5, 9);
+  }
+  const HilbertCoordinates coordinates(cage, corner_values(cage, {0, 2, 3, 5}), 1e-4);
+  std::vector<BoundaryPoint> places;
+  Points points;
+  for (Index e = 0; e < cage.size(); ++e)
+    for (int k = 1; k < 40; ++k) {
+      places.push_back({e, (k + 0.3 * std::sin(k)) / 40.0});
+      points.push_back(position_of(cage, places.back()));
+    }
+  const MatrixXd wanted = coordinates.parts().values(places);
+  CHECK((coordinates.at(points).real() - wanted).cwiseAbs().maxCoeff() <= 5e-4);
+  CHECK((wanted.rowwise().sum().array() - 1).abs().maxCoeff() <= 1e-12);
+}
+
 TEST_CASE("Hilbert coordinates: a z has the real parts that it has at the corners") {
   const Points polygon = shapes::l_shape();
-  const HilbertCoordinates coordinates(polygon, all_of(polygon), 1e-6);
+  const HilbertCoordinates coordinates = coordinates_of(polygon, all_of(polygon), 1e-6);
   const Complex a(0.3, -1.2);
   VectorXd theta(2 * static_cast<Index>(polygon.size()));
   for (size_t j = 0; j < polygon.size(); ++j)
@@ -114,13 +146,12 @@ TEST_CASE("Hilbert coordinates: a z has the real parts that it has at the corner
 }
 
 TEST_CASE("Hilbert coordinates: what cannot have angles is refused") {
-  CHECK_THROWS_WITH(HilbertCoordinates(shapes::l_shape(), {0, 2}),
-                    Catch::Contains("three corners"));
+  CHECK_THROWS_WITH(coordinates_of(shapes::l_shape(), {0, 2}), Catch::Contains("three corners"));
   // A straight corner is one like others.
   const Points square{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
-  const HilbertCoordinates coordinates(square, {0, 1, 3, 4}, 1e-4);
+  const HilbertCoordinates coordinates = coordinates_of(square, {0, 1, 3, 4}, 1e-4);
   const auto places = along(square);
-  CHECK((coordinates.at(at(square, places)).real() - coordinates.boundary_values(places))
+  CHECK((coordinates.at(at(square, places)).real() - coordinates.parts().values(places))
             .cwiseAbs()
             .maxCoeff() <= 5e-4);
 }
@@ -128,10 +159,10 @@ TEST_CASE("Hilbert coordinates: what cannot have angles is refused") {
 TEST_CASE("Angle maps: no angles are no map but the identity") {
   const Points polygon = animal();
   const Mesh mesh = domain_mesh(polygon, {3000});
-  const AngleMap map(mesh, HilbertCoordinates(polygon, all_of(polygon)));
+  AngleMap map = angle_map(mesh, coordinates_of(polygon, all_of(polygon)));
   VectorXc f;
   map.map(VectorXd::Zero(2 * static_cast<Index>(polygon.size())), f);
-  const Complex anchor = mesh.vertices[static_cast<size_t>(map.anchor())];
+  const Complex anchor = map.anchor();
   for (Index i = 0; i < f.size(); ++i)
     REQUIRE(std::abs(f[i] - (mesh.vertices[static_cast<size_t>(i)] - anchor)) <= 1e-10);
 }
@@ -140,8 +171,8 @@ TEST_CASE("Angle maps: a bar whose angles grow along it is an exponential") {
   // theta = a x: f = (exp(i a z) - 1) / (i a), up to placement.
   const Points bar{{0, 0}, {6, 0}, {6, 1}, {0, 1}};
   const Mesh mesh = domain_mesh(bar, {8000});
-  const AngleMap map(mesh, HilbertCoordinates(bar, all_of(bar), 1e-9));
-  const Complex anchor = mesh.vertices[static_cast<size_t>(map.anchor())];
+  AngleMap map = angle_map(mesh, coordinates_of(bar, all_of(bar), 1e-9));
+  const Complex anchor = map.anchor();
   for (const auto& [degrees, tolerance] :
        {std::pair(90.0, 1e-10), {540.0, 1.5e-7}, {900.0, 1.1e-6}}) {
     const double a = degrees * kPi / 180 / 6;
@@ -173,7 +204,7 @@ TEST_CASE("Angle maps: edges that are to be straight are, at the angles that the
              {{0, 0}, {2, 0}, {2, 1}, {1.3, 1.2}, {0.9, 2}, {-0.3, 1.9}},
              6e-4}}) {
     const Mesh mesh = domain_mesh(from, {6000});
-    const AngleMap map(mesh, HilbertCoordinates(from, all_of(from), 1e-6));
+    AngleMap map = angle_map(mesh, coordinates_of(from, all_of(from), 1e-6));
     VectorXc f;
     map.map(angles_between(from, to), f);
     const size_t n = from.size();
@@ -194,13 +225,14 @@ TEST_CASE("Angle maps: corners turned by up to 60 degrees fold nothing") {
   std::uniform_real_distribution<double> by(-kPi / 3, kPi / 3);
   for (const Points& polygon : {shapes::l_shape(), star(), animal()}) {
     const Mesh mesh = domain_mesh(polygon, {4000});
-    const HilbertCoordinates coordinates(polygon, all_of(polygon), 1e-4);
-    const AngleMap map(mesh, coordinates);
+    const HilbertCoordinates coordinates = coordinates_of(polygon, all_of(polygon), 1e-4);
+    AngleMap map = angle_map(mesh, coordinates);
     for (int run = 0; run < 10; ++run) {
       VectorXd theta(2 * static_cast<Index>(polygon.size()));
       for (size_t j = 0; j < polygon.size(); ++j) {
         const double turn = by(random),
-                     jump = std::min(by(random), coordinates.angle(j) - 5 * kPi / 180);
+                     jump = std::min(by(random),
+                                     coordinates.angle(static_cast<Index>(j)) - 5 * kPi / 180);
         theta[static_cast<Index>(2 * j)] = turn - jump / 2;
         theta[static_cast<Index>(2 * j + 1)] = turn + jump / 2;
       }

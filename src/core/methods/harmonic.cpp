@@ -1,8 +1,8 @@
 // Method `harmonic`: f = sum h_c b_c with the harmonic functions h_c that run along the cage as its
 // control points' weights do, so that the cage's image is the posed cage itself.
 #include <algorithm>
-#include <numeric>
 
+#include "core/cauchy.h"
 #include "core/hilbert.h"
 #include "core/methods/linear.h"
 #include "core/methods/rows.h"
@@ -27,34 +27,32 @@ MatrixXd weights_at(const Cage& cage, std::span<const BoundaryPoint> places) {
   return weights;
 }
 
-/// The polygon that a cage's curves are taken for here.
-FlatCage coarsely_flattened(const Cage& cage) {
-  constexpr int kPieces = 10;
-  FlatCage flat;
-  for (Index e = 0; e < cage.size(); ++e) {
-    const int pieces = is_straight(cage, e) ? 1 : kPieces;
-    for (int k = 0; k < pieces; ++k) flat.places.push_back({e, static_cast<double>(k) / pieces});
-  }
-  for (const BoundaryPoint& place : flat.places) flat.points.push_back(position_of(cage, place));
-  return flat;
+RealParts control_weights(const Cage& cage) {
+  RealParts parts;
+  parts.values = [cage](std::span<const BoundaryPoint> places) { return weights_at(cage, places); };
+  parts.jumps = MatrixXd::Zero(cage.size(), cage.control_count());
+  const VectorXc controls = controls_of(cage);
+  parts.linear.resize(controls.size(), 3);
+  parts.linear << VectorXd::Ones(controls.size()), controls.real(), controls.imag();
+  return parts;
 }
 
 /// h as the real parts of holomorphic functions g.
 class HarmonicCoordinates {
  public:
-  /// Of a counter-clockwise cage. Beside a curve's chords the functions go on linearly.
+  /// Of a counter-clockwise cage. Just outside of it the functions go on linearly.
   explicit HarmonicCoordinates(const Cage& cage)
-      : flat_(coarsely_flattened(cage)),
+      : cage_(cage),
+        flat_(flattened(cage)),
         edge_(flat_.points, true),
-        weights_(weights_at(cage, flat_.places)),
-        hilbert_(flat_.points, all_vertices(), twice(weights_)) {}
+        hilbert_(cage, control_weights(cage)) {}
 
   /// One row for each point: g, or g' with order 1; at vertices g is their own weights.
   MatrixXc at(std::span<const Complex> points, int order) const {
     Points inside;
     std::vector<Index> outside;
     for (const Complex& z : points) {
-      inside.push_back(winding_number(flat_.points, z) != 0 ? z : beside_edge(z));
+      inside.push_back(is_inside(z) ? z : beside(z));
       if (inside.back() != z) outside.push_back(static_cast<Index>(inside.size()) - 1);
     }
     MatrixXc g = hilbert_.at(inside, order);
@@ -64,9 +62,9 @@ class HarmonicCoordinates {
     const MatrixXc slopes = hilbert_.at(moved, 1);
     for (size_t k = 0; k < outside.size(); ++k) {
       const Complex z = points[static_cast<size_t>(outside[k])];
-      const auto vertex = std::ranges::find(flat_.points, z);
-      if (vertex != flat_.points.end())
-        g.row(outside[k]) = weights_.row(vertex - flat_.points.begin()).cast<Complex>();
+      if (const auto vertex = vertex_at(z))
+        g.row(outside[k]) =
+            weights_at(cage_, std::array{BoundaryPoint{*vertex, 0}}).cast<Complex>();
       else
         g.row(outside[k]) += (z - moved[k]) * slopes.row(static_cast<Index>(k));
     }
@@ -74,33 +72,31 @@ class HarmonicCoordinates {
   }
 
  private:
+  std::optional<Index> vertex_at(Complex z) const {
+    for (Index j = 0; j < cage_.size(); ++j)
+      if (cage_.vertex(j) == z) return j;
+    return {};
+  }
+  bool is_inside(Complex z) const {
+    if (vertex_at(z)) return false;
+    return is_straight(cage_) ? winding_number(flat_.points, z) != 0 : contains(cage_, z);
+  }
+
   /// The place of the boundary next to a point on it or outside, but none of its vertices.
-  Complex beside_edge(Complex z) const {
-    constexpr double kLeast = 0.02;  // of an edge
-    const Polyline::Nearest at = edge_.nearest(z);
-    const size_t i = static_cast<size_t>(at.segment);
-    const double t = std::clamp(at.parameter, kLeast, 1 - kLeast);
-    return t == at.parameter && at.distance == 0
-               ? z
-               : flat_.points[i] +
-                     t * (flat_.points[(i + 1) % flat_.points.size()] - flat_.points[i]);
+  Complex beside(Complex z) const {
+    constexpr double kLeast = 0.02;  // of a segment
+    const Polyline::Nearest near = edge_.nearest(z);
+    const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.places.size();
+    const auto& [segment, from] = flat_.places[i];
+    const double to = flat_.places[next].segment == segment && next > 0 ? flat_.places[next].t : 1;
+    const double t = from + near.parameter * (to - from),
+                 clamped = std::clamp(t, kLeast, 1 - kLeast);
+    return t == clamped && near.distance == 0 ? z : position_of(cage_, {segment, clamped});
   }
 
-  std::vector<Index> all_vertices() const {
-    std::vector<Index> all(flat_.points.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
-  /// Before and after each vertex alike.
-  static MatrixXd twice(const MatrixXd& rows) {
-    MatrixXd both(2 * rows.rows(), rows.cols());
-    for (Index i = 0; i < rows.rows(); ++i) both.row(2 * i) = both.row(2 * i + 1) = rows.row(i);
-    return both;
-  }
-
+  Cage cage_;
   FlatCage flat_;
   Polyline edge_;
-  MatrixXd weights_;  ///< of the control points at the polygon's vertices
   HilbertCoordinates hilbert_;
 };
 

@@ -1,0 +1,129 @@
+// Gauss rules on straight ways.
+#include "core/angle_ways.h"
+
+#include <algorithm>
+
+#include "core/arithmetic.h"
+#include "core/cauchy.h"
+#include "core/quadrature.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kPanels = 6, kPanelNodes = 5;
+constexpr double kRatio = 0.3;
+
+/// Gauss nodes for a way whose length is so many times its distance from the nearest corner.
+int nodes_for(double ratio) {
+  return ratio < 0.25 ? 2 : ratio < 0.7 ? 3 : ratio < 2 ? 5 : 9;
+}
+
+}  // namespace
+
+AngleWays::AngleWays(const Mesh& mesh, const Cage& cage)
+    : mesh_(&mesh), cage_(&cage), corners_(vertices_of(cage)), nodes_(mesh.vertices) {
+  vertex_at_.assign(nodes_.size(), -1);
+  for (const int node : mesh.cage_vertices) {
+    const auto vertex = std::ranges::find(corners_, nodes_[static_cast<size_t>(node)]);
+    check(vertex != corners_.end(), "angle ways: the mesh is one of the cage");
+    vertex_at_[static_cast<size_t>(node)] = static_cast<int>(vertex - corners_.begin());
+  }
+  on_boundary_.assign(nodes_.size(), false);
+  for (const int node : mesh.boundary) on_boundary_[static_cast<size_t>(node)] = true;
+}
+
+void AngleWays::add(int from, int to) {
+  const size_t start = static_cast<size_t>(from), end = static_cast<size_t>(to);
+  const Complex a = nodes_[start], b = nodes_[end], middle = 0.5 * (a + b);
+  const size_t first = places_.size();
+  if (vertex_at_[start] < 0 && vertex_at_[end] < 0) {
+    plain(a, b, nodes_for(std::abs(b - a) / distance_to_corner(a, b)), 1);
+  } else if (vertex_at_[start] < 0) {
+    graded(a, vertex_at_[end], 1);
+  } else if (vertex_at_[end] < 0) {
+    graded(b, vertex_at_[start], -1);
+  } else {
+    graded(middle, vertex_at_[end], 1);
+    graded(middle, vertex_at_[start], -1);
+  }
+  if (on_boundary_[start] && on_boundary_[end]) pull_inside(first, b - a);
+  steps_.push_back({from, to, static_cast<Index>(places_.size())});
+}
+
+int AngleWays::add_node(Complex z) {
+  const Points& vertices = mesh_->vertices;
+  int nearest = -1;
+  const auto consider = [&](int node) {
+    const Complex at = nodes_[static_cast<size_t>(node)];
+    if (nearest < 0 || std::norm(at - z) < std::norm(nodes_[static_cast<size_t>(nearest)] - z))
+      nearest = node;
+  };
+  if (const auto found = locate(*mesh_, vertices, z))
+    std::ranges::for_each(mesh_->triangles[static_cast<size_t>(found->triangle)], consider);
+  else
+    std::ranges::for_each(mesh_->boundary, consider);
+  if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
+  nodes_.push_back(z);
+  vertex_at_.push_back(-1);
+  on_boundary_.push_back(true);
+  add(nearest, nodes() - 1);
+  return nodes() - 1;
+}
+
+void AngleWays::plain(Complex a, Complex b, int count, double sign) {
+  const GaussRule& rule = gauss_rule(count);
+  for (size_t g = 0; g < static_cast<size_t>(count); ++g) {
+    places_.push_back(a + rule.nodes[g] * (b - a));
+    weights_.push_back(sign * rule.weights[g] * (b - a));
+  }
+}
+
+void AngleWays::graded(Complex a, int vertex, double sign) {
+  const Complex corner = corners_[static_cast<size_t>(vertex)];
+  for (int panel = 0; panel < kPanels; ++panel) {
+    const Complex b = corner + kRatio * (a - corner);
+    plain(a, b, kPanelNodes, sign);
+    a = b;
+  }
+  tails_.push_back({static_cast<Index>(steps_.size()), static_cast<Index>(places_.size()),
+                    sign * (corner - a), vertex});
+  places_.push_back(a);
+  weights_.push_back(0);
+}
+
+// Chords of curves that bend inwards run outside, by a hundredth of their length or so.
+void AngleWays::pull_inside(size_t first, Complex way) {
+  if (is_straight(*cage_)) return;
+  for (size_t i = first; i < places_.size(); ++i) {
+    const Complex at = places_[i];
+    for (const double aside : {0.0, 0.002, -0.002, 0.01, -0.01, 0.05, -0.05}) {
+      places_[i] = at + aside * kI * way;
+      if (contains(*cage_, places_[i])) break;
+    }
+  }
+}
+
+double AngleWays::distance_to_corner(Complex a, Complex b) const {
+  double least = INFINITY;
+  for (const Complex& corner : corners_)
+    least = std::min(least, nearest_on_segment(a, b, corner).distance);
+  return least;
+}
+
+void AngleWays::integrate(const VectorXc& values, const VectorXd& exponents,
+                          VectorXc& integral) const {
+  Index place = 0;
+  size_t tail = 0;
+  for (size_t s = 0; s < steps_.size(); ++s) {
+    Complex sum = 0;
+    for (; place < steps_[s].end; ++place)
+      sum += times(weights_[static_cast<size_t>(place)], values[place]);
+    for (; tail < tails_.size() && tails_[tail].step == static_cast<Index>(s); ++tail) {
+      const Tail& t = tails_[tail];
+      sum += values[t.place] * t.way / (1 + exponents[t.vertex]);
+    }
+    integral[steps_[s].to] = integral[steps_[s].from] + sum;
+  }
+}
+
+}  // namespace holomorph
