@@ -30,6 +30,7 @@ class Editor {
     tools_.push_back(pin_tool());
     tools_.push_back(stroke_tool());
     tools_.push_back(outline_tool());
+    tools_.push_back(angle_tool());
     workspace_.map.on_ready([this] { window_.wake(); });
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);

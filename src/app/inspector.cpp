@@ -3,6 +3,7 @@
 
 #include "app/map_panel.h"
 #include "app/panels.h"
+#include "edit/corner_edits.h"
 #include "edit/curve_edits.h"
 #include "scene/auto_cage.h"
 
@@ -115,6 +116,30 @@ void method_section(Workspace& workspace) {
     wrapped_text(workspace.map.map().note);
 }
 
+/// A corner's own angles, and the tension of the edge behind it.
+void corner_angles(Workspace& workspace, Index vertex) {
+  const Scene scene = workspace.scene();
+  if (!method_named(scene.method).uses_corners || workspace.layer == Layer::rest) return;
+  if (!is_corner(scene, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
+  const PoseCorner pose = corner_at(scene, vertex);
+  const double turn = (pose.before + pose.after) / 2, opening = corner_opening(scene, vertex);
+  const auto edit = [&](const char* label, double radians, const char* step, auto change) {
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+    edit_number(label, radians * 180 / kPi, "%.1f", 0.5f, workspace, step,
+                [&](const Scene& s, double degrees) { return change(s, degrees * kPi / 180); });
+  };
+  edit("degrees turned", turn, "Turn corner", [&](const Scene& s, double angle) {
+    const PoseCorner now = corner_at(s, vertex);
+    return corner_turned(s, vertex, angle - (now.before + now.after) / 2);
+  });
+  edit("degrees opened", opening, "Open corner", [&](const Scene& s, double angle) {
+    return corner_opened(s, vertex, (angle - corner_opening(s, vertex)) / 2);
+  });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("tension after it", pose.tension, "%.2f", 0.01f, workspace, "Tension",
+              [&](const Scene& s, double tension) { return with_tension(s, vertex, tension); });
+}
+
 void one_handle(Workspace& workspace, Handle handle) {
   const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
   const Layer layer = workspace.layer;
@@ -144,6 +169,7 @@ void one_handle(Workspace& workspace, Handle handle) {
       if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
         run(action_named(id), workspace);
     }
+    if (handle.control == 0) corner_angles(workspace, handle.index);
     return;
   }
   if (layer == Layer::rest) return;

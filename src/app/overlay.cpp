@@ -1,6 +1,7 @@
 // Every stroke has a dark edge under it, so that it shows on any picture.
 #include "app/overlay.h"
 
+#include "app/corner_overlay.h"
 #include "edit/curve_edits.h"
 
 namespace holomorph {
@@ -175,8 +176,12 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     // With pins or strokes the posed cage is only the start of the map: it steps back behind the
     // picture.
     const Pose used = pose_of(scene);
-    const bool faint = layer == Layer::pose &&
-                       (!used.pins.empty() || !used.strokes.empty() || workspace.shows_outline());
+    const bool turned = std::ranges::any_of(used.corners, [](const PoseCorner& corner) {
+      return corner.before != 0 || corner.after != 0;
+    });
+    const bool by_angles = layer == Layer::pose && workspace.tool == ToolId::angle;
+    const bool faint = layer == Layer::pose && (!used.pins.empty() || !used.strokes.empty() ||
+                                                workspace.shows_outline() || turned || by_angles);
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
@@ -209,13 +214,16 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
       for (const Complex& zero : at_rest ? workspace.map.map().zeros : workspace.map.zero_places())
         draw_zero(list, px(workspace, zero), style);
+      if (!at_rest) draw_limited_corners(list, workspace, style);
     }
+    if (by_angles && scene.has_cage()) draw_corners(list, workspace, gesture, style);
     for (const Handle& handle : handles_of(scene, layer)) {
       if (handle.kind == Handle::Kind::stroke) {
         draw_stroke(list, workspace, handle, gesture.hover == handle, style);
         continue;
       }
       const ImVec2 at = px(workspace, position_of(scene, handle, layer));
+      if (by_angles && handle.kind == Handle::Kind::cage) continue;
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;
       if (faint && handle.kind == Handle::Kind::cage && !selected && !hovered) {
         const float r = 2.6f * static_cast<float>(style.scale);

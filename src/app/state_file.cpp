@@ -7,7 +7,7 @@
 namespace holomorph {
 
 void StateFile::write(const Workspace& workspace, const PartsState& parts) {
-  static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline"};
+  static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline", "angle"};
   const Viewport& view = workspace.viewport;
   char text[1400];
   std::snprintf(

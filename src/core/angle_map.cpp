@@ -2,8 +2,10 @@
 #include "core/angle_map.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/antiderivative.h"
+#include "core/arithmetic.h"
 #include "core/outline_start.h"
 
 namespace holomorph {
@@ -20,21 +22,31 @@ int deepest_vertex(const Mesh& mesh, const Cage& cage) {
 
 AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
                    const Points& samples, Precision precision)
-    : coordinates_(std::move(coordinates)), ways_(mesh, coordinates_->cage()) {
+    : coordinates_(std::move(coordinates)), ways_(mesh, coordinates_->cage(), precision) {
   const Cage& cage = coordinates_->cage();
   const int root = deepest_vertex(mesh, cage);
   anchor_ = mesh.vertices[static_cast<size_t>(root)];
   at_anchor_ = coordinates_->at({&anchor_, 1}).imag();
   const MeshTree tree(mesh, root);
-  for (const MeshTree::Edge& edge : tree.edges()) ways_.add(edge.from, edge.to);
-  if (samples != mesh.vertices)
-    for (const Complex& z : samples) node_of_sample_.push_back(ways_.add_node(z));
+  if (samples == mesh.vertices) {
+    for (const MeshTree::Edge& edge : tree.edges()) ways_.add(edge.from, edge.to);
+    nodes_of_samples_.resize(samples.size());
+    std::iota(nodes_of_samples_.begin(), nodes_of_samples_.end(), 0);
+  } else {
+    std::vector<char> wanted(mesh.vertices.size(), 0);
+    for (const Complex& z : samples) wanted[static_cast<size_t>(ways_.vertex_near(z))] = 1;
+    for (auto edge = tree.edges().rbegin(); edge != tree.edges().rend(); ++edge)
+      if (wanted[static_cast<size_t>(edge->to)]) wanted[static_cast<size_t>(edge->from)] = 1;
+    for (const MeshTree::Edge& edge : tree.edges())
+      if (wanted[static_cast<size_t>(edge.to)]) ways_.add(edge.from, edge.to);
+    for (const Complex& z : samples) nodes_of_samples_.push_back(ways_.add_node(z));
+  }
   angles_.resize(cage.size());
   for (Index j = 0; j < cage.size(); ++j) angles_[j] = coordinates_->angle(j);
-  const MatrixXc h = coordinates_->at(ways_.places());
+  const MatrixXc h = rows(ways_.places());
   const auto keep = [&]<class T>(Parts<T> parts) {
     parts.re = h.real().template cast<T>();
-    parts.im = (h.imag().rowwise() - at_anchor_).template cast<T>();
+    parts.im = h.imag().template cast<T>();
     h_ = std::move(parts);
   };
   if (precision == Precision::full)
@@ -68,25 +80,43 @@ void AngleMap::turn_to(const VectorXd& theta, bool draft) {
   theta_ = theta;
 }
 
-void AngleMap::map(const VectorXd& theta, VectorXc& f, bool draft) {
-  turn_to(theta, draft);
-  VectorXc slopes(turn_.size());
-  for (Index i = 0; i < slopes.size(); ++i) slopes[i] = std::polar(std::exp(-shrink_[i]), turn_[i]);
-  // f' is a power of the distance near a vertex: its exponent is the jump, in angles.
-  const VectorXd exponents = -(coordinates_->parts().jumps * theta).cwiseQuotient(angles_);
-  nodes_.setZero(ways_.nodes());
-  ways_.integrate(slopes, exponents, nodes_);
-  if (node_of_sample_.empty()) {
-    f = nodes_;
-    return;
-  }
-  f.resize(static_cast<Index>(node_of_sample_.size()));
-  for (Index i = 0; i < f.size(); ++i) f[i] = nodes_[node_of_sample_[static_cast<size_t>(i)]];
+VectorXd AngleMap::exponents(const VectorXd& theta) const {
+  return -(coordinates_->parts().jumps * theta).cwiseQuotient(angles_);
 }
 
-VectorXc AngleMap::logarithm(const MatrixXc& rows, const VectorXd& theta) const {
-  const Complex at_anchor = kI * at_anchor_.dot(theta);
-  return kI * ((rows * theta.cast<Complex>()).array() - at_anchor);
+VectorXc AngleMap::integral(const VectorXc& values) const {
+  VectorXc nodes = VectorXc::Zero(ways_.nodes());
+  ways_.integrate(values, exponents(theta_), nodes);
+  VectorXc f(static_cast<Index>(nodes_of_samples_.size()));
+  for (Index i = 0; i < f.size(); ++i) f[i] = nodes[nodes_of_samples_[static_cast<size_t>(i)]];
+  return f;
+}
+
+void AngleMap::map(const VectorXd& theta, VectorXc& f, bool draft) {
+  turn_to(theta, draft);
+  slopes_.resize(turn_.size());
+  for (Index i = 0; i < slopes_.size(); ++i)
+    slopes_[i] = std::polar(std::exp(-shrink_[i]), turn_[i]);
+  f = integral(slopes_);
+}
+
+MatrixXc AngleMap::changes() const {
+  MatrixXc by(static_cast<Index>(nodes_of_samples_.size()), theta_.size());
+  std::visit(
+      [&](const auto& h) {
+        for (Index c = 0; c < theta_.size(); ++c) {
+          VectorXc column(slopes_.size());
+          for (Index i = 0; i < column.size(); ++i)
+            column[i] = times(Complex(-h.im(i, c), h.re(i, c)), slopes_[i]);
+          by.col(c) = integral(column);
+        }
+      },
+      h_);
+  return by;
+}
+
+MatrixXc AngleMap::rows(std::span<const Complex> points) const {
+  return coordinates_->at(points).rowwise() - kI * at_anchor_.cast<Complex>();
 }
 
 }  // namespace holomorph

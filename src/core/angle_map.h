@@ -28,9 +28,14 @@ class AngleMap {
   /// computed, which agrees to rounding. Cost: a product of places x angles, an exponential and a
   /// sine for each place.
   void map(const VectorXd& theta, VectorXc& f, bool draft = false);
+  /// The derivatives of f at the samples by the angles of the last call, a column each. Cost: as
+  /// many integrals as angles.
+  MatrixXc changes() const;
 
-  /// log f' at places inside, from the coordinates there.
-  VectorXc logarithm(const MatrixXc& rows, const VectorXd& theta) const;
+  /// Near vertex j f' is a power of the distance: its exponent for boundary angles theta.
+  VectorXd exponents(const VectorXd& theta) const;
+  /// H at places inside, but at no vertex, with Im H = 0 at the anchor: log f' = i H theta.
+  MatrixXc rows(std::span<const Complex> points) const;
 
  private:
   template <class T>
@@ -39,16 +44,17 @@ class AngleMap {
   };
 
   void turn_to(const VectorXd& theta, bool draft);
+  VectorXc integral(const VectorXc& values) const;
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;
   Complex anchor_;
   Eigen::RowVectorXd at_anchor_;  ///< Im H there
   AngleWays ways_;
-  std::vector<int> node_of_sample_;              ///< empty: the samples are the mesh's vertices
+  std::vector<int> nodes_of_samples_;
   VectorXd angles_;                              ///< inside, at each vertex
   std::variant<Parts<float>, Parts<double>> h_;  ///< H at the places, Im H = 0 at the anchor
   VectorXd theta_, turn_, shrink_;               ///< the last ones, and Re H theta and Im H theta
-  VectorXc nodes_;                               ///< f at them
+  VectorXc slopes_;                              ///< f' at the places
 };
 
 }  // namespace holomorph

@@ -10,7 +10,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kPanels = 6, kPanelNodes = 5;
+constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
 constexpr double kRatio = 0.3;
 
 /// Gauss nodes for a way whose length is so many times its distance from the nearest corner.
@@ -20,8 +20,13 @@ int nodes_for(double ratio) {
 
 }  // namespace
 
-AngleWays::AngleWays(const Mesh& mesh, const Cage& cage)
-    : mesh_(&mesh), cage_(&cage), corners_(vertices_of(cage)), nodes_(mesh.vertices) {
+AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
+    : mesh_(&mesh),
+      cage_(&cage),
+      corners_(vertices_of(cage)),
+      nodes_(mesh.vertices),
+      more_nodes_(precision == Precision::full ? kMoreNodes : 0),
+      panels_(kPanels + (precision == Precision::full ? kMorePanels : 0)) {
   vertex_at_.assign(nodes_.size(), -1);
   for (const int node : mesh.cage_vertices) {
     const auto vertex = std::ranges::find(corners_, nodes_[static_cast<size_t>(node)]);
@@ -37,7 +42,7 @@ void AngleWays::add(int from, int to) {
   const Complex a = nodes_[start], b = nodes_[end], middle = 0.5 * (a + b);
   const size_t first = places_.size();
   if (vertex_at_[start] < 0 && vertex_at_[end] < 0) {
-    plain(a, b, nodes_for(std::abs(b - a) / distance_to_corner(a, b)), 1);
+    plain(a, b, nodes_for(std::abs(b - a) / distance_to_corner(a, b)) + more_nodes_, 1);
   } else if (vertex_at_[start] < 0) {
     graded(a, vertex_at_[end], 1);
   } else if (vertex_at_[end] < 0) {
@@ -50,18 +55,18 @@ void AngleWays::add(int from, int to) {
   steps_.push_back({from, to, static_cast<Index>(places_.size())});
 }
 
-int AngleWays::add_node(Complex z) {
-  const Points& vertices = mesh_->vertices;
-  int nearest = -1;
-  const auto consider = [&](int node) {
-    const Complex at = nodes_[static_cast<size_t>(node)];
-    if (nearest < 0 || std::norm(at - z) < std::norm(nodes_[static_cast<size_t>(nearest)] - z))
-      nearest = node;
+int AngleWays::vertex_near(Complex z) const {
+  const auto distance = [&](int node) {
+    return std::norm(mesh_->vertices[static_cast<size_t>(node)] - z);
   };
-  if (const auto found = locate(*mesh_, vertices, z))
-    std::ranges::for_each(mesh_->triangles[static_cast<size_t>(found->triangle)], consider);
-  else
-    std::ranges::for_each(mesh_->boundary, consider);
+  if (const auto found = locate(*mesh_, mesh_->vertices, z))
+    return *std::ranges::min_element(mesh_->triangles[static_cast<size_t>(found->triangle)], {},
+                                     distance);
+  return *std::ranges::min_element(mesh_->boundary, {}, distance);
+}
+
+int AngleWays::add_node(Complex z) {
+  const int nearest = vertex_near(z);
   if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
   nodes_.push_back(z);
   vertex_at_.push_back(-1);
@@ -80,9 +85,9 @@ void AngleWays::plain(Complex a, Complex b, int count, double sign) {
 
 void AngleWays::graded(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
-  for (int panel = 0; panel < kPanels; ++panel) {
+  for (int panel = 0; panel < panels_; ++panel) {
     const Complex b = corner + kRatio * (a - corner);
-    plain(a, b, kPanelNodes, sign);
+    plain(a, b, kPanelNodes + more_nodes_, sign);
     a = b;
   }
   tails_.push_back({static_cast<Index>(steps_.size()), static_cast<Index>(places_.size()),

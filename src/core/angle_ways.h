@@ -2,7 +2,7 @@
 // vertices of a cage.
 #pragma once
 
-#include "core/mesh.h"
+#include "core/deformer.h"
 
 namespace holomorph {
 
@@ -12,11 +12,14 @@ namespace holomorph {
 class AngleWays {
  public:
   /// The first nodes are the mesh's vertices. Mesh and cage must outlive the adding of steps.
-  AngleWays(const Mesh& mesh, const Cage& cage);
+  /// Precision::full takes nearly twice the places.
+  AngleWays(const Mesh& mesh, const Cage& cage, Precision precision);
 
   /// Goes from a node that has been reached to another one.
   void add(int from, int to);
-  /// A node at any place of the mesh, reached from the nearest one; the mesh's vertex if it is one.
+  /// The mesh's vertex from which a place is reached.
+  int vertex_near(Complex z) const;
+  /// A node at any place of the mesh, reached from vertex_near; that itself if it is there.
   int add_node(Complex z);
   int nodes() const { return static_cast<int>(nodes_.size()); }
 
@@ -48,6 +51,7 @@ class AngleWays {
   const Mesh* mesh_;
   const Cage* cage_;
   Points corners_, nodes_, places_;
+  int more_nodes_, panels_;     ///< what Precision::full adds
   std::vector<int> vertex_at_;  ///< the cage's vertex at a node, or -1
   std::vector<bool> on_boundary_;
   std::vector<Step> steps_;

@@ -55,12 +55,22 @@ struct PosePin {
   bool operator==(const PosePin&) const = default;
 };
 
+/// What a corner's boundary angles are besides the posed cage's own: turns in radians, unwrapped.
+struct PoseCorner {
+  double before = 0.0, after = 0.0;  ///< of the edges that end and start there
+  /// Of the edge from here to the next corner, 0 to 1: with 1 its image is as straight as it was,
+  /// with 0 it bends so that corners keep their angles.
+  double tension = 1.0;
+  bool operator==(const PoseCorner&) const = default;
+};
+
 /// Everything that forces precomputation. Value type.
 struct Rest {
   Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
   std::vector<Points> strokes = {};  ///< open curves, two different points each at least
   Points outline = {};               ///< closed; where the cage's shape is to go, or none
+  std::vector<Index> corners = {};   ///< the cage's vertices with angles, in order; none: all
   Points samples;                    ///< where the map is wanted, inside or on the cage
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
@@ -73,12 +83,13 @@ struct Rest {
   Precision precision = Precision::single;
 };
 
-/// Everything that moves. Value type; as many segments, control points, pins and strokes as the
-/// Rest.
+/// Everything that moves. Value type; as many segments, control points, pins, strokes and corners
+/// as the Rest.
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
   std::vector<Points> strokes = {};  ///< where those of the rest go, run through the same way
+  std::vector<PoseCorner> corners = {};
   bool operator==(const Pose&) const = default;
 };
 
@@ -94,6 +105,8 @@ struct SampledMap {
   /// first one before any.
   std::vector<double> energies;
   Points zeros;  ///< where the derivative of a map that was projected vanishes, at rest
+  /// The cage's vertices whose angles are held at the least possible one.
+  std::vector<Index> limited_corners;
   bool ignores_pins = false;  ///< the method uses pins, but had no use for these
 };
 
@@ -160,7 +173,7 @@ struct Method {
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
-  bool uses_strokes = false, uses_outline = false;
+  bool uses_strokes = false, uses_outline = false, uses_corners = false;
 };
 
 /// The table of methods, in menu order.

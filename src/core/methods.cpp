@@ -9,7 +9,7 @@ const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
     std::vector<Method> rows{cage_method(),     pins_method(),    arap_method(),
                              har_arap_method(), outline_method(), strokes_method(),
-                             harmonic_method()};
+                             angles_method(),   harmonic_method()};
     rows.push_back(bounded_method(rows));
     return rows;
   }();
@@ -30,12 +30,14 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_pins) rest.pins.clear();
   if (!method.uses_strokes) rest.strokes.clear();
   if (!method.uses_outline) rest.outline.clear();
+  if (!method.uses_corners) rest.corners.clear();
   return rest;
 }
 
 Pose used_by(const Method& method, Pose pose) {
   if (!method.uses_pins) pose.pins.clear();
   if (!method.uses_strokes) pose.strokes.clear();
+  if (!method.uses_corners) pose.corners.clear();
   return pose;
 }
 

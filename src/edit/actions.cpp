@@ -2,6 +2,7 @@
 #include "edit/actions.h"
 
 #include "core/error.h"
+#include "edit/corner_edits.h"
 #include "edit/curve_edits.h"
 #include "edit/tool.h"
 #include "scene/auto_cage.h"
@@ -149,9 +150,9 @@ void redo(Workspace& w) {
 // Glyphs of Font Awesome 4.
 constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
                      *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
-                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kStroke = "\uf1fc",
-                     *kMagic = "\uf0d0", *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2",
-                     *kSearch = "\uf002";
+                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf01e",
+                     *kStroke = "\uf1fc", *kMagic = "\uf0d0", *kFit = "\uf065", *kHelp = "\uf059",
+                     *kReset = "\uf0e2", *kSearch = "\uf002";
 
 /// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
@@ -301,6 +302,15 @@ std::vector<Action> table() {
        choose<ToolId::outline>,
        chosen<ToolId::outline>},
 
+      {"tool.angle",
+       "Angles: turn corners, open and shut them",
+       kAngle,
+       "Tools",
+       {'A'},
+       always,
+       choose<ToolId::angle>,
+       chosen<ToolId::angle>},
+
       {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
       {"cage.rest",
        "Show and edit the rest shape",
@@ -318,6 +328,13 @@ std::vector<Action> table() {
        {'C'},
        has_cage_selection,
        toggle_corners},
+      {"cage.all_corners",
+       "All points are corners with angles",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) { return !w.scene().corners.empty(); },
+       [](Workspace& w) { w.commit("All corners", with_all_corners(w.scene())); }},
       {"cage.bake",
        "Pose the cage as the pins do",
        "",

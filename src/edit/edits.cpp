@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/polyline.h"
+#include "edit/corner_edits.h"
 
 namespace holomorph {
 
@@ -105,6 +106,7 @@ Complex center_of(const Scene& scene, const Selection& selection, Layer layer) {
 Scene inserted(Scene scene, Index segment, double t) {
   insert_vertex(scene.rest, segment, t);
   insert_vertex(scene.pose, segment, t);
+  follow_insertion(scene.corners, segment);
   return scene;
 }
 
@@ -125,6 +127,7 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
       const double joint = joint_parameter(scene.rest, handle.index);
       erase_vertex(scene.rest, handle.index, joint, refit);
       erase_vertex(scene.pose, handle.index, joint, refit);
+      follow_erasure(scene.corners, handle.index);
     }
   }
   return scene;
@@ -226,6 +229,8 @@ Scene reset(Scene scene, const Selection& selection) {
     if (handle.kind == Handle::Kind::cage && handle.control == 0) {
       const Complex rest = scene.rest.vertex(handle.index);
       scene = placed(std::move(scene), handle, rest, Layer::pose);
+      for (Corner& corner : scene.corners)
+        if (corner.vertex == handle.index) corner.pose = {};
     }
   for (const Handle& handle : selection) {
     if (handle.kind == Handle::Kind::pin) {

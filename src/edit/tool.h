@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "edit/input.h"
+#include "edit/posed_corners.h"
 #include "edit/workspace.h"
 
 namespace holomorph {
@@ -19,6 +20,8 @@ struct ToolOverlay {
   std::optional<Complex> insertion;  ///< where a click inserts a point
   std::optional<Index> ring;         ///< the pin that shows its rotation ring
   bool ring_hovered = false;
+  std::optional<CornerMark> corner;  ///< the cage vertex that shows its ring and arms
+  std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -47,6 +50,7 @@ std::unique_ptr<Tool> pen_tool();
 std::unique_ptr<Tool> pin_tool();
 std::unique_ptr<Tool> stroke_tool();
 std::unique_ptr<Tool> outline_tool();
+std::unique_ptr<Tool> angle_tool();
 
 /// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by
 /// the tools that drag.

@@ -40,7 +40,7 @@ struct Playback {
 /// Shows the next iteration when it is due. Returns whether it did, or ended.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
-enum class ToolId { select, pen, pin, stroke, outline };
+enum class ToolId { select, pen, pin, stroke, outline, angle };
 
 /// A short message over the canvas; `where` can be shown.
 struct Toast {

@@ -13,6 +13,7 @@ Rest rest_of(const Scene& scene, Precision precision) {
   rest.cage = elevated_to(scene.rest, scene.pose);
   for (const Pin& pin : scene.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
   for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
+  for (const Corner& corner : scene.corners) rest.corners.push_back(corner.vertex);
   rest.outline = scene.outline;
   rest.parameters = scene.parameters;
   rest.other_parameters = scene.other_parameters;
@@ -25,6 +26,7 @@ Pose pose_of(const Scene& scene) {
   for (const Pin& pin : scene.pins)
     pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
   for (const Stroke& stroke : scene.strokes) pose.strokes.push_back(stroke.pose);
+  for (const Corner& corner : scene.corners) pose.corners.push_back(corner.pose);
   return used_by(method_named(scene.method), std::move(pose));
 }
 
@@ -36,11 +38,13 @@ Scene at_rest(Scene scene) {
     pin.scale = 1;
   }
   for (Stroke& stroke : scene.strokes) stroke.pose = stroke.rest;
+  for (Corner& corner : scene.corners) corner.pose = {};
   return scene;
 }
 
 Scene with_cage(Scene scene, Cage cage) {
   scene.rest = std::move(cage);
+  scene.corners.clear();  // other vertices
   return at_rest(std::move(scene));
 }
 

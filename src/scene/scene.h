@@ -46,6 +46,14 @@ struct Stroke {
   bool operator==(const Stroke&) const = default;
 };
 
+/// A vertex of the cage whose angles method `angles` sets. Without any, all vertices are corners.
+struct Corner {
+  Index vertex = 0;
+  PoseCorner pose = {};
+  Extra extra = {};
+  bool operator==(const Corner&) const = default;
+};
+
 /// All that is saved. rest and pose of the cage have the same number of segments; both are empty
 /// until a cage is drawn.
 struct Scene {
@@ -55,6 +63,7 @@ struct Scene {
   std::vector<Stroke> strokes;
   Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::optional<SurfaceReference> surface = {};
+  std::vector<Corner> corners = {};  ///< by increasing vertex
   std::string method = "cage";
   Parameters parameters;
   std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id

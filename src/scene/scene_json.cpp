@@ -15,8 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr double kLargest = 1e8;  ///< coordinates beyond this are no picture's
-constexpr int kDeepest = 200;     ///< nesting, unknown keys included
+constexpr double kLargest = 1e8;   ///< coordinates beyond this are no picture's
+constexpr double kMostTurn = 1e3;  ///< radians: 159 times around
+constexpr int kDeepest = 200;      ///< nesting, unknown keys included
 constexpr size_t kMostSegments = 5000;
 
 /// A JSON value, where it stands, and how to complain about it.
@@ -251,6 +252,22 @@ Stroke read_stroke(const Reader& reader) {
   return stroke;
 }
 
+/// Corners are vertices by increasing number.
+Corner read_corner(const Reader& reader, const Scene& scene) {
+  reader.object();
+  Corner corner;
+  const int last = static_cast<int>(scene.rest.size()) - 1;
+  if (last < 0) reader.fail("there is no cage that it could be a corner of");
+  corner.vertex = reader["vertex"].whole(0, last);
+  if (!scene.corners.empty() && scene.corners.back().vertex >= corner.vertex)
+    reader["vertex"].fail("corners must be in the order of their vertices, each once");
+  if (reader.has("before")) corner.pose.before = reader["before"].within(-kMostTurn, kMostTurn);
+  if (reader.has("after")) corner.pose.after = reader["after"].within(-kMostTurn, kMostTurn);
+  if (reader.has("tension")) corner.pose.tension = reader["tension"].within(0, 1);
+  corner.extra = reader.others({"vertex", "before", "after", "tension"});
+  return corner;
+}
+
 Json point_json(Complex z) {
   return Json::array({z.real(), z.imag()});
 }
@@ -364,14 +381,21 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     if (strokes.size() > 200) strokes.fail("more than 200 strokes");
     for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
   }
+  if (reader.has("corners")) {
+    const Reader corners = reader["corners"].array();
+    for (size_t i = 0; i < corners.size(); ++i)
+      scene.corners.push_back(read_corner(corners[i], scene));
+    if (!scene.corners.empty() && scene.corners.size() < 3)
+      corners.fail("there must be three corners at least, or none: all vertices");
+  }
   if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
     scene.surface = read_surface(reader["surface"]);
     if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
   }
   if (reader.has("method")) read_method(reader["method"], scene);
-  scene.extra = reader.others(
-      {"format", "version", "image", "cage", "pins", "strokes", "outline", "surface", "method"});
+  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners",
+                               "outline", "surface", "method"});
   return scene;
 }
 
@@ -413,6 +437,18 @@ std::string json_of(const Scene& scene) {
       item["pose"] = curve_json(stroke.pose);
       add_extra(item, stroke.extra);
       document["strokes"].push_back(std::move(item));
+    }
+  }
+  if (!scene.corners.empty()) {
+    document["corners"] = Json::array();
+    for (const Corner& corner : scene.corners) {
+      Json item;
+      item["vertex"] = corner.vertex;
+      item["before"] = corner.pose.before;
+      item["after"] = corner.pose.after;
+      if (corner.pose.tension != 1) item["tension"] = corner.pose.tension;
+      add_extra(item, corner.extra);
+      document["corners"].push_back(std::move(item));
     }
   }
   if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);

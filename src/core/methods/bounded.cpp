@@ -315,7 +315,7 @@ Method bounded_method(const std::vector<Method>& references) {
        {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
        {"Default", {}},
        {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
-  method.uses_strokes = method.uses_outline = true;
+  method.uses_strokes = method.uses_outline = method.uses_corners = true;
   return method;
 }
 

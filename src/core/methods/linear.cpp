@@ -63,7 +63,14 @@ void check_pose(const Rest& rest, const Pose& pose) {
     throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
   if (pose.strokes.size() != rest.strokes.size())
     throw Error(ErrorKind::bad_input, "there must be as many posed strokes as strokes at rest");
+  if (pose.corners.size() != rest.corners.size())
+    throw Error(ErrorKind::bad_input, "there must be as many posed corners as corners at rest");
   for (const Points& stroke : pose.strokes) check_stroke(stroke);
+  for (const PoseCorner& corner : pose.corners)
+    if (!std::isfinite(corner.before) || !std::isfinite(corner.after) || !(corner.tension >= 0) ||
+        !(corner.tension <= 1))
+      throw Error(ErrorKind::bad_input,
+                  "a corner's angle is not finite, or a tension outside 0 to 1");
   for (const Points& segment : pose.cage.segments)
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");

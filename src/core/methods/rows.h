@@ -24,6 +24,9 @@ Method outline_method();
 /// `strokes`: curves inside go onto other curves, free to slide (Segall, Ben-Chen 2016).
 Method strokes_method();
 
+/// `angles`: f' = exp(i H theta) for the boundary's angles (Weber, Gotsman 2010).
+Method angles_method();
+
 /// `harmonic`: f = h b, with harmonic coordinates h (Weber, Gotsman 2010, sec. 5): the cage's image
 /// is the posed cage.
 Method harmonic_method();

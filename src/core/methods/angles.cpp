@@ -1,0 +1,242 @@
+// Method `angles`: f' = exp(i H theta), with theta how the boundary turns.
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "core/angle_pins.h"
+#include "core/boundary_angles.h"
+#include "core/error.h"
+#include "core/methods/acting_pins.h"
+#include "core/methods/linear.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+/// What a rest's boundary is here: counter-clockwise, with corners in order.
+struct Boundary {
+  explicit Boundary(const Rest& rest)
+      : cage(counter_clockwise(rest.cage)), reversed(!(cage == rest.cage)), corners(rest.corners) {
+    const Index n = cage.size();
+    if (!std::ranges::is_sorted(corners) || std::ranges::adjacent_find(corners) != corners.end() ||
+        (!corners.empty() && (corners.front() < 0 || corners.back() >= n)))
+      throw Error(ErrorKind::bad_input,
+                  "corners must be vertices of the cage, each once and in order");
+    if (corners.empty()) {
+      corners.resize(static_cast<size_t>(n));
+      std::iota(corners.begin(), corners.end(), 0);
+    }
+    order.resize(corners.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    if (!reversed) return;
+    for (Index& corner : corners) corner = (n - corner) % n;
+    std::ranges::sort(order, {}, [&](size_t i) { return corners[i]; });
+    std::ranges::sort(corners);
+  }
+
+  Cage posed(const Cage& pose) const { return reversed ? holomorph::reversed(pose) : pose; }
+  /// A pose's corners in this order, run through this way.
+  std::vector<PoseCorner> own(const std::vector<PoseCorner>& pose) const {
+    if (pose.empty()) return std::vector<PoseCorner>(corners.size());
+    std::vector<PoseCorner> own;
+    for (const size_t i : order) {
+      own.push_back(pose[i]);
+      if (!reversed) continue;
+      std::swap(own.back().before, own.back().after);
+      own.back().tension = pose[(i + pose.size() - 1) % pose.size()].tension;
+    }
+    return own;
+  }
+  /// The vertex' number in the rest's cage.
+  Index vertex(Index corner) const {
+    return reversed ? (cage.size() - corner) % cage.size() : corner;
+  }
+
+  Cage cage;
+  bool reversed;
+  std::vector<Index> corners;
+  std::vector<size_t> order;  ///< of a pose's corners
+};
+
+/// From the mesh vertex nearest to a point.
+class AnglePoints final : public PointMap {
+ public:
+  AnglePoints(std::shared_ptr<const Mesh> mesh, AngleMap map, PlacedAngles placed,
+              VectorXc at_vertices)
+      : mesh_(std::move(mesh)),
+        map_(std::move(map)),
+        ways_(*mesh_, map_.coordinates().cage(), Precision::full),
+        placed_(std::move(placed)),
+        at_vertices_(std::move(at_vertices)) {}
+
+  Value at(Complex z) const override {
+    AngleWays ways = ways_;
+    const int from = ways.vertex_near(z), node = ways.add_node(z);
+    const VectorXc slopes = slopes_at(ways.places());
+    VectorXc nodes = VectorXc::Zero(ways.nodes());
+    nodes[from] = at_vertices_[from];
+    ways.integrate(slopes, map_.exponents(placed_.theta), nodes);
+    const bool corner = std::ranges::find(mesh_->cage_vertices, node) != mesh_->cage_vertices.end();
+    const Complex slope = corner ? NAN : slopes_at({&z, 1})[0];
+    return {placed_.scale * nodes[node] + placed_.move, placed_.scale * slope, 0};
+  }
+
+ private:
+  VectorXc slopes_at(std::span<const Complex> points) const {
+    const VectorXc theta = placed_.theta.cast<Complex>();
+    return (kI * (map_.rows(points) * theta)).array().exp();
+  }
+
+  std::shared_ptr<const Mesh> mesh_;
+  AngleMap map_;
+  AngleWays ways_;
+  PlacedAngles placed_;
+  VectorXc at_vertices_;
+};
+
+class AnglesDeformer final : public Deformer {
+ public:
+  explicit AnglesDeformer(const Rest& rest)
+      : rest_(rest),
+        boundary_(rest),
+        coordinates_(std::make_shared<const HilbertCoordinates>(
+            boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
+        map_(*rest_.mesh, coordinates_, rest_.samples, rest_.precision),
+        frame_(*rest_.mesh, coordinates_, rest_.precision),
+        acting_(acting_pins(rest_)) {
+    if (acting_.used.empty()) return;
+    std::vector<RestPin> pins;
+    for (const size_t i : acting_.used) pins.push_back(rest_.pins[i]);
+    pins_.emplace(*rest_.mesh, coordinates_, boundary_.corners, pins);
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    check_pose(rest_, pose);
+    out = SampledMap{};
+    out.note = acting_.note;
+    const Index count = static_cast<Index>(rest_.samples.size());
+    if (rests(pose)) {
+      out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
+      if (!wanted.derivatives) return;
+      out.fz = VectorXc::Ones(count);
+      out.fzbar = VectorXc::Zero(count);
+      return;
+    }
+    const PlacedAngles placed = place(pose, wanted.draft, out);
+    VectorXc f;
+    map_.map(placed.theta, f, wanted.draft);
+    out.f = (placed.scale * f).array() + placed.move;
+    if (!out.f.allFinite())
+      throw Error(ErrorKind::bad_input,
+                  "the angles bend the picture beyond all numbers; turn the corners less");
+    if (!wanted.derivatives || count == 0) return;
+    if (slopes_.rows() != count) slopes_ = slopes();
+    const VectorXc theta = placed.theta.cast<Complex>();
+    out.fz = placed.scale * (kI * product(slopes_, theta)).array().exp();
+    out.fzbar = VectorXc::Zero(count);
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(rest_, pose);
+    Rest rest = rest_;
+    rest.samples = rest_.mesh->vertices;
+    rest.precision = Precision::full;
+    AnglesDeformer whole(rest);
+    SampledMap ignored;
+    const PlacedAngles placed = whole.place(pose, false, ignored);
+    VectorXc f;
+    whole.map_.map(placed.theta, f);
+    return std::make_unique<AnglePoints>(rest_.mesh, std::move(whole.map_), placed, std::move(f));
+  }
+
+ private:
+  bool rests(const Pose& pose) const {
+    if (!cage_displacement(rest_, pose).isZero(0)) return false;
+    for (const PoseCorner& corner : pose.corners)
+      if (corner.before != 0 || corner.after != 0) return false;
+    return std::ranges::all_of(acting_.used, [&](size_t i) {
+      const PosePin& pin = pose.pins[i];
+      return pin.position == rest_.pins[i].position &&
+             (!rest_.pins[i].turns || (pin.angle == 0 && pin.scale == 1));
+    });
+  }
+
+  PlacedAngles place(const Pose& pose, bool draft, SampledMap& out) {
+    const Cage posed = boundary_.posed(elevated_to(pose.cage, rest_.cage));
+    BoundaryAngles angles =
+        boundary_angles(boundary_.cage, posed, boundary_.corners, boundary_.own(pose.corners));
+    PlacedAngles placed = frame_.place(angles.theta, posed);
+    std::set<Index> limited(angles.limited.begin(), angles.limited.end());
+    if (pins_) {
+      std::vector<PosePin> targets;
+      for (const size_t i : acting_.used) targets.push_back(pose.pins[i]);
+      const AnglePins::Answer answer = pins_->pull(targets, draft, placed);
+      limited.insert(answer.limited.begin(), answer.limited.end());
+      out.iterations = answer.iterations;
+      if (!answer.settled) out.status = SampledMap::Status::iterating;
+      constexpr double kFar = 1e-3;  // of the size
+      if (!draft && answer.missed > kFar * box_of(rest_.mesh->vertices).diagonal())
+        say(out, "pins are missed: no map without folds was found that meets them");
+    }
+    for (const Index corner : limited) out.limited_corners.push_back(boundary_.vertex(corner));
+    std::ranges::sort(out.limited_corners);
+    std::string list;
+    for (const Index corner : out.limited_corners)
+      list += (list.empty() ? "" : ", ") + std::to_string(corner + 1);
+    if (!list.empty())
+      say(out, (limited.size() == 1 ? "corner " : "corners ") + list +
+                   " held at 5 degrees: less would be a fold");
+    return placed;
+  }
+
+  static void say(SampledMap& out, const std::string& text) {
+    out.note += (out.note.empty() ? "" : "; ") + text;
+  }
+
+  /// H at the derivative samples; at vertices of the cage, where f' may be infinite, from beside.
+  PlanarMatrix<double> slopes() const {
+    Points places = rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
+    constexpr double kBeside = 0.02;  // of a segment
+    for (Complex& z : places)
+      for (Index j = 0; j < boundary_.cage.size(); ++j)
+        if (z == boundary_.cage.vertex(j)) z = position_of(boundary_.cage, {j, kBeside});
+    const MatrixXc rows = map_.rows(places);
+    PlanarMatrix<double> slopes(rows.rows(), rows.cols());
+    slopes.re = rows.real();
+    slopes.im = rows.imag();
+    return slopes;
+  }
+
+  Rest rest_;
+  Boundary boundary_;
+  std::shared_ptr<const HilbertCoordinates> coordinates_;
+  AngleMap map_;
+  AngleFrame frame_;
+  ActingPins acting_;
+  std::optional<AnglePins> pins_;
+  PlanarMatrix<double> slopes_;
+};
+
+std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+  check_rest_cage(rest.cage);
+  return std::make_unique<AnglesDeformer>(rest);
+}
+
+}  // namespace
+
+Method angles_method() {
+  Method method{
+      "angles",
+      "Angles",
+      "Turn corners and open or shut them (A); edges follow the cage's directions, not its "
+      "lengths. Never folds.",
+      {},
+      true,
+      true,
+      true,
+      prepare};
+  method.uses_corners = true;
+  return method;
+}
+
+}  // namespace holomorph
