@@ -17,6 +17,7 @@
 #include "scene/auto_cage.h"
 #include "scene/document.h"
 #include "scene/export.h"
+#include "scene/keyframes.h"
 #include "scene/outline_import.h"
 #include "scene/report.h"
 #include "scene/scene_json.h"
@@ -140,13 +141,80 @@ void run(const CoordinatesCommand& command) {
                                                     command.order)));
 }
 
+namespace {
+
+struct FrameRange {
+  int first = 0, last = 0;
+};
+
+/// "3..17" or "all" of a scene's frames.
+FrameRange frames_named(const std::string& text, const Scene& scene) {
+  const int last = last_frame_of(scene);
+  if (text == "all") return {0, last};
+  FrameRange range;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
+      end != static_cast<int>(text.size()))
+    throw Error(ErrorKind::bad_input,
+                "--frames: '" + text + "' is no range of frames; write 0..47, or all");
+  if (range.first < 0 || range.last < range.first || range.last > last)
+    throw Error(ErrorKind::bad_input,
+                "--frames: the scene has frames 0.." + std::to_string(last) + " at " +
+                    csv_line("%g", scene.animation.frames_per_second) + " frames a second");
+  return range;
+}
+
+/// walk.png and 7: walk-0007.png.
+Path numbered(const Path& path, int frame) {
+  Path result = path;
+  result.replace_filename(path.stem().string() + csv_line("-%04d", frame) +
+                          path.extension().string());
+  return result;
+}
+
+void render_frames(const RenderCommand& command, const LoadedScene& loaded,
+                   PictureOptions options) {
+  const Scene& scene = loaded.scene;
+  const FrameRange range = frames_named(command.frames, scene);
+  const double rate = scene.animation.frames_per_second;
+  PictureMaker maker(scene, loaded.image.get());
+  if (!command.crop) {
+    std::vector<double> times;
+    for (int i = 0; i <= last_frame_of(scene); ++i) times.push_back(i / rate);
+    options.shows = maker.shown_at(times);
+  }
+  for (int i = range.first; i <= range.last; ++i) {
+    const Path out = numbered(command.out, i);
+    check_out(out, command.scene, loaded);
+    options.time = i / rate;
+    write_file(out, encode_png(maker.picture(options).image));
+    if (::isatty(STDERR_FILENO))
+      std::fprintf(stderr, "\rframe %d of %d..%d", i, range.first, range.last);
+  }
+  std::fprintf(stderr, "%s%d frames, %s to %s\n", ::isatty(STDERR_FILENO) ? "\r" : "",
+               range.last - range.first + 1, numbered(command.out, range.first).c_str(),
+               numbered(command.out, range.last).c_str());
+}
+
+/// Throws Error unless a scene has keyframes, for what is about their times.
+void require_keyframes(const Scene& scene, const Path& path) {
+  if (scene.keyframes.empty())
+    throw Error(ErrorKind::bad_input,
+                path.string() + ": the scene has no keyframes, so there are no times in it");
+}
+
+}  // namespace
+
 void run(const RenderCommand& command) {
   const LoadedScene loaded = load(command.scene);
-  check_out(command.out, command.scene, loaded);
+  if (command.time || !command.frames.empty()) require_keyframes(loaded.scene, command.scene);
+  if (command.frames.empty()) check_out(command.out, command.scene, loaded);
   PictureOptions options;
   options.view = view_named(command.view);
   options.scale = command.scale;
   options.crop = command.crop;
+  options.time = command.time;
+  if (!command.frames.empty()) return render_frames(command, loaded, options);
   const RasterResult result = picture_of(loaded.scene, loaded.image.get(), options);
   write_file(command.out, encode_png(result.image));
   std::fprintf(stderr, "%s: %d x %d pixels, lower left corner at %s\n", command.out.c_str(),
@@ -251,8 +319,7 @@ void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
 }  // namespace
 
 void run(const ExportCommand& command) {
-  if (command.format == "png")
-    return run(RenderCommand{command.scene, command.out, command.scale, "image", false});
+  if (command.format == "png") return run(RenderCommand{command.scene, command.out, command.scale});
   const LoadedScene loaded = load(command.scene);
   check_out(command.out, command.scene, loaded);
   if (command.format == "textured") return export_textured(loaded, command);

@@ -25,6 +25,8 @@ struct RenderCommand {
   double scale = 1;
   std::string view = "image";
   bool crop = false;
+  std::optional<double> time = {};  ///< seconds of the keyframes
+  std::string frames = {};          ///< "A..B", "all", or nothing: one picture
 };
 struct InfoCommand {
   Path scene;

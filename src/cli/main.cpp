@@ -65,6 +65,11 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   sub->add_flag("--crop", render.crop,
                 "Keep the picture's rectangle; otherwise nothing is cut off");
+  auto* time = sub->add_option("--time", render.time, "A time of the keyframes, in seconds");
+  sub->add_option("--frames", render.frames,
+                  "Frames of the keyframes, A..B or all, each to a file with its number: "
+                  "walk.png to walk-0007.png")
+      ->excludes(time);
   on_run(sub, render, done);
 
   InfoCommand info;

@@ -58,4 +58,28 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
   return report;
 }
 
+VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f) {
+  const Index n = f.size();
+  VertexDerivatives at{VectorXc::Zero(n), VectorXc::Zero(n)};
+  VectorXd areas = VectorXd::Zero(n);
+  const auto place = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
+  for (const Triangle& t : mesh.triangles) {
+    Complex fz = 0, fzbar = 0;  // times four areas
+    for (size_t a = 0; a < 3; ++a) {
+      const Complex e = place(t[(a + 2) % 3]) - place(t[(a + 1) % 3]);
+      fz += -kI * std::conj(e) * f[t[a]];
+      fzbar += kI * e * f[t[a]];
+    }
+    const double area = 0.5 * cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]));
+    for (const int v : t) {
+      at.fz[v] += 0.25 * fz;
+      at.fzbar[v] += 0.25 * fzbar;
+      areas[v] += area;
+    }
+  }
+  at.fz.array() /= areas.array();
+  at.fzbar.array() /= areas.array();
+  return at;
+}
+
 }  // namespace holomorph

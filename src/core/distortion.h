@@ -33,4 +33,11 @@ struct MapReport {
 /// on every triangle. Cost: linear, but for the crossing test of the boundary.
 MapReport report_of(const Mesh& mesh, const SampledMap& map);
 
+/// f_z and f_zbar at a mesh's vertices of the map that is f there and linear in each triangle:
+/// means over the triangles around each vertex, by area. Cost: linear.
+struct VertexDerivatives {
+  VectorXc fz, fzbar;
+};
+VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f);
+
 }  // namespace holomorph

@@ -119,9 +119,34 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.resize(right.size());
   f.real() = laplacian_->solve(right.real().eval());
   f.imag() = laplacian_->solve(right.imag().eval());
-  Index still = 0;
-  (b.f - a.f).cwiseAbs().minCoeff(&still);
-  f.array() += (1 - share) * a.f[still] + share * b.f[still] - f[still];
+  const Location still = stillest(a.f, b.f);
+  const auto at = [&](const VectorXc& map) {
+    return still.in(*mesh_, {map.data(), static_cast<size_t>(map.size())});
+  };
+  f.array() += (1 - share) * at(a.f) + share * at(b.f) - at(f);
+}
+
+/// The place that two maps agree about, or the vertex that they take to the nearest places.
+Location Inbetween::stillest(const VectorXc& a, const VectorXc& b) const {
+  Location best;
+  double least = INFINITY;
+  for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
+    const Triangle& t = mesh_->triangles[i];
+    const std::array<Complex, 3> way{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]], b[t[2]] - a[t[2]]};
+    const Complex u = way[1] - way[0], v = way[2] - way[0];
+    if (const double area = cross(u, v); area != 0) {
+      const double second = cross(-way[0], v) / area, third = cross(u, -way[0]) / area;
+      if (second >= 0 && third >= 0 && second + third <= 1)
+        return {static_cast<int>(i), {1 - second - third, second, third}};
+    }
+    for (size_t k = 0; k < 3; ++k)
+      if (std::abs(way[k]) < least) {
+        least = std::abs(way[k]);
+        best = {static_cast<int>(i), {}};
+        best.weights[k] = 1;
+      }
+  }
+  return best;
 }
 
 }  // namespace holomorph

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/keyframes.h"
 
 namespace holomorph {
 namespace {
@@ -51,9 +52,17 @@ Scene with_corner(Scene scene, Index vertex) {
   };
   const double share =
       way(before.vertex, vertex) / (way(before.vertex, vertex) + way(vertex, after.vertex));
-  const double turn = (1 - share) * before.pose.after + share * after.pose.before;
+  const auto between = [&](const PoseCorner& from, const PoseCorner& to) {
+    const double turn = (1 - share) * from.after + share * to.before;
+    return PoseCorner{turn, turn, from.tension};
+  };
+  for_fitting_keys(scene, [&](Pose& pose) {
+    if (pose.corners.empty()) return;
+    pose.corners.insert(pose.corners.begin() + static_cast<long>(at),
+                        between(pose.corners[(at + n - 1) % n], pose.corners[at % n]));
+  });
   scene.corners.insert(scene.corners.begin() + static_cast<long>(at),
-                       Corner{vertex, {turn, turn, before.pose.tension}, {}});
+                       Corner{vertex, between(before.pose, after.pose), {}});
   return scene;
 }
 
@@ -61,7 +70,13 @@ Scene without_corner(Scene scene, Index vertex) {
   if (scene.corners.empty()) scene = with_all_corners(std::move(scene));
   if (scene.corners.size() <= 3)
     throw Error(ErrorKind::bad_input, "three corners stay: fewer have no angles to set");
-  std::erase_if(scene.corners, [&](const Corner& c) { return c.vertex == vertex; });
+  if (const auto at = found(scene, vertex); at != scene.corners.end()) {
+    const long number = at - scene.corners.begin();
+    for_fitting_keys(scene, [&](Pose& pose) {
+      if (!pose.corners.empty()) pose.corners.erase(pose.corners.begin() + number);
+    });
+    scene.corners.erase(scene.corners.begin() + number);
+  }
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/polyline.h"
 #include "edit/corner_edits.h"
+#include "scene/keyframes.h"
 
 namespace holomorph {
 
@@ -104,6 +105,7 @@ Complex center_of(const Scene& scene, const Selection& selection, Layer layer) {
 }
 
 Scene inserted(Scene scene, Index segment, double t) {
+  for_fitting_keys(scene, [&](Pose& pose) { insert_vertex(pose.cage, segment, t); });
   insert_vertex(scene.rest, segment, t);
   insert_vertex(scene.pose, segment, t);
   follow_insertion(scene.corners, segment);
@@ -120,11 +122,22 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
   const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
   for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::pin) {
+      for_fitting_keys(scene,
+                       [&](Pose& pose) { pose.pins.erase(pose.pins.begin() + handle.index); });
       scene.pins.erase(scene.pins.begin() + handle.index);
     } else if (handle.kind == Handle::Kind::stroke) {
+      for_fitting_keys(
+          scene, [&](Pose& pose) { pose.strokes.erase(pose.strokes.begin() + handle.index); });
       scene.strokes.erase(scene.strokes.begin() + handle.index);
     } else if (handle.control == 0) {
       const double joint = joint_parameter(scene.rest, handle.index);
+      const auto corner = std::ranges::find(scene.corners, handle.index, &Corner::vertex);
+      for_fitting_keys(scene, [&](Pose& pose) {
+        erase_vertex(pose.cage, handle.index, joint, refit);
+        if (corner == scene.corners.end() || pose.corners.empty()) return;
+        pose.corners.erase(pose.corners.begin() + (corner - scene.corners.begin()));
+        if (pose.corners.size() < 3) pose.corners.clear();
+      });
       erase_vertex(scene.rest, handle.index, joint, refit);
       erase_vertex(scene.pose, handle.index, joint, refit);
       follow_erasure(scene.corners, handle.index);
@@ -133,8 +146,11 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
   return scene;
 }
 
-Scene with_pin(Scene scene, Complex rest, Complex pose) {
+Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyframes) {
   if (!method_named(scene.method).uses_pins) scene = with_method(std::move(scene), "pins");
+  for (size_t i = 0; i < scene.keyframes.size(); ++i)
+    if (Pose& key = scene.keyframes[i].pose; fits(scene, key))
+      key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i] : pose});
   scene.pins.push_back({rest, pose, {}, {}});
   return scene;
 }
@@ -152,6 +168,7 @@ bool follows(const Scene& scene, const std::string& id) {
 
 Scene with_stroke(Scene scene, Points rest, Points pose) {
   if (!follows(scene, "strokes")) scene = with_method(std::move(scene), "strokes");
+  for_fitting_keys(scene, [&](Pose& key) { key.strokes.push_back(pose); });
   scene.strokes.push_back({std::move(rest), std::move(pose), {}});
   return scene;
 }

@@ -47,8 +47,9 @@ Scene inserted(Scene scene, Index segment, double t);
 /// otherwise.
 Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve);
 
-/// With a pin more; the method becomes one that uses pins.
-Scene with_pin(Scene scene, Complex rest, Complex pose);
+/// With a pin more; the method becomes one that uses pins. In keyframes it is where these say, by
+/// number, or at its pose.
+Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyframes = {});
 
 /// With a stroke more; the method becomes `strokes` unless it is, or follows that.
 Scene with_stroke(Scene scene, Points rest, Points pose);

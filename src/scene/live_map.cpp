@@ -5,13 +5,30 @@
 #include <utility>
 
 #include "core/clock.h"
+#include "core/distortion.h"
 
 namespace holomorph {
 
+namespace {
+
+/// The highest degree of each posed segment, in the pose and in keyframes.
+std::vector<int> posed_degrees(const Scene& scene) {
+  std::vector<int> degrees(static_cast<size_t>(scene.pose.size()), 1);
+  const auto include = [&](const Cage& cage) {
+    for (Index i = 0; i < cage.size(); ++i)
+      degrees[static_cast<size_t>(i)] = std::max(degrees[static_cast<size_t>(i)], cage.degree(i));
+  };
+  include(scene.pose);
+  for (const Keyframe& key : scene.keyframes)
+    if (fits(scene, key.pose)) include(key.pose.cage);
+  return degrees;
+}
+
+}  // namespace
+
 bool same_rest(const Scene& a, const Scene& b) {
   if (a.method != b.method || a.parameters != b.parameters || a.rest != b.rest) return false;
-  for (Index i = 0; i < a.pose.size() && i < b.pose.size(); ++i)
-    if (a.pose.degree(i) != b.pose.degree(i)) return false;
+  if (posed_degrees(a) != posed_degrees(b)) return false;
   const Method& method = method_named(a.method);
   if (a.method == "bounded" && a.other_parameters != b.other_parameters) return false;
   const auto same_pin = [](const Pin& p, const Pin& q) {
@@ -124,11 +141,16 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
 }
 
 bool LiveMap::pose(const Scene& scene, Wanted wanted) {
-  if (!shown_ || (posed_ == scene && posed_wanted_ == wanted)) return false;
+  if (!shown_ || (posed_ == scene && posed_wanted_ == wanted && posed_time_ == time_)) return false;
   const double start = now_ms();
+  timed_.reset();
   try {
+    if (time_ && !scene.keyframes.empty()) motion_.follow(scene, shown_);
     SampledMap map;
-    shown_->deformer->deform(pose_of(scene), map, wanted);
+    if (time_ && !scene.keyframes.empty() && motion_.plays())
+      map = map_at_time(scene, wanted);
+    else
+      shown_->deformer->deform(pose_of(scene), map, wanted);
     map_ = std::move(map);
     error_.reset();
   } catch (const Error& error) {
@@ -139,7 +161,21 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   describe();
   posed_ = scene;
   posed_wanted_ = wanted;
+  posed_time_ = time_;
   return true;
+}
+
+SampledMap LiveMap::map_at_time(const Scene& scene, Wanted wanted) {
+  SampledMap map;
+  map.f = motion_.map_at(*time_);
+  timed_ = motion_.scene_at(scene, *time_, map.f);
+  if (motion_.error())
+    map.note = "a keyframe does not play: " + std::string(motion_.error()->what());
+  if (!wanted.derivatives) return map;
+  VertexDerivatives derivatives = vertex_derivatives(*shown_->mesh, map.f);
+  map.fz = std::move(derivatives.fz);
+  map.fzbar = std::move(derivatives.fzbar);
+  return map;
 }
 
 std::optional<Complex> LiveMap::pin_place(const Scene& scene, size_t i) const {
@@ -162,6 +198,8 @@ void LiveMap::clear() {
   shown_.reset();
   map_ = SampledMap{};
   posed_.reset();
+  timed_.reset();
+  motion_.clear();
   requested_.reset();
   error_.reset();
   failed_ = false;
@@ -175,8 +213,9 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-bool LiveMap::update(const Scene& scene, Wanted wanted) {
+bool LiveMap::update(const Scene& scene, Wanted wanted, std::optional<double> time) {
   const unsigned before = preparation_;
+  time_ = time;
   take_result(scene, wanted);
   if (!scene.has_cage()) {
     const bool changed = shown_ != nullptr;

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/injectivity.h"
 #include "core/mesh.h"
-#include "scene/scene.h"
+#include "scene/motion.h"
 
 namespace holomorph {
 
@@ -44,7 +44,8 @@ class LiveMap {
 
   /// Takes what the worker has finished, asks for what the scene needs, and poses the map when it
   /// fits the scene. Returns whether the map changed.
-  bool update(const Scene& scene, Wanted wanted);
+  /// With a time, and keyframes that play, the map is theirs at that time.
+  bool update(const Scene& scene, Wanted wanted, std::optional<double> time = {});
   /// Forgets scene, map and whatever the worker is busy with.
   void clear();
   /// update(), then waits for the worker until the map is the scene's or failed. For tests.
@@ -65,12 +66,16 @@ class LiveMap {
   const Points& zero_places() const { return zero_places_; }
   /// The scene that map() shows; it may lag behind the one being edited.
   const std::optional<Scene>& posed() const { return posed_; }
+  /// The scene with its handles at the shown time; none where no time is shown.
+  const std::optional<Scene>& timed() const { return timed_; }
+  const Motion& motion() const { return motion_; }
   double pose_milliseconds() const { return pose_milliseconds_; }
   /// Grows by one whenever a newly prepared map is taken over.
   unsigned preparation() const { return preparation_; }
 
  private:
   void work();
+  SampledMap map_at_time(const Scene& scene, Wanted wanted);
   void take_result(const Scene& scene, Wanted wanted);
   bool pose(const Scene& scene, Wanted wanted);
   void describe();
@@ -85,6 +90,9 @@ class LiveMap {
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
   Wanted posed_wanted_;
   std::optional<Scene> posed_;  ///< the scene that map_ shows
+  Motion motion_;
+  std::optional<double> time_, posed_time_;
+  std::optional<Scene> timed_;
   bool busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
   unsigned preparation_ = 0;

@@ -11,6 +11,8 @@ Rest rest_of(const Scene& scene, Precision precision) {
                 "the scene has no cage yet; draw one, or make one with 'holomorph new'");
   Rest rest;
   rest.cage = elevated_to(scene.rest, scene.pose);
+  for (const Keyframe& key : scene.keyframes)
+    if (fits(scene, key.pose)) rest.cage = elevated_to(rest.cage, key.pose.cage);
   for (const Pin& pin : scene.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
   for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
   for (const Corner& corner : scene.corners) rest.corners.push_back(corner.vertex);
@@ -21,13 +23,39 @@ Rest rest_of(const Scene& scene, Precision precision) {
   return used_by(method_named(scene.method), std::move(rest));
 }
 
-Pose pose_of(const Scene& scene) {
+Pose whole_pose_of(const Scene& scene) {
   Pose pose{scene.pose, {}};
   for (const Pin& pin : scene.pins)
     pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
   for (const Stroke& stroke : scene.strokes) pose.strokes.push_back(stroke.pose);
   for (const Corner& corner : scene.corners) pose.corners.push_back(corner.pose);
-  return used_by(method_named(scene.method), std::move(pose));
+  return pose;
+}
+
+Pose pose_of(const Scene& scene) {
+  return used_by(method_named(scene.method), whole_pose_of(scene));
+}
+
+// A pose without corners is one from before they were listed: none of them had turned.
+bool fits(const Scene& scene, const Pose& pose) {
+  return pose.cage.size() == scene.rest.size() && pose.pins.size() == scene.pins.size() &&
+         pose.strokes.size() == scene.strokes.size() &&
+         (pose.corners.empty() || pose.corners.size() == scene.corners.size());
+}
+
+Scene posed_as(Scene scene, const Pose& pose) {
+  check(fits(scene, pose), "posed_as: the pose fits");
+  scene.pose = pose.cage;
+  for (size_t i = 0; i < scene.pins.size(); ++i) {
+    Pin& pin = scene.pins[i];
+    pin.pose = pose.pins[i].position;
+    if (pin.angle) pin.angle = pose.pins[i].angle;
+    pin.scale = pose.pins[i].scale;
+  }
+  for (size_t i = 0; i < scene.strokes.size(); ++i) scene.strokes[i].pose = pose.strokes[i];
+  for (size_t i = 0; i < scene.corners.size(); ++i)
+    scene.corners[i].pose = pose.corners.empty() ? PoseCorner{} : pose.corners[i];
+  return scene;
 }
 
 Scene at_rest(Scene scene) {

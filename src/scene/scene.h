@@ -54,6 +54,28 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
+/// How a keyframe goes on to the next one: smooth ones pass their keys without a stop and rest at
+/// both ends, linear ones go evenly, hold stays until the next key.
+enum class Ease { smooth, linear, hold };
+
+/// A pose at a time.
+struct Keyframe {
+  double time = 0;  ///< seconds
+  Pose pose = {};
+  Ease ease = Ease::smooth;
+  int turns = 0;  ///< whole turns on the way from the key before, beyond the shortest
+  Extra extra = {};
+  bool operator==(const Keyframe&) const = default;
+};
+
+/// What is set for all keyframes together.
+struct AnimationSettings {
+  double frames_per_second = 24;
+  bool straight = false;  ///< in-betweens blend places instead of shapes, to compare
+  bool operator==(const AnimationSettings&) const = default;
+};
+inline constexpr double kLongestTime = 3600;  ///< seconds
+
 /// All that is saved. rest and pose of the cage have the same number of segments; both are empty
 /// until a cage is drawn.
 struct Scene {
@@ -64,16 +86,28 @@ struct Scene {
   Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::optional<SurfaceReference> surface = {};
   std::vector<Corner> corners = {};  ///< by increasing vertex
+  /// By increasing time. Those that have another structure than the scene by now are kept, but do
+  /// not play.
+  std::vector<Keyframe> keyframes = {};
+  AnimationSettings animation;
   std::string method = "cage";
   Parameters parameters;
   std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id
-  Extra cage_extra, method_extra, extra;
+  Extra cage_extra, method_extra, animation_extra, extra;
 
   bool has_cage() const { return rest.size() > 0; }
   bool operator==(const Scene&) const = default;
 };
 
-/// What the scene's method precomputes from, without samples.
+/// Everything that moves, whatever the method uses.
+Pose whole_pose_of(const Scene& scene);
+/// Whether a pose has the scene's structure.
+bool fits(const Scene& scene, const Pose& pose);
+/// The scene in a pose that fits.
+Scene posed_as(Scene scene, const Pose& pose);
+
+/// What the scene's method precomputes from, without samples; degrees are high enough for all
+/// keyframes.
 Rest rest_of(const Scene& scene, Precision precision);
 /// What moves.
 Pose pose_of(const Scene& scene);

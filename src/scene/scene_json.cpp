@@ -2,126 +2,16 @@
 // where.
 #include "scene/scene_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/outline_match.h"
 #include "core/polyline.h"
-#include "core/segment.h"
+#include "scene/pose_json.h"
 
 namespace holomorph {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kVersion = 1;
-constexpr double kLargest = 1e8;   ///< coordinates beyond this are no picture's
-constexpr double kMostTurn = 1e3;  ///< radians: 159 times around
-constexpr int kDeepest = 200;      ///< nesting, unknown keys included
-constexpr size_t kMostSegments = 5000;
-
-/// A JSON value, where it stands, and how to complain about it.
-class Reader {
- public:
-  Reader(const Json& value, std::string name, std::string pointer)
-      : value_(value), name_(std::move(name)), pointer_(std::move(pointer)) {}
-
-  [[noreturn]] void fail(const std::string& reason, std::optional<Complex> where = {}) const {
-    throw Error(ErrorKind::bad_input,
-                name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
-  }
-
-  const Reader& object() const {
-    if (!value_.is_object()) fail("an object is wanted here, not " + kind());
-    return *this;
-  }
-  const Reader& array() const {
-    if (!value_.is_array()) fail("a list is wanted here, not " + kind());
-    return *this;
-  }
-  size_t size() const { return value_.size(); }
-  bool has(const char* key) const { return value_.contains(key); }
-  Reader operator[](const char* key) const {
-    if (!has(key)) fail(std::string("the key '") + key + "' is missing");
-    return {value_.at(key), name_, pointer_ + "/" + key};
-  }
-  Reader operator[](size_t i) const {
-    return {value_.at(i), name_, pointer_ + "/" + std::to_string(i)};
-  }
-
-  double number() const {
-    if (!value_.is_number()) fail("a number is wanted here, not " + kind());
-    const double number = value_.get<double>();
-    if (!std::isfinite(number)) fail("the number is not finite");
-    return number;
-  }
-  double within(double lowest, double highest) const {
-    const double n = number();
-    if (!(n >= lowest && n <= highest))
-      fail("a number from " + Json(lowest).dump() + " to " + Json(highest).dump() +
-           " is wanted here");
-    return n;
-  }
-  int whole(int lowest, int highest) const {
-    const double n = number();
-    if (n != std::floor(n) || n < lowest || n > highest)
-      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
-           " is wanted here");
-    return static_cast<int>(n);
-  }
-  std::string text() const {
-    if (!value_.is_string()) fail("a text is wanted here, not " + kind());
-    return value_.get<std::string>();
-  }
-  Complex point() const {
-    array();
-    if (size() != 2) fail("a point [x, y] is wanted here");
-    const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
-    if (std::abs(z.real()) > kLargest || std::abs(z.imag()) > kLargest)
-      fail("the coordinates are larger than 1e8");
-    return z;
-  }
-  /// A parameter: a number, or a switch as 0 or 1.
-  double value() const { return value_.is_boolean() ? (value_.get<bool>() ? 1.0 : 0.0) : number(); }
-
-  /// The keys other than the known ones, as text; empty when there are none.
-  Extra others(std::initializer_list<const char*> known) const {
-    Json rest = Json::object();
-    for (const auto& [key, value] : value_.items())
-      if (std::find(known.begin(), known.end(), key) == known.end()) rest[key] = value;
-    return rest.empty() ? "" : rest.dump();
-  }
-  std::vector<std::string> keys() const {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : value_.items()) keys.push_back(key);
-    return keys;
-  }
-
- private:
-  std::string kind() const {
-    return value_.is_null() ? "null" : std::string("a ") + value_.type_name();
-  }
-
-  const Json& value_;
-  std::string name_, pointer_;
-};
-
-Cage read_loop(const Reader& list) {
-  list.array();
-  if (list.size() > kMostSegments)
-    list.fail("more than " + std::to_string(kMostSegments) + " segments");
-  Cage cage;
-  for (size_t i = 0; i < list.size(); ++i) {
-    const Reader segment = list[i].array();
-    if (segment.size() == 0) segment.fail("a segment needs at least its first control point");
-    if (segment.size() > kHighestDegree)
-      segment.fail("a segment's degree is at most " + std::to_string(kHighestDegree));
-    Points controls;
-    for (size_t m = 0; m < segment.size(); ++m) controls.push_back(segment[m].point());
-    cage.segments.push_back(std::move(controls));
-  }
-  return cage;
-}
+constexpr int kDeepest = 200;  ///< nesting, unknown keys included
 
 void read_cage(const Reader& reader, Scene& scene) {
   reader.object();
@@ -228,21 +118,6 @@ void read_method(const Reader& reader, Scene& scene) {
   scene.method_extra = reader.others({"id", "parameters", "others"});
 }
 
-/// Points that a check, which throws Error, accepts.
-Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>)) {
-  reader.array();
-  constexpr size_t kMostPoints = 20000;
-  if (reader.size() > kMostPoints) reader.fail("more than 20000 points");
-  Points curve;
-  for (size_t i = 0; i < reader.size(); ++i) curve.push_back(reader[i].point());
-  try {
-    check(curve);
-  } catch (const Error& error) {
-    reader.fail(error.what(), error.where());
-  }
-  return curve;
-}
-
 Stroke read_stroke(const Reader& reader) {
   reader.object();
   Stroke stroke;
@@ -250,40 +125,6 @@ Stroke read_stroke(const Reader& reader) {
   stroke.pose = reader.has("pose") ? read_curve(reader["pose"], check_stroke) : stroke.rest;
   stroke.extra = reader.others({"rest", "pose"});
   return stroke;
-}
-
-/// Corners are vertices by increasing number.
-Corner read_corner(const Reader& reader, const Scene& scene) {
-  reader.object();
-  Corner corner;
-  const int last = static_cast<int>(scene.rest.size()) - 1;
-  if (last < 0) reader.fail("there is no cage that it could be a corner of");
-  corner.vertex = reader["vertex"].whole(0, last);
-  if (!scene.corners.empty() && scene.corners.back().vertex >= corner.vertex)
-    reader["vertex"].fail("corners must be in the order of their vertices, each once");
-  if (reader.has("before")) corner.pose.before = reader["before"].within(-kMostTurn, kMostTurn);
-  if (reader.has("after")) corner.pose.after = reader["after"].within(-kMostTurn, kMostTurn);
-  if (reader.has("tension")) corner.pose.tension = reader["tension"].within(0, 1);
-  corner.extra = reader.others({"vertex", "before", "after", "tension"});
-  return corner;
-}
-
-Json point_json(Complex z) {
-  return Json::array({z.real(), z.imag()});
-}
-
-Json curve_json(const Points& curve) {
-  Json list = Json::array();
-  for (const Complex& z : curve) list.push_back(point_json(z));
-  return list;
-}
-
-Json loop_json(const Cage& cage) {
-  Json list = Json::array();
-  for (const Points& controls : cage.segments) {
-    list.push_back(curve_json(controls));
-  }
-  return list;
 }
 
 Json parameters_json(const Method& method, const Parameters& parameters) {
@@ -299,12 +140,6 @@ Json parameters_json(const Method& method, const Parameters& parameters) {
       values[spec.key] = found->second;
   }
   return values;
-}
-
-void add_extra(Json& object, const Extra& extra) {
-  if (extra.empty()) return;
-  const Json others = Json::parse(extra);
-  for (const auto& [key, value] : others.items()) object[key] = value;
 }
 
 /// Lists of numbers on one line, everything else indented: short files that read well in a diff.
@@ -394,8 +229,19 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
   }
   if (reader.has("method")) read_method(reader["method"], scene);
+  if (reader.has("animation")) {
+    scene.animation = read_animation(reader["animation"]);
+    scene.animation_extra = reader["animation"].others({"frames_per_second", "in_betweens"});
+  }
+  if (reader.has("keyframes")) {
+    const Reader keys = reader["keyframes"].array();
+    constexpr size_t kMostKeyframes = 2000;
+    if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
+    for (size_t i = 0; i < keys.size(); ++i)
+      scene.keyframes.push_back(read_keyframe(keys[i], scene));
+  }
   scene.extra = reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners",
-                               "outline", "surface", "method"});
+                               "outline", "surface", "method", "animation", "keyframes"});
   return scene;
 }
 
@@ -441,15 +287,7 @@ std::string json_of(const Scene& scene) {
   }
   if (!scene.corners.empty()) {
     document["corners"] = Json::array();
-    for (const Corner& corner : scene.corners) {
-      Json item;
-      item["vertex"] = corner.vertex;
-      item["before"] = corner.pose.before;
-      item["after"] = corner.pose.after;
-      if (corner.pose.tension != 1) item["tension"] = corner.pose.tension;
-      add_extra(item, corner.extra);
-      document["corners"].push_back(std::move(item));
-    }
+    for (const Corner& corner : scene.corners) document["corners"].push_back(corner_json(corner));
   }
   if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
   if (scene.surface) {
@@ -469,6 +307,12 @@ std::string json_of(const Scene& scene) {
   }
   add_extra(method, scene.method_extra);
   document["method"] = std::move(method);
+  if (scene.animation != AnimationSettings{} || !scene.animation_extra.empty()) {
+    document["animation"] = animation_json(scene.animation);
+    add_extra(document["animation"], scene.animation_extra);
+  }
+  for (const Keyframe& key : scene.keyframes)
+    document["keyframes"].push_back(keyframe_json(key, scene));
   add_extra(document, scene.extra);
   std::string text;
   try {

@@ -261,6 +261,66 @@ class CommandLine(unittest.TestCase):
         scene["strokes"] = [{"pose": [[5, 5], [6, 5]]}]
         self.bad("info", self.write("bad.json", scene), says="/strokes/0: the key 'rest' is missing")
 
+    def test_angles_are_kept_in_the_file_and_turn_the_cage(self):
+        bar = [[[0, 0]], [[60, 0]], [[60, 10]], [[0, 10]]]
+        turn = 3 * math.pi
+        scene = {"format": "holomorph", "version": 1, "cage": {"rest": bar}, "method": {"id": "angles"},
+                 "corners": [{"vertex": 0}, {"vertex": 1, "before": turn, "after": turn},
+                             {"vertex": 2, "before": turn, "after": turn}, {"vertex": 3}]}
+        jsonschema.validate(scene, SCHEMA)
+        points = self.write("p.csv", "".join("%g,5\n" % x for x in (5, 30, 55)))
+        rows = list(csv.DictReader(io.StringIO(self.good("map", self.write("s.json", scene), "--points", points).stdout)))
+        slopes = [complex(float(row["fz_re"]), float(row["fz_im"])) for row in rows]
+        for x, slope in zip((5, 30, 55), slopes):  # f' = exp(i theta), and theta grows along the bar
+            self.assertLess(abs(slope / abs(slope) - complex(math.cos(turn * x / 60), math.sin(turn * x / 60))), 1e-3)
+        self.bad("info", self.write("bad.json", {**scene, "corners": scene["corners"][:2]}), says="three corners")
+
+    def keyed_scene(self):
+        Image.new("RGBA", (60, 40), (200, 40, 40, 255)).save(self.path("red.png"))
+        cage = [[10, 10], [50, 10], [50, 30], [10, 30]]
+        moved = [[[x + 20, y + 30]] for x, y in cage]
+        return {"format": "holomorph", "version": 1, "image": {"file": "red.png"},
+                "cage": {"rest": [[p] for p in cage]}, "method": {"id": "cage"},
+                "animation": {"frames_per_second": 4},
+                "keyframes": [{"time": 0, "ease": "linear", "pose": {}}, {"time": 1, "pose": {"cage": moved}}]}
+
+    def test_keyframes_are_rendered_at_times_and_as_numbered_frames(self):
+        scene = self.keyed_scene()
+        jsonschema.validate(scene, SCHEMA)
+        path = self.write("s.json", scene)
+        for time_, moved in ((0, 0), (0.5, 15), (1, 30), (7, 30)):
+            self.good("render", path, "--time", time_, "--out", self.path("t.png"))
+            picture = Image.open(self.path("t.png"))
+            top = max(40, 30 + moved)  # of what is drawn
+            self.assertEqual(picture.height, top, time_)
+        self.good("render", path, "--frames", "all", "--out", self.path("walk.png"))
+        names = sorted(name for name in os.listdir(self.folder) if name.startswith("walk"))
+        self.assertEqual(names, ["walk-000%d.png" % i for i in range(5)])
+        sizes = {Image.open(self.path(name)).size for name in names}
+        self.assertEqual(sizes, {(70, 60)})  # one rectangle for all of them
+        # A part of them is the same files.
+        whole = [open(self.path(name), "rb").read() for name in names]
+        for name in names:
+            os.remove(self.path(name))
+        self.good("render", path, "--frames", "2..3", "--out", self.path("walk.png"))
+        self.assertEqual([open(self.path(name), "rb").read() for name in names[2:4]], whole[2:4])
+        self.assertFalse(os.path.exists(self.path(names[0])))
+
+    def test_times_and_frames_that_are_none_are_named(self):
+        scene = self.keyed_scene()
+        path = self.write("s.json", scene)
+        out = self.path("o.png")
+        self.bad("render", path, "--frames", "2..9", "--out", out, says="frames 0..4")
+        self.bad("render", path, "--frames", "few", "--out", out, says="no range of frames")
+        self.bad("render", path, "--frames", "all", "--time", 1, "--out", out, says="excludes")
+        still = self.write("still.json", {**scene, "keyframes": []})
+        self.bad("render", still, "--time", 1, "--out", out, says="no keyframes")
+        self.bad("render", self.write("two.json", {**scene, "keyframes": scene["keyframes"][:1] * 2}),
+                 "--time", 0, "--out", out, says="no two at one time")
+        other = {**scene, "keyframes": [{"time": 0, "pose": {"cage": [[[0, 0]], [[1, 0]], [[0, 1]]]}}]}
+        self.bad("render", self.write("other.json", other), "--time", 0, "--out", out, says="none of the keyframes")
+        self.assertFalse(os.path.exists(out))
+
     def test_golden_pictures(self):
         for name in SAMPLES:
             for view in ("image", "angle", "area", "stretch", "checker"):

@@ -1,0 +1,217 @@
+// Maps at keys come from the deformer, everything between from their shapes.
+#include "scene/motion.h"
+
+#include <algorithm>
+
+#include "scene/keyframes.h"
+#include "scene/live_map.h"
+
+namespace holomorph {
+namespace {
+
+/// How much the picture is meant to turn from one pose to another, whole turns included: as a pin
+/// that turns does, or as corners do on average.
+ExpectedTurn expected_turn(const Scene& scene, const Pose& from, const Pose& to, int turns) {
+  ExpectedTurn expected;
+  expected.radians = 2 * kPi * turns;
+  const Method& method = method_named(scene.method);
+  if (method.uses_pins)
+    for (size_t i = 0; i < scene.pins.size(); ++i)
+      if (scene.pins[i].angle) {
+        expected.at = scene.pins[i].rest;
+        expected.radians += to.pins[i].angle - from.pins[i].angle;
+        return expected;
+      }
+  if (!method.uses_corners || scene.corners.empty()) return expected;
+  const auto turned = [](const Pose& pose) {
+    double sum = 0;
+    for (const PoseCorner& corner : pose.corners) sum += 0.5 * (corner.before + corner.after);
+    return sum;
+  };
+  expected.radians += (turned(to) - turned(from)) / static_cast<double>(scene.corners.size());
+  return expected;
+}
+
+/// The triangle around a place, or the nearest boundary vertex' one, which goes on there.
+Location location_near(const Mesh& mesh, Complex z) {
+  if (const auto found = locate(mesh, mesh.vertices, z)) return *found;
+  const int vertex = *std::ranges::min_element(mesh.boundary, {}, [&](int v) {
+    return std::norm(mesh.vertices[static_cast<size_t>(v)] - z);
+  });
+  const auto triangle = std::ranges::find_if(
+      mesh.triangles, [&](const Triangle& t) { return std::ranges::find(t, vertex) != t.end(); });
+  const auto corner = [&](int k) {
+    return mesh.vertices[static_cast<size_t>((*triangle)[static_cast<size_t>(k)])];
+  };
+  const Complex a = corner(0) - z, b = corner(1) - z, c = corner(2) - z;
+  const double area = cross(corner(1) - corner(0), corner(2) - corner(0));
+  return {static_cast<int>(triangle - mesh.triangles.begin()),
+          {cross(b, c) / area, cross(c, a) / area, cross(a, b) / area}};
+}
+
+/// A segment's control points at rest, written with a degree.
+Points rest_controls(const Cage& rest, Index segment, int degree) {
+  const Points controls = rest.controls(segment);
+  if (static_cast<int>(controls.size()) - 1 <= degree) return elevated(controls, degree);
+  Points along;
+  for (int m = 0; m <= degree; ++m)
+    along.push_back(bezier_point(controls, static_cast<double>(m) / degree));
+  return along;
+}
+
+}  // namespace
+
+void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
+  bool changed = straight_ != scene.animation.straight;
+  straight_ = scene.animation.straight;
+  if (prepared != prepared_) {
+    if (!between_ || &between_->mesh() != prepared->mesh.get())
+      between_.emplace(prepared->mesh), locations_.clear();
+    prepared_ = prepared;
+    keys_.clear();
+    changed = true;
+  }
+  std::vector<Key> keys;
+  const std::vector<size_t> playing = playing_keys(scene);
+  std::optional<Error> wrong;
+  for (const size_t i : playing) {
+    const Keyframe& frame = scene.keyframes[i];
+    const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
+    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}, {}};
+    if (known != keys_.end()) {
+      key.shape = known->shape;
+      key.slopes = known->slopes;
+    } else {
+      try {
+        SampledMap map;
+        prepared->deformer->deform(pose_of(posed_as(scene, frame.pose)), map, {});
+        key.shape.f = std::move(map.f);
+      } catch (const Error& error) {
+        if (!wrong) wrong = error;
+        continue;
+      }
+    }
+    keys.push_back(std::move(key));
+  }
+  const auto same = [](const Key& a, const Key& b) {
+    return a.time == b.time && a.ease == b.ease && a.turns == b.turns && a.pose == b.pose;
+  };
+  changed = changed || !std::ranges::equal(keys, keys_, same);
+  keys_ = std::move(keys);
+  error_ = wrong;
+  if (changed) align(scene);
+}
+
+/// Whole turns from key to key, and how fast each quantity passes them.
+void Motion::align(const Scene& scene) {
+  for (size_t i = 0; i < keys_.size(); ++i)
+    keys_[i].shape = between_->shape_of(
+        keys_[i].shape.f, i > 0 ? &keys_[i - 1].shape : nullptr,
+        i > 0 ? expected_turn(scene, keys_[i - 1].pose, keys_[i].pose, keys_[i].turns)
+              : ExpectedTurn{});
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    const bool passes = i > 0 && i + 1 < keys_.size() && keys_[i - 1].ease == Ease::smooth &&
+                        keys_[i].ease == Ease::smooth;
+    keys_[i].slopes = between_->slopes(passes ? &keys_[i - 1].shape : nullptr, keys_[i].shape,
+                                       passes ? &keys_[i + 1].shape : nullptr,
+                                       passes ? keys_[i].time - keys_[i - 1].time : 1,
+                                       passes ? keys_[i + 1].time - keys_[i].time : 1);
+  }
+}
+
+Motion::Place Motion::place_of(double time) const {
+  const auto next = std::ranges::upper_bound(keys_, time, {}, &Key::time);
+  if (next == keys_.begin()) return {0, 0};
+  const size_t from = static_cast<size_t>(next - keys_.begin()) - 1;
+  if (next == keys_.end() || keys_[from].ease == Ease::hold) return {from, 0};
+  return {from, (time - keys_[from].time) / (next->time - keys_[from].time)};
+}
+
+VectorXc Motion::map_at(double time) const {
+  const auto [i, u] = place_of(time);
+  const Key& from = keys_[i];
+  if (u == 0) return from.shape.f;
+  const Key& to = keys_[i + 1];
+  const bool smooth = from.ease == Ease::smooth;
+  VectorXc f;
+  if (straight_) {
+    const double share = smooth ? u * u * (3 - 2 * u) : u;
+    f = (1 - share) * from.shape.f + share * to.shape.f;
+  } else {
+    between_->blend({from.shape, to.shape, to.time - from.time, smooth ? &from.slopes : nullptr,
+                     smooth ? &to.slopes : nullptr},
+                    u, f);
+  }
+  return f;
+}
+
+Motion::Frame Motion::frame_at(Complex rest, const VectorXc& map) const {
+  const Mesh& mesh = between_->mesh();
+  const auto [known, fresh] = locations_.try_emplace({rest.real(), rest.imag()});
+  if (fresh) known->second = location_near(mesh, rest);
+  const Location& at = known->second;
+  const Triangle& t = mesh.triangles[static_cast<size_t>(at.triangle)];
+  Frame frame{at.in(mesh, {map.data(), static_cast<size_t>(map.size())}), 0};
+  double area = 0;
+  for (size_t a = 0; a < 3; ++a) {
+    const Complex from = mesh.vertices[static_cast<size_t>(t[(a + 1) % 3])],
+                  to = mesh.vertices[static_cast<size_t>(t[(a + 2) % 3])];
+    frame.fz += -kI * std::conj(to - from) * map[t[a]];
+    area += 0.5 * cross(from, to);
+  }
+  frame.fz /= 4 * area;
+  if (std::abs(frame.fz) < 1e-9) frame.fz = 1e-9;
+  return frame;
+}
+
+Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) const {
+  const auto [i, u] = place_of(time);
+  const Key& a = keys_[i];
+  if (u == 0) return posed_as(scene, a.pose);
+  const Key& b = keys_[i + 1];
+  const double s = a.ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
+    const Frame now = frame_at(rest, map), before = frame_at(rest, a.shape.f),
+                after = frame_at(rest, b.shape.f);
+    return now.f +
+           now.fz * ((1 - s) * (at_a - before.f) / before.fz + s * (at_b - after.f) / after.fz);
+  };
+  Pose pose = a.pose;
+  for (Index e = 0; e < scene.rest.size(); ++e) {
+    const int degree = std::max(a.pose.cage.degree(e), b.pose.cage.degree(e));
+    const Points rest = rest_controls(scene.rest, e, degree),
+                 from = elevated(a.pose.cage.controls(e), degree),
+                 to = elevated(b.pose.cage.controls(e), degree);
+    Points& segment = pose.cage.segments[static_cast<size_t>(e)];
+    segment.resize(static_cast<size_t>(degree));
+    for (size_t m = 0; m < segment.size(); ++m) segment[m] = carried(rest[m], from[m], to[m]);
+  }
+  for (size_t p = 0; p < pose.pins.size(); ++p) {
+    const PosePin &from = a.pose.pins[p], &to = b.pose.pins[p];
+    pose.pins[p] = {carried(scene.pins[p].rest, from.position, to.position),
+                    (1 - s) * from.angle + s * to.angle,
+                    std::pow(from.scale, 1 - s) * std::pow(to.scale, s)};
+  }
+  for (size_t k = 0; k < pose.strokes.size(); ++k) {
+    const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k], &rest = scene.strokes[k].rest;
+    if (from.size() != to.size()) {  // drawn anew: no points belong to each other
+      pose.strokes[k] = s < 0.5 ? from : to;
+      continue;
+    }
+    for (size_t m = 0; m < from.size(); ++m)
+      pose.strokes[k][m] = from.size() == rest.size() ? carried(rest[m], from[m], to[m])
+                                                      : (1 - s) * from[m] + s * to[m];
+  }
+  const auto corner = [](const Pose& of, size_t c) {
+    return of.corners.empty() ? PoseCorner{} : of.corners[c];
+  };
+  pose.corners.resize(scene.corners.size());
+  for (size_t c = 0; c < pose.corners.size(); ++c) {
+    const PoseCorner from = corner(a.pose, c), to = corner(b.pose, c);
+    pose.corners[c] = {(1 - s) * from.before + s * to.before, (1 - s) * from.after + s * to.after,
+                       (1 - s) * from.tension + s * to.tension};
+  }
+  return posed_as(scene, pose);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,63 @@
+// A scene's keyframes as one map at any time.
+#pragma once
+
+#include <map>
+
+#include "core/error.h"
+#include "core/inbetween.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+struct PreparedMap;
+
+/// The maps at keyframes, kept until what they depend on changes; and what is between them.
+class Motion {
+ public:
+  /// Brings the maps at a scene's keyframes up to date: those whose pose has changed are asked of
+  /// the deformer. The prepared map must be the scene's. Keyframes that cannot be mapped are left
+  /// out; the first one's reason is error(). Cost: a final pose for each changed keyframe.
+  void follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared);
+  void clear() { *this = Motion(); }
+
+  /// Whether there is a map at any time.
+  bool plays() const { return !keys_.empty(); }
+  const std::optional<Error>& error() const { return error_; }
+
+  /// f at the mesh's vertices; before the first key and behind the last one as there.
+  VectorXc map_at(double time) const;
+  /// The scene with its handles as they are in that map, which is map_at: on the way from one
+  /// keyframe to the next one they go with the picture around them.
+  Scene scene_at(const Scene& scene, double time, const VectorXc& map) const;
+
+ private:
+  struct Key {
+    double time = 0;
+    Ease ease = Ease::smooth;
+    int turns = 0;
+    Pose pose;
+    Inbetween::Shape shape;
+    VectorXc slopes;
+  };
+  /// Where a time lies: at key `from`, or on the way to the next one.
+  struct Place {
+    size_t from = 0;
+    double u = 0;
+  };
+  /// What a map does near a place at rest: w -> f + fz (w - z).
+  struct Frame {
+    Complex f, fz;
+  };
+  Place place_of(double time) const;
+  Frame frame_at(Complex rest, const VectorXc& map) const;
+  void align(const Scene& scene);
+
+  std::vector<Key> keys_;
+  std::shared_ptr<PreparedMap> prepared_;
+  std::optional<Inbetween> between_;
+  bool straight_ = false;
+  std::optional<Error> error_;
+  mutable std::map<std::pair<double, double>, Location> locations_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,224 @@
+// Keyframes: files keep them, edits of the structure take them along, maps at times go through
+// them.
+#include "scene/keyframes.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "scene/live_map.h"
+#include "scene/scene_json.h"
+
+using namespace holomorph;
+
+namespace {
+
+const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
+
+/// A bar with a pin, at rest.
+Scene bar() {
+  Scene scene = with_cage(Scene{}, kBar);
+  scene.method = "pins";
+  scene.pins.push_back({{150, 50}, {150, 50}, {}, {}});
+  return scene;
+}
+
+Scene moved(Scene scene, Complex by) {
+  for (Points& segment : scene.pose.segments)
+    for (Complex& z : segment) z += by;
+  for (Pin& pin : scene.pins) pin.pose += by;
+  return scene;
+}
+
+/// A scene with its pose keyed at 0, 1 and 3 seconds: moved by 0, 10 and 40.
+Scene keyed() {
+  Scene scene = with_key(bar(), 0);
+  scene = with_key(moved(scene, 10), 1);
+  return with_key(moved(scene, 30), 3);
+}
+
+std::string complaint(const std::string& keys) {
+  Scene scene = bar();
+  std::string text = json_of(scene);
+  text.insert(text.rfind('}'), ", \"keyframes\": " + keys);
+  try {
+    scene_from_json(text, "s.json");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::bad_input);
+    return error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("Keyframes survive writing and reading, whatever their structure") {
+  Scene scene = keyed();
+  scene.keyframes[1].ease = Ease::hold;
+  scene.keyframes[2].turns = -2;
+  scene.keyframes[2].extra = R"({"mood":"glad"})";
+  scene.keyframes[0].pose.pins.clear();  // another structure
+  scene.animation = {30, true};
+  scene.animation_extra = R"({"loop":true})";
+  CHECK(scene_from_json(json_of(scene), "s.json") == scene);
+  CHECK(json_of(bar()).find("animation") == std::string::npos);
+}
+
+TEST_CASE("A keyframe's missing parts are as they rest") {
+  Scene scene = bar();
+  std::string text = json_of(moved(scene, 7));
+  text.insert(text.rfind('}'), R"(, "keyframes": [{"time": 0.5, "pose": {}}, {"time": 2}])");
+  const Scene read = scene_from_json(text, "s.json");
+  REQUIRE(read.keyframes.size() == 2);
+  for (const Keyframe& key : read.keyframes) CHECK(key.pose == whole_pose_of(scene));
+}
+
+TEST_CASE("What is wrong with a keyframe is said with the pointer") {
+  CHECK_THAT(complaint(R"([{"time": 1}, {"time": 1}])"),
+             Catch::Contains("/keyframes/1/time") && Catch::Contains("no two at one time"));
+  CHECK_THAT(complaint(R"([{"time": -1}])"), Catch::Contains("/keyframes/0/time"));
+  CHECK_THAT(complaint(R"([{"time": 0, "ease": "bouncy"}])"),
+             Catch::Contains("/keyframes/0/ease") && Catch::Contains("smooth, linear or hold"));
+  CHECK_THAT(complaint(R"([{"time": 0, "turns": 0.5}])"), Catch::Contains("/keyframes/0/turns"));
+  CHECK_THAT(complaint(R"([{"time": 0, "pose": {"pins": [{"angle": 1}]}}])"),
+             Catch::Contains("/keyframes/0/pose/pins/0"));
+  CHECK_THAT(complaint(R"([{"pose": {}}])"), Catch::Contains("time"));
+}
+
+TEST_CASE("Corners are read in order, each once, three at least") {
+  const auto with_corners = [](const std::string& corners) {
+    std::string text = json_of(bar());
+    text.insert(text.rfind('}'), ", \"corners\": " + corners);
+    return text;
+  };
+  const auto wrong = [&](const std::string& corners) {
+    try {
+      scene_from_json(with_corners(corners), "s.json");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const Scene read =
+      scene_from_json(with_corners(R"([{"vertex": 0}, {"vertex": 1, "after": 0.2, "sharp": 1},
+                       {"vertex": 3, "before": 7, "tension": 0.5}])"),
+                      "s.json");
+  REQUIRE(read.corners.size() == 3);
+  CHECK(read.corners[1].pose == PoseCorner{0, 0.2, 1});
+  CHECK(read.corners[2].pose == PoseCorner{7, 0, 0.5});
+  CHECK(scene_from_json(json_of(read), "again") == read);
+  CHECK_THAT(wrong(R"([{"vertex": 0}, {"vertex": 1}])"), Catch::Contains("three corners"));
+  CHECK_THAT(wrong(R"([{"vertex": 1}, {"vertex": 0}, {"vertex": 2}])"),
+             Catch::Contains("/corners/1/vertex"));
+  CHECK_THAT(wrong(R"([{"vertex": 0}, {"vertex": 1}, {"vertex": 4}])"),
+             Catch::Contains("/corners/2/vertex"));
+  CHECK_THAT(wrong(R"([{"vertex": 0, "tension": 2}])"), Catch::Contains("/corners/0/tension"));
+}
+
+TEST_CASE("Keys are set, moved and taken away, always sorted") {
+  Scene scene = keyed();
+  CHECK(scene.keyframes.size() == 3);
+  CHECK(key_at(scene, 1.0000001) == 1);
+  CHECK(key_at(scene, 2) == 3);
+  const Scene again = with_key(moved(scene, 5), 1);  // in place of the one that is there
+  CHECK(again.keyframes.size() == 3);
+  CHECK(again.keyframes[1].pose != scene.keyframes[1].pose);
+  const auto [later, number] = with_key_moved(scene, 0, 2);
+  CHECK(number == 1);
+  CHECK(later.keyframes[1].pose == scene.keyframes[0].pose);
+  const auto [over, replaced] = with_key_moved(scene, 0, 3);
+  CHECK(over.keyframes.size() == 2);
+  CHECK(over.keyframes[replaced].pose == scene.keyframes[0].pose);
+  CHECK(with_key_moved(scene, 2, -4).first.keyframes[0].time == 0);
+  CHECK(without_key(scene, 1).keyframes.size() == 2);
+  CHECK(length_of(scene) == 3);
+  CHECK(last_frame_of(scene) == 72);
+}
+
+TEST_CASE("A pose is mirrored about the cage's middle") {
+  Scene scene = bar();
+  scene.pins = {{{60, 50}, {60, 50}, 0.0, {}}, {{240, 50}, {240, 50}, {}, {}}};
+  scene.method = "angles";
+  for (Index v = 0; v < 4; ++v) scene.corners.push_back({v, {}, {}});
+  Pose pose = whole_pose_of(scene);
+  pose.cage.segments[1][0] += Complex(30, 5);  // the lower right corner
+  pose.pins[0] = {{50, 80}, 0.4, 1.5};
+  pose.corners[1] = {0.1, 0.3, 0.5};
+  const Pose mirror = mirrored(scene, pose);
+  CHECK(mirror.cage.segments[0][0] == Complex(-30, 5));
+  CHECK(mirror.cage.segments[1][0] == Complex(300, 0));
+  CHECK(mirror.pins[1].position == Complex(250, 80));
+  CHECK(mirror.pins[1].angle == -0.4);
+  CHECK(mirror.pins[1].scale == 1.5);
+  CHECK(mirror.corners[0].before == -0.3);
+  CHECK(mirror.corners[0].after == -0.1);
+  CHECK(mirror.corners[3].tension == 0.5);  // of the edge between the corner and its neighbour
+  CHECK(mirrored(scene, mirror) == pose);
+  scene.pins.pop_back();
+  CHECK_THROWS_WITH(mirrored(scene, whole_pose_of(scene)), Catch::Contains("no counterpart"));
+}
+
+TEST_CASE("Maps at times go through the keyframes, handles with them") {
+  const Scene scene = keyed();
+  LiveMap map(MeshOptions{400});
+  map.finish(scene, {});
+  const auto offset_at = [&](double time) {
+    map.update(scene, {}, time);
+    const Complex by = map.map().f[0] - map.prepared()->mesh->vertices[0];
+    REQUIRE(map.timed());
+    CHECK(std::abs(map.timed()->pins[0].pose - (Complex(150, 50) + by)) <= 1e-3);
+    CHECK(std::abs(map.timed()->pose.vertex(2) - (Complex(300, 100) + by)) <= 1e-3);
+    CHECK(std::abs(by.imag()) <= 1e-3);
+    return by.real();
+  };
+  CHECK(offset_at(0) == Approx(0).margin(1e-3));
+  CHECK(offset_at(0.5) == Approx(5).margin(1e-3));
+  CHECK(offset_at(1) == Approx(10).margin(1e-3));
+  CHECK(offset_at(2) == Approx(25).margin(1e-3));
+  CHECK(offset_at(9) == Approx(40).margin(1e-3));
+  // Without a time the scene's own pose.
+  map.update(scene, {});
+  CHECK_FALSE(map.timed());
+  CHECK((map.map().f[0] - map.prepared()->mesh->vertices[0]).real() == Approx(40).margin(1e-3));
+}
+
+TEST_CASE("Holds stay, linear keys go evenly, and other structures do not play") {
+  Scene scene = keyed();
+  scene.keyframes[0].ease = Ease::hold;
+  scene.keyframes[1].ease = Ease::linear;
+  LiveMap map(MeshOptions{400});
+  map.finish(scene, {});
+  const auto offset_at = [&](const Scene& s, double time) {
+    map.update(s, {}, time);
+    return (map.map().f[0] - map.prepared()->mesh->vertices[0]).real();
+  };
+  CHECK(offset_at(scene, 0.9) == Approx(0).margin(1e-3));
+  CHECK(offset_at(scene, 1.5) == Approx(17.5).margin(1e-3));
+  Scene other = scene;
+  other.keyframes[1].pose.pins.clear();
+  CHECK(playing_keys(other) == std::vector<size_t>{0, 2});
+  CHECK(offset_at(other, 1.5) == Approx(0).margin(1e-3));
+  other.animation.straight = true;
+  other.keyframes[0].ease = Ease::linear;
+  CHECK(offset_at(other, 1.5) == Approx(20).margin(1e-3));
+}
+
+TEST_CASE("A pin that turns twice as drawn turns twice in between") {
+  Scene scene = bar();
+  scene.pins[0].angle = 0.0;
+  scene = with_key(scene, 0);
+  Scene turned = scene;
+  turned.pins[0].angle = 4 * kPi + 0.5;
+  for (Points& segment : turned.pose.segments)
+    for (Complex& z : segment) z = Complex(150, 50) + std::polar(1.0, 0.5) * (z - Complex(150, 50));
+  scene = with_key(turned, 1);
+  scene.keyframes[0].ease = Ease::linear;
+  LiveMap map(MeshOptions{400});
+  map.finish(scene, {});
+  map.update(scene, {}, 0.25);
+  const double angle = kPi + 0.125;
+  for (const size_t v : {0, 50, 100}) {
+    const Complex rest = map.prepared()->mesh->vertices[v] - Complex(150, 50);
+    CHECK(std::abs(map.map().f[static_cast<Index>(v)] - Complex(150, 50) -
+                   std::polar(1.0, angle) * rest) <= 0.5);
+  }
+}
