@@ -98,12 +98,14 @@ void Canvas::upload_map(const LiveMap& map) {
     uploaded_ = 0;
     return;
   }
-  if (uploaded_ != map.preparation()) {
-    renderer_.set_mesh(map.prepared()->mesh.get());
-    // On a processor-driven OpenGL the shader's sum is the slower one.
-    by_operator_ = !is_software_driver() &&
-                   renderer_.set_operator(map.prepared()->deformer->operator_matrix());
+  const bool timed = map.timed().has_value();
+  if (uploaded_ != map.preparation() || timed_ != timed) {
+    if (uploaded_ != map.preparation()) renderer_.set_mesh(map.prepared()->mesh.get());
+    // On a processor-driven OpenGL the shader's sum is the slower one; in-betweens are no sum.
+    by_operator_ = renderer_.set_operator(
+        is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
     uploaded_ = map.preparation();
+    timed_ = timed;
   }
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));

@@ -45,6 +45,7 @@ class Canvas {
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   unsigned uploaded_ = 0;
+  bool timed_ = false;  ///< what was uploaded is no sum of controls
   bool picture_changed_ = true, by_operator_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include "app/panels.h"
 #include "app/state_file.h"
 #include "app/surface_pane.h"
+#include "app/timeline_panel.h"
 #include "app/toasts.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -41,8 +42,8 @@ class Editor {
 
   int run() {
     while (!files_.has_quit()) {
-      const bool playing = workspace_.playback.playing;
-      if (window_.wait(playing ? 0.02 : toasts_.empty() ? 1.0 : 0.25))
+      const bool playing = workspace_.playback.playing || workspace_.timeline.playing;
+      if (window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25))
         frame();
       else if (playing || toasts_.expire())
         window_.wake();
@@ -66,8 +67,8 @@ class Editor {
     use_tool(input);
     open_context_menu(input);
     answer(std::exchange(workspace_.request, Request::none));
-    if (workspace_.map.update(workspace_.scene(),
-                              {is_heat(workspace_.view), workspace_.preview.has_value(),
+    if (advance(workspace_.timeline, workspace_.document.scene(), now_ms())) window_.wake();
+    if (workspace_.update_map({is_heat(workspace_.view), workspace_.preview.has_value(),
                                workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
     if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
@@ -96,7 +97,9 @@ class Editor {
     const bool halved = workspace_.shows_surface();
     view.width = std::max(1.0, halved ? std::floor(room / 2) : room);
     if (halved != std::exchange(halved_, halved)) fit_ = true;
-    view.height = std::max(1.0, window_.height() - sizes.menu - sizes.status);
+    const bool timed = workspace_.timeline.visible && !workspace_.document.empty();
+    view.height =
+        std::max(1.0, window_.height() - sizes.menu - sizes.status - (timed ? sizes.timeline : 0));
     workspace_.handle_px = 10 * window_.scale();
     if (std::exchange(fit_, false)) view.fit(workspace_.content_box());
   }
@@ -119,6 +122,7 @@ class Editor {
   }
 
   void take_key(const Shortcut& key) {
+    if (key == Shortcut(Key::space)) return;  // a tap plays, a drag pans: see navigate
     if (key.mods == Modifiers{} && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
@@ -157,6 +161,10 @@ class Editor {
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
+    if (space && !std::exchange(space_, true)) space_pans_ = files_.asking() || palette_ || help_;
+    space_pans_ = space_pans_ || panning_;
+    if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
+      holomorph::run(action_named("time.play"), workspace_);
     if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
@@ -245,6 +253,7 @@ class Editor {
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
       draw_inspector(workspace_, canvas_.heat_scale(), scale, window_.light());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
+      if (workspace_.timeline.visible) timeline_.draw(workspace_, scale);
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
@@ -279,8 +288,10 @@ class Editor {
   std::string title_, palette_text_;
   bool fit_ = false, halved_ = false, panning_ = false, was_active_ = false, restyle_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false;
+  bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
   SurfacePane surface_pane_;
+  TimelinePanel timeline_;
   Files files_;
 };
 

@@ -10,7 +10,7 @@ namespace holomorph {
 PanelSizes PanelSizes::at(double scale) {
   const double line = ImGui::GetFrameHeight();
   const double inspector = std::min(300 * scale, 0.38 * ImGui::GetIO().DisplaySize.x);
-  return {line, 52 * scale, inspector, line + 6 * scale};
+  return {line, 52 * scale, inspector, line + 6 * scale, line + 64 * scale};
 }
 
 namespace {
@@ -41,7 +41,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
   const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  for (const char* name : {"File", "Edit", "Tools", "Cage", "View", "Help"}) {
+  for (const char* name : {"File", "Edit", "Tools", "Cage", "Time", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;
     if (std::string_view(name) == "File" &&
         ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
@@ -101,10 +101,22 @@ void draw_toolbar(Workspace& workspace, double scale) {
                       {4 * s, 0});  // low buttons keep their icons whole
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 5 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  static constexpr const char* kIds[] = {
-      "tool.select",       "tool.pen",  "tool.pin", "tool.stroke", "tool.outline", "",
-      "cage.from_picture", "cage.rest", "",         "edit.undo",   "edit.redo",    "",
-      "view.fit",          "help.keys"};
+  static constexpr const char* kIds[] = {"tool.select",
+                                         "tool.pen",
+                                         "tool.pin",
+                                         "tool.stroke",
+                                         "tool.outline",
+                                         "tool.angle",
+                                         "",
+                                         "cage.from_picture",
+                                         "cage.rest",
+                                         "",
+                                         "edit.undo",
+                                         "edit.redo",
+                                         "",
+                                         "view.fit",
+                                         "view.timeline",
+                                         "help.keys"};
   // All buttons and lines fit into any height.
   const long lines = std::ranges::count(kIds, std::string_view(),
                                         [](const char* id) { return std::string_view(id); });

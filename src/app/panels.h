@@ -27,7 +27,7 @@ struct PanelAnswer {
 
 /// Sizes of the panels in window px for a scale of the display.
 struct PanelSizes {
-  double menu, toolbar, inspector, status;
+  double menu, toolbar, inspector, status, timeline;
   static PanelSizes at(double scale);
 };
 

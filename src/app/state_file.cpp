@@ -9,7 +9,7 @@ namespace holomorph {
 void StateFile::write(const Workspace& workspace, const PartsState& parts) {
   static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline", "angle"};
   const Viewport& view = workspace.viewport;
-  char text[1400];
+  char text[1700];
   std::snprintf(
       text, sizeof text,
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
@@ -22,7 +22,8 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       " \"status\": \"%s\", \"boundary_turns\": %.6f, \"folds\": %s, \"iteration\": %d, "
       "\"iterations\": %d, \"playing\": %s,\n"
       "  \"zeros\": %d, \"compared_rows\": %d, \"on_surface\": %s, \"yaw\": %.6f, "
-      "\"distance\": %.6f}\n",
+      "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
+      "\"runs\": %s}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.layer == Layer::rest ? "rest" : "pose",
@@ -42,7 +43,10 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(workspace.map.map().energies.size()),
       workspace.playback.playing ? "true" : "false",
       static_cast<int>(workspace.map.map().zeros.size()), parts.compared_rows,
-      parts.on_surface ? "true" : "false", parts.yaw, parts.distance);
+      parts.on_surface ? "true" : "false", parts.yaw, parts.distance,
+      static_cast<int>(workspace.scene().corners.size()),
+      static_cast<int>(workspace.document.scene().keyframes.size()), workspace.timeline.time,
+      workspace.timeline.shows ? "true" : "false", workspace.timeline.playing ? "true" : "false");
   if (text == last_) return;
   last_ = text;
   try {

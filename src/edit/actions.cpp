@@ -37,6 +37,32 @@ bool has_selection(const Workspace& w) {
   return !w.selection.empty();
 }
 
+bool has_keys(const Workspace& w) {
+  return !w.document.scene().keyframes.empty();
+}
+bool plays(const Workspace& w) {
+  return playing_keys(w.document.scene()).size() > 1;
+}
+bool has_copied(const Workspace& w) {
+  return w.copied && fits(w.scene(), *w.copied);
+}
+std::optional<size_t> key_here(const Workspace& w) {
+  const size_t key = key_at(w.document.scene(), w.timeline.time);
+  return key < w.document.scene().keyframes.size() ? std::optional(key) : std::nullopt;
+}
+template <int by>
+void step_frame(Workspace& w) {
+  w.timeline.playing = false;
+  const Scene& scene = w.document.scene();
+  w.go_to_time(time_of_frame(scene, frame_at(scene, w.timeline.time) + by));
+}
+template <bool forwards>
+void step_key(Workspace& w) {
+  w.timeline.playing = false;
+  if (const auto time = next_key(w.document.scene(), w.timeline.time, forwards))
+    w.go_to_time(*time);
+}
+
 template <Request request>
 void ask(Workspace& w) {
   w.request = request;
@@ -151,8 +177,10 @@ void redo(Workspace& w) {
 constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
                      *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
                      *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf01e",
-                     *kStroke = "\uf1fc", *kMagic = "\uf0d0", *kFit = "\uf065", *kHelp = "\uf059",
-                     *kReset = "\uf0e2", *kSearch = "\uf002";
+                     *kPlay = "\uf04b", *kBack = "\uf048", *kForward = "\uf051", *kFirst = "\uf049",
+                     *kLast = "\uf050", *kKey = "\uf084", *kRecord = "\uf111", *kLoop = "\uf079",
+                     *kOnion = "\uf24d", *kFilm = "\uf008", *kStroke = "\uf1fc", *kMagic = "\uf0d0",
+                     *kFit = "\uf065", *kHelp = "\uf059", *kReset = "\uf0e2", *kSearch = "\uf002";
 
 /// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
@@ -401,6 +429,97 @@ std::vector<Action> table() {
        converges,
        [](Workspace& w) { w.playback = {0}; }},
 
+      {"time.play",
+       "Play",
+       kPlay,
+       "Time",
+       {Key::space},
+       plays,
+       [](Workspace& w) {
+         w.preview.reset();
+         w.timeline.playing = !w.timeline.playing;
+         w.timeline.clock_ms.reset();
+         if (w.timeline.time >= length_of(w.document.scene()) - 1e-6) w.timeline.time = 0;
+       },
+       [](const Workspace& w) { return w.timeline.playing; }},
+      {"time.back", "One frame back", kBack, "Time", {','}, has_keys, step_frame<-1>},
+      {"time.forward", "One frame on", kForward, "Time", {'.'}, has_keys, step_frame<1>},
+      {"time.previous_key",
+       "Previous key",
+       kFirst,
+       "Time",
+       {{',', kShift}, {'<', kShift}},
+       has_keys,
+       step_key<false>},
+      {"time.next_key",
+       "Next key",
+       kLast,
+       "Time",
+       {{'.', kShift}, {'>', kShift}},
+       has_keys,
+       step_key<true>},
+      {"time.key", "Set a key", kKey, "Time", {'I'}, has_cage, [](Workspace& w) { w.set_key(); }},
+      {"time.delete_key",
+       "Delete the key at this time",
+       "",
+       "Time",
+       {},
+       [](const Workspace& w) { return key_here(w).has_value(); },
+       [](Workspace& w) { w.commit("Delete key", without_key(w.document.scene(), *key_here(w))); }},
+      {"time.auto_key",
+       "Auto-key: edits of the pose set keys",
+       kRecord,
+       "Time",
+       {'K'},
+       has_cage,
+       [](Workspace& w) {
+         w.timeline.auto_key = !w.timeline.auto_key;
+         w.timeline.visible = w.timeline.visible || w.timeline.auto_key;
+       },
+       [](const Workspace& w) { return w.timeline.auto_key; }},
+      {"time.loop",
+       "Loop",
+       kLoop,
+       "Time",
+       {},
+       has_cage,
+       [](Workspace& w) { w.timeline.loop = !w.timeline.loop; },
+       [](const Workspace& w) { return w.timeline.loop; }},
+      {"time.onion",
+       "Onion skin: cages of the keys before and after",
+       kOnion,
+       "Time",
+       {},
+       has_cage,
+       [](Workspace& w) { w.timeline.onion = !w.timeline.onion; },
+       [](const Workspace& w) { return w.timeline.onion; }},
+      {"time.copy",
+       "Copy pose",
+       "",
+       "Time",
+       {{'C', kCtrl}},
+       has_cage,
+       [](Workspace& w) {
+         w.copied = whole_pose_of(w.scene());
+         w.say("The pose is copied.");
+       }},
+      {"time.paste",
+       "Paste pose",
+       "",
+       "Time",
+       {{'V', kCtrl}},
+       has_copied,
+       [](Workspace& w) { w.commit("Paste pose", posed_as(w.scene(), *w.copied)); }},
+      {"time.paste_mirrored",
+       "Paste pose, mirrored",
+       "",
+       "Time",
+       {{'V', kCtrlShift}},
+       has_copied,
+       [](Workspace& w) {
+         w.commit("Paste mirrored pose", posed_as(w.scene(), mirrored(w.scene(), *w.copied)));
+       }},
+
       {"view.image", "Picture", "", "View", {'1'}, always, look<View::image>, looks<View::image>},
       {"view.angle",
        "Angle distortion",
@@ -444,6 +563,14 @@ std::vector<Action> table() {
        has_cage,
        [](Workspace& w) { w.show_mesh = !w.show_mesh; },
        [](const Workspace& w) { return w.show_mesh; }},
+      {"view.timeline",
+       "Timeline",
+       kFilm,
+       "View",
+       {'T'},
+       has_cage,
+       [](Workspace& w) { w.timeline.visible = !w.timeline.visible; },
+       [](const Workspace& w) { return w.timeline.visible; }},
       {"view.surface",
        "Surface in space",
        "",

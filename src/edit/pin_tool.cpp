@@ -38,7 +38,9 @@ class PinTool final : public Tool {
     const bool switches = !method_named(workspace.scene().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
     const Complex pose = workspace.at_rest() ? workspace.posed_at(*rest) : input.position;
-    if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose))) return;
+    if (!workspace.commit("Add pin",
+                          with_pin(workspace.scene(), *rest, pose, workspace.in_keyframes(*rest))))
+      return;
     if (switches)
       workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
     workspace.selection = {

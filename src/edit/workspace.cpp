@@ -45,16 +45,74 @@ bool Workspace::commit(const std::string& label, Scene scene) {
   playback = {};
   carried_on.clear();
   if (!accepts(scene)) return false;
+  scene = timed_edit(std::move(scene));
   const bool done = document.commit(label, std::move(scene));
+  timed.reset();
   prune_selection();
   return done;
+}
+
+Scene Workspace::timed_edit(Scene scene) {
+  const bool shows = timed && timeline.shows;
+  const Scene before = shows ? *timed : document.scene();
+  const Pose pose = whole_pose_of(scene);
+  const bool poses = fits(scene, whole_pose_of(before)) && pose != whole_pose_of(before);
+  if (poses && timeline.auto_key) {
+    timeline.visible = timeline.shows = true;
+    return with_key(std::move(scene), timeline.time);
+  }
+  if (!shows) return scene;
+  if (poses) {
+    char text[48];
+    std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
+    document.commit(text, before);  // what undoing the edit goes back to
+    timeline.shows = timeline.playing = false;
+    return scene;
+  }
+  const Pose own = whole_pose_of(document.scene());
+  return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
+}
+
+void Workspace::go_to_time(double seconds) {
+  preview.reset();
+  timeline.go_to(seconds);
+}
+
+void Workspace::set_key() {
+  char label[32];
+  std::snprintf(label, sizeof label, "Key at %.2f s", timeline.time);
+  const bool own_pose = !timeline.shows;
+  commit(label, with_key(scene(), timeline.time));
+  if (own_pose) timeline.shows = true;
+  timeline.visible = true;
+}
+
+Points Workspace::in_keyframes(Complex rest) {
+  const Scene& scene = document.scene();
+  if (scene.keyframes.empty() || !map.has_map() || map.posed() != scene) return {};
+  Points places;
+  for (const Keyframe& key : scene.keyframes) places.push_back(map.place_at(key.time, rest));
+  return places;
+}
+
+bool Workspace::update_map(Wanted wanted) {
+  const std::optional<double> time = shown_time();
+  const bool changed = map.update(preview ? *preview : document.scene(), wanted, time);
+  timed.reset();  // while another structure is being prepared, the shown map has the old one
+  if (time && map.posed() == document.scene()) timed = map.timed();
+  return changed;
 }
 
 bool Workspace::amend(Scene scene) {
   preview.reset();
   playback = {};
   if (!accepts(scene)) return false;
+  if (timeline.auto_key)
+    scene = with_key(std::move(scene), timeline.time);
+  else if (whole_pose_of(scene) != whole_pose_of(document.scene()))
+    timeline.shows = timeline.playing = false;
   document.amend(std::move(scene));
+  timed.reset();
   return true;
 }
 
@@ -68,10 +126,15 @@ void Workspace::commit_or_amend(const std::string& label, Scene scene) {
 }
 
 void Workspace::go_to(size_t entry) {
+  preview.reset();
   const Scene before = document.scene();
   carried_on.clear();
   playback = {};
   document.go_to(entry);
+  timed.reset();
+  // What was undone is to be seen.
+  if (whole_pose_of(before) != whole_pose_of(document.scene())) timeline.shows = false;
+  timeline.playing = false;
   // Numbers mean other points in another structure.
   const bool other_cage = before.rest.size() != scene().rest.size(),
              other_pins = before.pins.size() != scene().pins.size(),
@@ -157,6 +220,9 @@ void Workspace::open(Document opened) {
   selection.clear();
   carried_on.clear();
   playback = {};
+  timeline = {};
+  timed.reset();
+  timeline.visible = timeline.shows = !document.scene().keyframes.empty();
   layer = Layer::pose;
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;

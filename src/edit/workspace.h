@@ -5,6 +5,7 @@
 
 #include "core/heat.h"
 #include "edit/edits.h"
+#include "edit/timeline.h"
 #include "edit/viewport.h"
 #include "scene/document.h"
 #include "scene/live_map.h"
@@ -65,6 +66,9 @@ struct Workspace {
   bool hide_overlays = false, show_original = false;  ///< while a key is held
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   Playback playback;
+  Timeline timeline;
+  std::optional<Scene> timed;  ///< the document's scene with its handles as at the shown time
+  std::optional<Pose> copied;  ///< a pose
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
   bool auto_cage_curved = false;
@@ -72,8 +76,25 @@ struct Workspace {
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window
 
-  /// The scene to show: the preview of a drag, or the document's.
-  const Scene& scene() const { return preview ? *preview : document.scene(); }
+  /// The scene to show: the preview of a drag, the document's posed as at the shown time, or the
+  /// document's.
+  const Scene& scene() const {
+    return preview ? *preview : timed && timeline.shows ? *timed : document.scene();
+  }
+  /// The time whose picture is wanted, where it is not the scene's own pose.
+  std::optional<double> shown_time() const {
+    return preview || !timeline.shows || document.scene().keyframes.empty()
+               ? std::nullopt
+               : std::optional(timeline.time);
+  }
+  /// Brings the map up to date with what is shown. Returns whether it changed.
+  bool update_map(Wanted wanted);
+  /// Where keyframes take a place at rest, by number; none before their maps are known.
+  Points in_keyframes(Complex rest);
+  /// Goes to a time and shows it.
+  void go_to_time(double seconds);
+  /// The shown pose as the key at the time.
+  void set_key();
   /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return layer == Layer::rest || show_original; }
 
@@ -114,6 +135,9 @@ struct Workspace {
   void open(Document opened);
 
  private:
+  /// What an edit of what is shown at a time means: with auto-key a key, else a pose of its own;
+  /// what is no pose edit leaves the scene's own pose.
+  Scene timed_edit(Scene scene);
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

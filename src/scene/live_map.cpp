@@ -165,6 +165,14 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   return true;
 }
 
+Complex LiveMap::place_at(double time, Complex rest) {
+  motion_.follow(*posed_, shown_);
+  const auto at = locate(*shown_->mesh, shown_->mesh->vertices, rest);
+  if (!at || !motion_.plays()) return rest;
+  const VectorXc f = motion_.map_at(time);
+  return at->in(*shown_->mesh, {f.data(), static_cast<size_t>(f.size())});
+}
+
 SampledMap LiveMap::map_at_time(const Scene& scene, Wanted wanted) {
   SampledMap map;
   map.f = motion_.map_at(*time_);
