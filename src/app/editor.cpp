@@ -42,7 +42,8 @@ class Editor {
 
   int run() {
     while (!files_.has_quit()) {
-      const bool playing = workspace_.playback.playing || workspace_.timeline.playing;
+      const bool playing =
+          workspace_.playback.playing || workspace_.timeline.playing || files_.busy();
       if (window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25))
         frame();
       else if (playing || toasts_.expire())

@@ -138,6 +138,7 @@ std::string Files::export_to(const Path& path, double scale) {
     options.scale = scale;
     options.view = workspace_.scene().has_cage() ? workspace_.view : View::image;
     options.automatic_range = workspace_.automatic_range;
+    options.time = workspace_.shown_time();
     const RasterResult result =
         picture_of(workspace_.document.scene(), workspace_.document.image(), options);
     write_file(path, encode_png(result.image));
@@ -251,6 +252,67 @@ void Files::ask_export_surface() {
               [this](const Path& path, double scale) { return export_surface(path, scale); });
 }
 
+void Files::ask_export_film() {
+  const Document& document = workspace_.document;
+  const Path& source = document.path().empty() ? document.image_path() : document.path();
+  const std::string stem = source.empty() ? "film" : source.stem().string();
+  const Path start = film_path_.empty() ? beside_document(stem + ".webp") : film_path_;
+  std::vector<std::string> extensions;
+  for (const FilmFormat& format : film_formats()) extensions.push_back(format.extension);
+  dialog_.ask(
+      {FileQuestion::Mode::save, "Export a film: .webp, .gif, .apng, .png files, .mp4 or .webm",
+       "Export", extensions, start, true},
+      [this](const Path& path, double scale) { return export_film(path, scale); });
+}
+
+std::string Files::export_film(const Path& path, double scale) {
+  try {
+    film_format_of(path);
+    check_not_a_source(path, workspace_.document.sources());
+    FilmOptions options;
+    options.scale = scale;
+    options.view = workspace_.view;
+    film_ = std::make_unique<FilmJob>(path, workspace_.document.scene(),
+                                      workspace_.document.shared_image(), options);
+    film_path_ = path;
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// How far the film is; Cancel and Escape end it and leave nothing.
+void Files::draw_film(double scale) {
+  if (!film_) return;
+  const float s = static_cast<float>(scale);
+  ImGui::OpenPopup("Exporting");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal("Exporting", nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  const std::string name = film_->out().filename().string();
+  ImGui::TextUnformatted(name.c_str());
+  const std::string frames =
+      std::to_string(film_->done()) + " of " + std::to_string(film_->all()) + " frames";
+  ImGui::ProgressBar(static_cast<float>(film_->done()) / static_cast<float>(film_->all()),
+                     {360 * s, 0}, frames.c_str());
+  if (ImGui::Button("Cancel", {120 * s, 0}) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    film_->cancel();
+  if (film_->ended()) {
+    if (const auto error = film_->error())
+      workspace_.complain(*error);
+    else if (film_->written())
+      workspace_.say("Exported " + name + ", " + std::to_string(film_->all()) + " frames.");
+    else
+      workspace_.say("The export was cancelled; nothing was written.");
+    film_.reset();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
@@ -319,6 +381,9 @@ void Files::answer(Request request) {
     case Request::export_svg:
       ask_export_svg();
       break;
+    case Request::export_film:
+      ask_export_film();
+      break;
     case Request::export_surface:
       ask_export_surface();
       break;
@@ -339,6 +404,7 @@ void Files::answer(Request request) {
 void Files::draw(double scale) {
   dialog_.draw(scale);
   draw_question(scale);
+  draw_film(scale);
 }
 
 void Files::draw_question(double scale) {

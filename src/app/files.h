@@ -4,6 +4,7 @@
 
 #include "app/file_dialog.h"
 #include "edit/workspace.h"
+#include "film/film.h"
 #include "scene/preferences.h"
 
 namespace holomorph {
@@ -36,7 +37,9 @@ class Files {
   void keep_preferences();
   /// Draws the dialog or question that is open.
   void draw(double scale);
-  bool asking() const { return dialog_.open() || question_; }
+  bool asking() const { return dialog_.open() || question_ || film_; }
+  /// Whether something goes on that is to be seen though nothing happens.
+  bool busy() const { return film_ != nullptr; }
   bool has_quit() const { return quit_; }
 
  private:
@@ -58,6 +61,9 @@ class Files {
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
+  void ask_export_film();
+  std::string export_film(const Path& path, double scale);
+  void draw_film(double scale);
   void draw_question(double scale);
 
   Workspace& workspace_;
@@ -66,6 +72,8 @@ class Files {
   FileDialog dialog_;
   std::vector<Recovery> recoverable_;
   Then after_question_;
+  std::unique_ptr<FilmJob> film_;
+  Path film_path_;
   Path export_path_;
   double export_scale_ = 1;
   bool question_ = false, quit_ = false, autosave_failed_ = false;

@@ -11,7 +11,7 @@
 #include "core/cauchy.h"
 #include "core/error.h"
 #include "core/inverse.h"
-#include "raster/picture.h"
+#include "film/film.h"
 #include "raster/textured.h"
 #include "raster/unwarp.h"
 #include "scene/auto_cage.h"
@@ -164,14 +164,6 @@ FrameRange frames_named(const std::string& text, const Scene& scene) {
   return range;
 }
 
-/// walk.png and 7: walk-0007.png.
-Path numbered(const Path& path, int frame) {
-  Path result = path;
-  result.replace_filename(path.stem().string() + csv_line("-%04d", frame) +
-                          path.extension().string());
-  return result;
-}
-
 void render_frames(const RenderCommand& command, const LoadedScene& loaded,
                    PictureOptions options) {
   const Scene& scene = loaded.scene;
@@ -287,7 +279,8 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   if (!known.contains(format))
     throw Error(ErrorKind::bad_input, "format '" + format +
                                           "' is not available in this version; choose one of: obj, "
-                                          "svg, npy, png, stmap, unwarp, textured");
+                                          "svg, npy, png, stmap, unwarp, textured, webp, gif, "
+                                          "apng, mp4, webm");
   require_cage(loaded.scene, command.scene);
   if (format == "unwarp")
     return encode_png(unwarped(loaded.scene, loaded.image.get(), command.scale));
@@ -318,11 +311,39 @@ void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
 
 }  // namespace
 
+namespace {
+
+bool is_film(const std::string& format) {
+  return format != "png" && std::ranges::any_of(film_formats(), [&](const FilmFormat& known) {
+           return known.extension == "." + format;
+         });
+}
+
+void export_film(const LoadedScene& loaded, const ExportCommand& command) {
+  require_keyframes(loaded.scene, command.scene);
+  if (lower_case(command.out.extension().string()) != "." + command.format)
+    throw Error(ErrorKind::bad_input,
+                command.out.string() + ": the name must end in ." + command.format);
+  const bool shows_progress = ::isatty(STDERR_FILENO);
+  int frames = 0;
+  write_film(command.out, loaded.scene, loaded.image.get(), {command.scale},
+             [&](int done, int all) {
+               if (shows_progress) std::fprintf(stderr, "\rframe %d of %d ", done, all);
+               frames = all;
+               return true;
+             });
+  std::fprintf(stderr, "%s%s: %d frames\n", shows_progress ? "\r" : "", command.out.c_str(),
+               frames);
+}
+
+}  // namespace
+
 void run(const ExportCommand& command) {
   if (command.format == "png") return run(RenderCommand{command.scene, command.out, command.scale});
   const LoadedScene loaded = load(command.scene);
   check_out(command.out, command.scene, loaded);
   if (command.format == "textured") return export_textured(loaded, command);
+  if (is_film(command.format)) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_file(command.out, bytes);
   std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());

@@ -107,9 +107,12 @@ int run_program(int argc, char** argv) {
   ExportCommand out;
   sub = app.add_subcommand("export", "Write the posed scene in another format");
   sub->add_option("SCENE", out.scene)->required();
-  sub->add_option("--format", out.format, "obj, svg, npy, png, stmap, unwarp or textured")
+  sub->add_option(
+         "--format", out.format,
+         "obj, svg, npy, png, stmap, unwarp or textured; of keyframes webp, gif, apng, mp4 or webm")
       ->required();
-  sub->add_option("--scale", out.scale, "Output pixels per image pixel, for png, stmap and unwarp")
+  sub->add_option("--scale", out.scale,
+                  "Output pixels per image pixel, for png, stmap, unwarp and films")
       ->capture_default_str();
   sub->add_option("--out", out.out, "File to write")->required();
   on_run(sub, out, done);

@@ -26,6 +26,7 @@ enum class Request {
   import_outline,
   export_svg,
   export_surface,
+  export_film,
   quit,
   help,
   palette,

@@ -55,6 +55,7 @@ class Document {
 
   const Scene& scene() const { return history_.current(); }
   const Image* image() const { return image_.get(); }
+  std::shared_ptr<const Image> shared_image() const { return image_; }
   const History& history() const { return history_; }
   const Path& path() const { return path_; }              ///< empty for a scene never saved
   const Path& image_path() const { return image_path_; }  ///< absolute; empty without a picture

@@ -306,6 +306,59 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([open(self.path(name), "rb").read() for name in names[2:4]], whole[2:4])
         self.assertFalse(os.path.exists(self.path(names[0])))
 
+    def test_films_have_every_frame_for_its_time(self):
+        path = self.write("s.json", self.keyed_scene())
+        for kind in ("webp", "gif", "apng"):
+            out = self.path("film." + kind)
+            self.good("export", path, "--format", kind, "--out", out)
+            film = Image.open(out)
+            self.assertEqual((film.n_frames, film.size), (5, (70, 60)), kind)
+            self.assertEqual(film.info.get("loop"), 0, kind)
+            if kind != "apng":  # which has thousandths, as read below
+                durations = []
+                for i in range(5):
+                    film.seek(i)
+                    film.load()
+                    durations.append(film.info["duration"])
+                self.assertEqual(durations, [250] * 5, kind)
+            self.good("render", path, "--frames", "2..2", "--out", self.path("f.png"))
+            exact = numpy.asarray(Image.open(self.path("f-0002.png")).convert("RGBA")).astype(int)
+            film.seek(2)
+            frame = numpy.asarray(film.convert("RGBA")).astype(int)
+            shows = exact[:, :, 3] == 255
+            self.assertLess(numpy.abs(frame - exact)[shows].mean(), 3, kind)
+            self.assertLess(numpy.abs(frame[:, :, 3] - exact[:, :, 3]).mean(), 2, kind)
+        self.bad("export", path, "--format", "gif", "--out", self.path("film.webp"), says="must end in .gif")
+
+    def test_films_by_ffmpeg_are_whole_or_not_there(self):
+        path = self.write("s.json", self.keyed_scene())
+        folder = self.path("bin")
+        os.mkdir(folder)
+        stub = os.path.join(folder, "ffmpeg")
+        out = self.path("film.mp4")
+        paths = {**os.environ, "PATH": folder}
+        # Not installed.
+        result = run("export", path, "--format", "mp4", "--out", out, env=paths)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("ffmpeg, which is not installed", result.stderr)
+        # One that counts what it is given, and writes its words.
+        with open(stub, "w") as file:
+            file.write("#!/bin/sh\nfor word in \"$@\"; do last=$word; done\n"
+                       "echo \"$@\" > \"${last#file:}\"\n/usr/bin/wc -c >> \"${last#file:}\"\n")
+        os.chmod(stub, 0o755)
+        self.good("export", path, "--format", "mp4", "--out", out, env=paths)
+        words, count = open(out).read().splitlines()
+        self.assertIn("-video_size 70x60 -framerate 4", words)
+        self.assertEqual(int(count), 5 * 70 * 60 * 4)
+        os.remove(out)
+        # One that fails.
+        with open(stub, "w") as file:
+            file.write("#!/bin/sh\necho no such codec >&2\nexit 3\n")
+        result = run("export", path, "--format", "webm", "--out", self.path("film.webm"), env=paths)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no such codec", result.stderr)
+        self.assertEqual([n for n in os.listdir(self.folder) if "film" in n], [])  # nothing is left
+
     def test_times_and_frames_that_are_none_are_named(self):
         scene = self.keyed_scene()
         path = self.write("s.json", scene)
@@ -315,6 +368,7 @@ class CommandLine(unittest.TestCase):
         self.bad("render", path, "--frames", "all", "--time", 1, "--out", out, says="excludes")
         still = self.write("still.json", {**scene, "keyframes": []})
         self.bad("render", still, "--time", 1, "--out", out, says="no keyframes")
+        self.bad("export", still, "--format", "gif", "--out", self.path("o.gif"), says="no keyframes")
         self.bad("render", self.write("two.json", {**scene, "keyframes": scene["keyframes"][:1] * 2}),
                  "--time", 0, "--out", out, says="no two at one time")
         other = {**scene, "keyframes": [{"time": 0, "pose": {"cage": [[[0, 0]], [[1, 0]], [[0, 1]]]}}]}

@@ -1,0 +1,82 @@
+// Animated PNG: each frame is a PNG whose image data goes into a frame of its own. What is around
+// them is a few chunks, which no packaged library writes.
+#include <zlib.h>
+
+#include "film/film_writer.h"
+
+namespace holomorph {
+namespace {
+
+constexpr size_t kSignature = 8;
+
+std::string big_endian(std::uint32_t value, int bytes) {
+  std::string text;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
+    text += static_cast<char>(value >> shift & 255);
+  return text;
+}
+
+std::uint32_t number_at(const std::string& bytes, size_t at) {
+  std::uint32_t value = 0;
+  for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+  const std::string body = type + data;
+  const uLong check =
+      crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  return big_endian(static_cast<std::uint32_t>(data.size()), 4) + body +
+         big_endian(static_cast<std::uint32_t>(check), 4);
+}
+
+class ApngWriter final : public FilmWriter {
+ public:
+  ApngWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {}
+
+  void add(const Image& frame) override {
+    const std::string png = encode_png(frame);
+    std::string data;
+    for (size_t at = kSignature; at + 12 <= png.size();) {
+      const size_t length = number_at(png, at);
+      const std::string type = png.substr(at + 4, 4);
+      if (type == "IHDR" && frames_ == 0)
+        head_ = png.substr(0, kSignature) + png.substr(at, length + 12);
+      if (type == "IDAT") data += png.substr(at + 8, length);
+      at += length + 12;
+    }
+    // Size, place, how long in 1/1000 s, cleared before, drawn over it as it is.
+    const std::uint32_t first = sequence_++;
+    body_ +=
+        chunk("fcTL",
+              big_endian(first, 4) + big_endian(static_cast<std::uint32_t>(frame.width), 4) +
+                  big_endian(static_cast<std::uint32_t>(frame.height), 4) + big_endian(0, 4) +
+                  big_endian(0, 4) +
+                  big_endian(
+                      static_cast<std::uint32_t>(std::lround(1000 / shape_.frames_per_second)), 2) +
+                  big_endian(1000, 2) + big_endian(1, 1) + big_endian(0, 1));
+    body_ += frames_ == 0 ? chunk("IDAT", data) : chunk("fdAT", big_endian(sequence_, 4) + data);
+    if (frames_ > 0) ++sequence_;
+    ++frames_;
+  }
+
+  void finish() override {
+    write_file(out_,
+               head_ + chunk("acTL", big_endian(frames_, 4) + big_endian(shape_.loops ? 0 : 1, 4)) +
+                   body_ + chunk("IEND", ""));
+  }
+
+ private:
+  Path out_;
+  FilmShape shape_;
+  std::string head_, body_;
+  std::uint32_t frames_ = 0, sequence_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FilmWriter> apng_writer(const Path& out, const FilmShape& shape) {
+  return std::make_unique<ApngWriter>(out, shape);
+}
+
+}  // namespace holomorph

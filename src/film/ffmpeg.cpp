@@ -1,0 +1,163 @@
+// Films by the program ffmpeg. It reads raw frames from a socket, so that its end is an error here
+// and no signal, and writes beside the wanted file.
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <utility>
+
+#include "core/error.h"
+#include "film/film_writer.h"
+
+extern char** environ;
+
+namespace holomorph {
+namespace {
+
+class FfmpegWriter final : public FilmWriter {
+ public:
+  FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
+      : out_(out), part_(out), log_(out), opaque_(opaque) {
+    part_.replace_filename("." + out.stem().string() + ".part" + out.extension().string());
+    log_.replace_filename("." + out.stem().string() + ".log");
+    char rate[32];
+    std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
+    std::vector<std::string> words{"ffmpeg",
+                                   "-nostdin",
+                                   "-hide_banner",
+                                   "-v",
+                                   "error",
+                                   "-y",
+                                   "-f",
+                                   "rawvideo",
+                                   "-pixel_format",
+                                   "rgba",
+                                   "-video_size",
+                                   std::to_string(shape.width) + "x" + std::to_string(shape.height),
+                                   "-framerate",
+                                   rate,
+                                   "-i",
+                                   "pipe:0"};
+    words.insert(words.end(), codec.begin(), codec.end());
+    words.push_back("file:" + part_.string());
+    start(words);
+  }
+  ~FfmpegWriter() override {
+    if (child_ > 0) ::kill(child_, SIGKILL);
+    end();
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    std::filesystem::remove(log_, ignored);
+  }
+
+  void add(const Image& frame) override {
+    const Image flat = opaque_ ? over_white(frame) : frame;
+    for (size_t sent = 0; sent < flat.pixels.size();) {
+      const ssize_t count =
+          ::send(socket_, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
+      if (count <= 0) fail();
+      sent += static_cast<size_t>(count);
+    }
+  }
+
+  void finish() override {
+    if (end() != 0) fail();
+    std::error_code wrong;
+    std::filesystem::rename(part_, out_, wrong);
+    if (wrong)
+      throw Error(ErrorKind::failed, out_.string() + ": cannot be written: " + wrong.message());
+  }
+
+ private:
+  void start(const std::vector<std::string>& words) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw Error(ErrorKind::failed, "no connection to ffmpeg can be made");
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(),
+                                       O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int wrong =
+        ::posix_spawnp(&child_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (wrong == 0) return;
+    ::close(socket_);
+    child_ = 0;
+    std::error_code ignored;
+    std::filesystem::remove(log_, ignored);
+    throw Error(ErrorKind::failed,
+                "films of kind " + out_.extension().string() +
+                    " are made by the program ffmpeg, which is not installed here; install it, or "
+                    "choose .webp, .gif, .apng or .png");
+  }
+
+  /// Waits for the end; returns the exit status.
+  int end() {
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));
+    if (child_ <= 0) return status_;
+    int status = 0;
+    ::waitpid(std::exchange(child_, 0), &status, 0);
+    return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  }
+
+  [[noreturn]] void fail() {
+    end();
+    std::string said;
+    try {
+      said = read_file(log_);
+    } catch (const Error&) {
+      // Then it said nothing.
+    }
+    said = said.substr(0, said.find('\n'));
+    throw Error(ErrorKind::failed,
+                out_.string() + ": ffmpeg failed" + (said.empty() ? "" : ": " + said));
+  }
+
+  static Image over_white(const Image& frame) {
+    Image flat = frame;
+    for (size_t i = 0; i < flat.pixels.size(); i += 4) {
+      const int alpha = flat.pixels[i + 3];
+      for (size_t c = 0; c < 3; ++c)
+        flat.pixels[i + c] = static_cast<std::uint8_t>(
+            (flat.pixels[i + c] * alpha + 255 * (255 - alpha) + 127) / 255);
+      flat.pixels[i + 3] = 255;
+    }
+    return flat;
+  }
+
+  Path out_, part_, log_;
+  bool opaque_;
+  pid_t child_ = 0;
+  int socket_ = -1, status_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FilmWriter> mp4_writer(const Path& out, const FilmShape& shape) {
+  // H.264 in its usual form has sides of even length.
+  return std::make_unique<FfmpegWriter>(
+      out, shape,
+      std::vector<std::string>{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v",
+                               "libx264", "-crf", "17", "-pix_fmt", "yuv420p", "-movflags",
+                               "+faststart"},
+      true);
+}
+
+std::unique_ptr<FilmWriter> webm_writer(const Path& out, const FilmShape& shape) {
+  return std::make_unique<FfmpegWriter>(
+      out, shape,
+      std::vector<std::string>{"-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "24", "-pix_fmt",
+                               "yuva420p", "-auto-alt-ref", "0"},
+      false);
+}
+
+}  // namespace holomorph

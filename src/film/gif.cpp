@@ -1,0 +1,137 @@
+// GIF by giflib, colours by libimagequant. Times are hundredths of a second: they are rounded so
+// that the whole has the right length.
+#include <gif_lib.h>
+#include <libimagequant.h>
+
+#include "core/error.h"
+#include "film/film_writer.h"
+
+namespace holomorph {
+namespace {
+
+/// What a C library gives, and takes back by a function.
+template <class T, void (*release)(T*)>
+struct Release {
+  void operator()(T* what) const { release(what); }
+};
+template <class T, void (*release)(T*)>
+using Owned = std::unique_ptr<T, Release<T, release>>;
+
+struct Quantized {
+  std::vector<GifColorType> palette;
+  std::vector<unsigned char> pixels;
+  int transparent = -1;  ///< a colour's number, or none
+};
+
+/// 255 colours and one for what is transparent, which is more than half.
+Quantized quantized(const Image& frame) {
+  Image solid = frame;
+  for (size_t i = 0; i < solid.pixels.size(); i += 4) {
+    const bool shows = solid.pixels[i + 3] >= 128;
+    if (!shows) solid.pixels[i] = solid.pixels[i + 1] = solid.pixels[i + 2] = 0;
+    solid.pixels[i + 3] = shows ? 255 : 0;
+  }
+  const auto must = [](liq_error error) {
+    if (error != LIQ_OK)
+      throw Error(ErrorKind::failed, "the colours of a GIF frame could not be chosen");
+  };
+  const Owned<liq_attr, liq_attr_destroy> settings(liq_attr_create());
+  liq_set_speed(settings.get(), 6);
+  const Owned<liq_image, liq_image_destroy> image(
+      liq_image_create_rgba(settings.get(), solid.pixels.data(), solid.width, solid.height, 0));
+  liq_result* found = nullptr;
+  must(liq_image_quantize(image.get(), settings.get(), &found));
+  const Owned<liq_result, liq_result_destroy> result(found);
+  liq_set_dithering_level(result.get(), 0.7f);
+  Quantized quantized;
+  quantized.pixels.resize(solid.pixels.size() / 4);
+  must(liq_write_remapped_image(result.get(), image.get(), quantized.pixels.data(),
+                                quantized.pixels.size()));
+  const liq_palette* palette = liq_get_palette(result.get());
+  for (unsigned i = 0; i < palette->count; ++i) {
+    const liq_color& color = palette->entries[i];
+    quantized.palette.push_back({color.r, color.g, color.b});
+    if (color.a < 128) quantized.transparent = static_cast<int>(i);
+  }
+  size_t size = 2;  // colour maps hold powers of two
+  while (size < quantized.palette.size()) size *= 2;
+  quantized.palette.resize(size, {0, 0, 0});
+  return quantized;
+}
+
+int append(GifFileType* file, const GifByteType* bytes, int count) {
+  static_cast<std::string*>(file->UserData)
+      ->append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(count));
+  return count;
+}
+
+class GifWriter final : public FilmWriter {
+ public:
+  GifWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
+    int wrong = 0;
+    file_ = EGifOpen(&bytes_, append, &wrong);
+    if (!file_) throw Error(ErrorKind::failed, out.string() + ": no memory for a GIF file");
+    EGifSetGifVersion(file_, true);
+    must(EGifPutScreenDesc(file_, shape.width, shape.height, 8, 0, nullptr));
+    if (!shape.loops) return;
+    const std::array<unsigned char, 3> forever{1, 0, 0};
+    must(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
+    must(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"));
+    must(EGifPutExtensionBlock(file_, 3, forever.data()));
+    must(EGifPutExtensionTrailer(file_));
+  }
+  ~GifWriter() override {
+    int ignored = 0;
+    if (file_) EGifCloseFile(file_, &ignored);
+  }
+
+  void add(const Image& frame) override {
+    Quantized quantized = holomorph::quantized(frame);
+    GraphicsControlBlock control{};
+    control.DisposalMode = DISPOSE_BACKGROUND;
+    control.DelayTime = hundredths(frames_ + 1) - hundredths(frames_);
+    control.TransparentColor = quantized.transparent;
+    std::array<GifByteType, 4> block{};
+    EGifGCBToExtension(&control, block.data());
+    must(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
+    const Owned<ColorMapObject, GifFreeMapObject> colors(
+        GifMakeMapObject(static_cast<int>(quantized.palette.size()), quantized.palette.data()));
+    must(EGifPutImageDesc(file_, 0, 0, frame.width, frame.height, false, colors.get()));
+    for (int row = 0; row < frame.height; ++row)
+      must(EGifPutLine(
+          file_, &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(frame.width)],
+          frame.width));
+    ++frames_;
+  }
+
+  void finish() override {
+    int wrong = 0;
+    const int closed = EGifCloseFile(file_, &wrong);
+    file_ = nullptr;
+    must(closed);
+    write_file(out_, bytes_);
+  }
+
+ private:
+  int hundredths(int frames) const {
+    return static_cast<int>(std::lround(100 * frames / shape_.frames_per_second));
+  }
+  void must(int result) const {
+    if (result != GIF_OK)
+      throw Error(ErrorKind::failed, out_.string() + ": the GIF encoder failed");
+  }
+
+  Path out_;
+  FilmShape shape_;
+  std::string bytes_;
+  GifFileType* file_ = nullptr;
+  int frames_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FilmWriter> gif_writer(const Path& out, const FilmShape& shape) {
+  return std::make_unique<GifWriter>(out, shape);
+}
+
+}  // namespace holomorph
