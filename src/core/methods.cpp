@@ -7,9 +7,9 @@ namespace holomorph {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
-    std::vector<Method> rows{cage_method(),     pins_method(),    arap_method(),
-                             har_arap_method(), outline_method(), strokes_method(),
-                             angles_method(),   harmonic_method()};
+    std::vector<Method> rows{cage_method(),     pins_method(),     arap_method(),
+                             har_arap_method(), outline_method(),  strokes_method(),
+                             angles_method(),   harmonic_method(), mean_value_method()};
     rows.push_back(bounded_method(rows));
     return rows;
   }();

@@ -68,6 +68,7 @@ class LiveMap {
   const std::optional<Scene>& posed() const { return posed_; }
   /// The scene with its handles at the shown time; none where no time is shown.
   const std::optional<Scene>& timed() const { return timed_; }
+  const Motion& motion() const { return motion_; }
   /// Where the keyframes of the posed scene take a place at rest.
   Complex place_at(double time, Complex rest);
   double pose_milliseconds() const { return pose_milliseconds_; }

@@ -495,6 +495,74 @@ class WindowTest(unittest.TestCase):
             editor.key("ctrl+z")
             editor.wait(lambda s: s["on_surface"], "the surface again")
 
+    def test_corners_turn_and_keyframes_become_a_film(self):
+        Image.effect_mandelbrot((320, 120), (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "bar.png"))
+        cage = [[10, 10], [310, 10], [310, 110], [10, 110]]
+        scene = os.path.join(self.work, "bar.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "bar.png"},
+                       "cage": {"rest": [[p] for p in cage]}}, file)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            editor.key("i")
+            state = editor.wait(lambda s: s["keys"] == 1 and s["shows_time"], "a key at rest")
+            editor.key("period")
+            editor.key("period")
+            editor.wait(lambda s: abs(s["time"] - 2 / 24) < 1e-6, "the second frame")
+            # Two corners are turned together by their ring.
+            editor.key("a")
+            editor.wait(lambda s: s["tool"] == "angle", "the tool")
+            editor.drag((270, -30), (318, 118))
+            editor.wait(lambda s: s["selected"] == 2, "two corners")
+            px = editor.pixel(310, 10)
+            editor.xdotool("mousemove", px[0] + 28, px[1])
+            editor.xdotool("mousedown", 1)
+            for degrees in range(10, 91, 10):
+                angle = math.radians(degrees)
+                editor.xdotool("mousemove", round(px[0] + 60 * math.cos(angle)), round(px[1] - 60 * math.sin(angle)))
+            self.screenshot(editor, "corner-ring")
+            editor.xdotool("mouseup", 1)
+            state = editor.wait(lambda s: s["method"] == "angles" and not s["gesture"], "the turned corners")
+            self.assertEqual((state["corners"], state["keys"], state["shows_time"], state["folds"]), (4, 1, False, False))
+            editor.key("i")
+            editor.wait(lambda s: s["keys"] == 2 and s["shows_time"], "another key")
+            bent = self.screenshot(editor, "second-key")
+            # Scrubbing on the ruler, which is two seconds long; frames snap.
+            left, top = state["left"] + 18, state["top"] + state["height"] + 60
+            width = state["width"] - 36
+            editor.xdotool("mousemove", round(left + width / 2), round(top))
+            editor.xdotool("mousedown", 1)
+            editor.wait(lambda s: abs(s["time"] - 1) < 0.06 and s["shows_time"], "the time of the pointer")
+            editor.xdotool("mousemove", round(left), round(top))
+            editor.wait(lambda s: s["time"] == 0, "the first frame")
+            editor.xdotool("mouseup", 1)
+            rest = self.screenshot(editor, "first-key")
+            self.assertGreater((numpy.abs(rest - bent).max(axis=2) > 40).mean(), 0.02)
+            # It plays, and a tap stops it.
+            editor.key("space")
+            editor.wait(lambda s: s["runs"], "the playing film")
+            editor.key("space")
+            editor.wait(lambda s: not s["runs"], "the stopped film")
+            # Three frames as files.
+            editor.key("ctrl+shift+p")
+            time.sleep(0.3)
+            editor.type("film")
+            editor.key("Return")
+            time.sleep(0.4)
+            editor.key("ctrl+a")
+            editor.type(os.path.join(self.work, "walk.png"))
+            editor.key("Return")
+            names = ["walk-000%d.png" % i for i in range(3)]
+            editor.wait(lambda s: all(os.path.exists(os.path.join(self.work, n)) for n in names), "three frames", 20)
+            self.assertFalse(os.path.exists(os.path.join(self.work, "walk-0003.png")))
+            frames = [Image.open(os.path.join(self.work, n)) for n in names]
+            self.assertEqual(len({frame.size for frame in frames}), 1)
+            self.save_as(editor, os.path.join(self.work, "walk.json"))
+        saved = load(os.path.join(self.work, "walk.json"))
+        self.assertEqual(len(saved["keyframes"]), 2)
+        turns = [corner["before"] for corner in saved["keyframes"][1]["pose"]["corners"]]
+        self.assertEqual([turn > 1 for turn in turns], [False, True, True, False])
+
     def test_a_stroke_is_drawn_and_its_pose_dragged(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             self.draw_square_cage(editor)

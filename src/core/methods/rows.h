@@ -31,6 +31,9 @@ Method angles_method();
 /// is the posed cage.
 Method harmonic_method();
 
+/// `mean_value`: the same with mean value coordinates.
+Method mean_value_method();
+
 /// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
 Method bounded_method(const std::vector<Method>& references);
 

@@ -1,0 +1,98 @@
+// Weights are real parts, so that the operator is one of complex numbers like the others.
+#include "core/methods/real_coordinates.h"
+
+namespace holomorph {
+namespace {
+
+class RealPoints final : public PointMap {
+ public:
+  RealPoints(std::shared_ptr<const RealCoordinates> coordinates, VectorXc displacement)
+      : coordinates_(std::move(coordinates)), displacement_(std::move(displacement)) {}
+
+  Value at(Complex z) const override {
+    const std::span<const Complex> point(&z, 1);
+    const MatrixXc g = coordinates_->at(point, 0), slope = coordinates_->at(point, 1);
+    return {z + (g.real() * displacement_)[0], 1.0 + 0.5 * (slope * displacement_)[0],
+            0.5 * std::conj((slope * displacement_.conjugate())[0])};
+  }
+
+ private:
+  std::shared_ptr<const RealCoordinates> coordinates_;
+  VectorXc displacement_;
+};
+
+template <class T>
+class RealDeformer final : public LinearDeformer<T> {
+ public:
+  RealDeformer(const Rest& rest, std::shared_ptr<const RealCoordinates> coordinates)
+      : LinearDeformer<T>(rest),
+        coordinates_(std::move(coordinates)),
+        reversed_(signed_area(outline_of(rest.cage)) < 0) {
+    this->value_ = planar(coordinates_->at(rest.samples, 0).real().template cast<Complex>());
+  }
+
+  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    LinearDeformer<T>::deform(pose, out, {});
+    if (!wanted.derivatives || out.f.size() == 0) return;
+    if (slope_.rows() != out.f.size())
+      slope_ = planar(coordinates_->at(this->derivative_points(), 1));
+    const VectorXc by = controls(pose);
+    out.fz = 0.5 * product(slope_, by).array() + Complex(1);
+    out.fzbar = 0.5 * product(slope_, by.conjugate()).conjugate();
+  }
+
+  VectorXc controls(const Pose& pose) const override {
+    const VectorXc by = cage_displacement(this->rest_, pose);
+    if (!reversed_) return by;
+    const std::vector<Index> column = reversed_columns(this->rest_.cage);
+    VectorXc turned(by.size());
+    for (Index c = 0; c < by.size(); ++c) turned[column[static_cast<size_t>(c)]] = by[c];
+    return turned;
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(this->rest_, pose);
+    return std::make_unique<RealPoints>(coordinates_, controls(pose));
+  }
+
+ protected:
+  PlanarMatrix<T> derivative_matrix() const override { return slope_; }
+
+ private:
+  static PlanarMatrix<T> planar(const MatrixXc& matrix) {
+    PlanarMatrix<T> planar(matrix.rows(), matrix.cols());
+    planar.re = matrix.real().template cast<T>();
+    planar.im = matrix.imag().template cast<T>();
+    return planar;
+  }
+
+  std::shared_ptr<const RealCoordinates> coordinates_;
+  bool reversed_;
+  PlanarMatrix<T> slope_;
+};
+
+}  // namespace
+
+std::unique_ptr<Deformer> real_deformer(const Rest& rest,
+                                        std::shared_ptr<const RealCoordinates> coordinates) {
+  if (rest.precision == Precision::full)
+    return std::make_unique<RealDeformer<double>>(rest, std::move(coordinates));
+  return std::make_unique<RealDeformer<float>>(rest, std::move(coordinates));
+}
+
+MatrixXd weights_at(const Cage& cage, std::span<const BoundaryPoint> places) {
+  MatrixXd weights = MatrixXd::Zero(static_cast<Index>(places.size()), cage.control_count());
+  for (size_t i = 0; i < places.size(); ++i) {
+    const auto& [segment, t] = places[i];
+    const int degree = cage.degree(segment);
+    for (int m = 0; m <= degree; ++m) {
+      Points unit(static_cast<size_t>(degree) + 1, 0);
+      unit[static_cast<size_t>(m)] = 1;
+      const Index column = (cage.control_offset(segment) + m) % cage.control_count();
+      weights(static_cast<Index>(i), column) += bezier_point(unit, t).real();
+    }
+  }
+  return weights;
+}
+
+}  // namespace holomorph
