@@ -10,7 +10,10 @@ namespace holomorph {
 PanelSizes PanelSizes::at(double scale) {
   const double line = ImGui::GetFrameHeight();
   const double inspector = std::min(300 * scale, 0.38 * ImGui::GetIO().DisplaySize.x);
-  return {line, 52 * scale, inspector, line + 6 * scale, line + 64 * scale};
+  PanelSizes sizes{line, 52 * scale, inspector, line + 6 * scale, line + 64 * scale};
+  sizes.two_rows = ImGui::GetIO().DisplaySize.x - sizes.toolbar - sizes.inspector < 800 * scale;
+  if (sizes.two_rows) sizes.timeline += line + 4 * scale;
+  return sizes;
 }
 
 namespace {

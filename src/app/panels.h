@@ -28,6 +28,7 @@ struct PanelAnswer {
 /// Sizes of the panels in window px for a scale of the display.
 struct PanelSizes {
   double menu, toolbar, inspector, status, timeline;
+  bool two_rows = false;  ///< of the timeline's buttons and numbers
   static PanelSizes at(double scale);
 };
 

@@ -22,6 +22,7 @@ constexpr Row kRows[] = {
     {"snake", "Snake", "One stroke along its body: move, bend or redraw the line."},
     {"heart", "Heart", "The fish's shape goes onto a drawn line: draw your own with O."},
     {"tiger", "Tiger", "A painted face goes onto a mask in space: drag the mask to turn it."},
+    {"fern", "Fern", "Corners turn its tip more than once around, and it unrolls: Space plays."},
     {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
 constexpr double kThumbnail = 320;  ///< pixels of the longer side
 

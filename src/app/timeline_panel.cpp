@@ -224,8 +224,12 @@ void TimelinePanel::draw(Workspace& workspace, double scale) {
   ImGui::SameLine(0, 3);
   for (const char* id : {"time.key", "time.auto_key", "time.onion"})
     tool_button(id, workspace, button);
-  ImGui::Dummy({6 * s, 0});
-  ImGui::SameLine(0, 3);
+  if (sizes.two_rows) {
+    ImGui::NewLine();
+  } else {
+    ImGui::Dummy({6 * s, 0});
+    ImGui::SameLine(0, 3);
+  }
   draw_numbers(workspace, s);
   draw_track(workspace, s);
   ImGui::End();

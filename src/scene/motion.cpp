@@ -170,7 +170,9 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
   if (u == 0) return posed_as(scene, a.pose);
   const Key& b = keys_[i + 1];
   const double s = a.ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  // What stays where it is stays there on the way; other handles go with the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
+    if (at_a == at_b) return at_a;
     const Frame now = frame_at(rest, map), before = frame_at(rest, a.shape.f),
                 after = frame_at(rest, b.shape.f);
     return now.f +
@@ -184,7 +186,10 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
                  to = elevated(b.pose.cage.controls(e), degree);
     Points& segment = pose.cage.segments[static_cast<size_t>(e)];
     segment.resize(static_cast<size_t>(degree));
-    for (size_t m = 0; m < segment.size(); ++m) segment[m] = carried(rest[m], from[m], to[m]);
+    // Where the cage gives directions alone, the picture is elsewhere.
+    for (size_t m = 0; m < segment.size(); ++m)
+      segment[m] = method_named(scene.method).uses_corners ? (1 - s) * from[m] + s * to[m]
+                                                           : carried(rest[m], from[m], to[m]);
   }
   for (size_t p = 0; p < pose.pins.size(); ++p) {
     const PosePin &from = a.pose.pins[p], &to = b.pose.pins[p];

@@ -20,6 +20,16 @@ inline constexpr int kOutlinePairs = 30;
 /// value: of the slowest of the pairs.
 double outline_iterations_ms(int runs);
 
+/// Hilbert coordinates and the angle map of 20 corners at 10k mesh vertices; a frame in which one
+/// corner is dragged, and one from nothing.
+double angles_prepare_ms(int runs);
+double angles_drag_ms(int runs);
+double angles_pose_ms(int runs);
+/// A frame between two keys, 20k triangles, handles included.
+double playback_ms(int runs);
+/// How far the area is from where it should be, at worst, when a bar is bent by 270 degrees.
+double inbetween_loss_percent(bool straight);
+
 /// A frame of dragging one of five strokes of 20 samples each, without the map at the mesh.
 double strokes_drag_ms(int runs);
 

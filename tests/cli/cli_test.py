@@ -18,7 +18,7 @@ from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
-SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger"]
+SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
 
 
 def run(*words, **options):
