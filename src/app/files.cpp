@@ -268,7 +268,8 @@ void Files::ask_export_film() {
 std::string Files::export_film(const Path& path, double scale) {
   try {
     film_format_of(path);
-    check_not_a_source(path, workspace_.document.sources());
+    for (const Path& file : files_of_film(path, last_frame_of(workspace_.document.scene()) + 1))
+      check_not_a_source(file, workspace_.document.sources());
     FilmOptions options;
     options.scale = scale;
     options.view = workspace_.view;

@@ -175,9 +175,10 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
     for (int i = 0; i <= last_frame_of(scene); ++i) times.push_back(i / rate);
     options.shows = maker.shown_at(times);
   }
+  for (int i = range.first; i <= range.last; ++i)
+    check_out(numbered(command.out, i), command.scene, loaded);
   for (int i = range.first; i <= range.last; ++i) {
     const Path out = numbered(command.out, i);
-    check_out(out, command.scene, loaded);
     options.time = i / rate;
     write_file(out, encode_png(maker.picture(options).image));
     if (::isatty(STDERR_FILENO))

@@ -143,7 +143,7 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
     }
     x += step;
   }
-  last_ = x;
+  if (x.allFinite()) last_ = x;
   placed = {x.head(n), std::exp(x[n]), {x[n + 1], x[n + 2]}};
   for (size_t j = 0; j < corners_.size(); ++j)
     if (held_[j]) answer.limited.push_back(corners_[j]);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <memory>
 #include <optional>
 #include <span>
 

@@ -55,8 +55,10 @@ bool Workspace::commit(const std::string& label, Scene scene) {
 Scene Workspace::timed_edit(Scene scene) {
   const bool shows = timed && timeline.shows;
   const Scene before = shows ? *timed : document.scene();
-  const Pose pose = whole_pose_of(scene);
-  const bool poses = fits(scene, whole_pose_of(before)) && pose != whole_pose_of(before);
+  const Pose pose = whole_pose_of(scene), own = whole_pose_of(document.scene());
+  // Edits that are none of the pose may start from what is shown or from the document's scene.
+  const bool poses = fits(scene, whole_pose_of(before)) && pose != whole_pose_of(before) &&
+                     !(fits(scene, own) && pose == own);
   if (poses && timeline.auto_key) {
     timeline.visible = timeline.shows = true;
     return with_key(std::move(scene), timeline.time);
@@ -69,7 +71,6 @@ Scene Workspace::timed_edit(Scene scene) {
     timeline.shows = timeline.playing = false;
     return scene;
   }
-  const Pose own = whole_pose_of(document.scene());
   return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
 }
 
@@ -101,6 +102,7 @@ bool Workspace::update_map(Wanted wanted) {
   if (preview) return changed;  // an edit of what was shown
   timed.reset();  // while another structure is being prepared, the shown map has the old one
   if (time && map.posed() == document.scene()) timed = map.timed();
+  prune_selection();  // degrees of posed segments vary with time
   return changed;
 }
 
@@ -108,10 +110,12 @@ bool Workspace::amend(Scene scene) {
   preview.reset();
   playback = {};
   if (!accepts(scene)) return false;
-  if (timeline.auto_key)
-    scene = with_key(std::move(scene), timeline.time);
-  else if (whole_pose_of(scene) != whole_pose_of(document.scene()))
-    timeline.shows = timeline.playing = false;
+  if (whole_pose_of(scene) != whole_pose_of(document.scene())) {
+    if (timeline.auto_key)
+      scene = with_key(std::move(scene), timeline.time);
+    else
+      timeline.shows = timeline.playing = false;
+  }
   document.amend(std::move(scene));
   timed.reset();
   return true;

@@ -12,21 +12,34 @@ class PngFrames final : public FilmWriter {
  public:
   explicit PngFrames(const Path& out) : out_(out) {}
   ~PngFrames() override {
-    for (const Path& path : written_) {
+    for (int i = 0; i < frames_; ++i) {
       std::error_code ignored;
-      std::filesystem::remove(path, ignored);
+      std::filesystem::remove(part(i), ignored);
     }
   }
   void add(const Image& frame) override {
-    const Path path = numbered(out_, static_cast<int>(written_.size()));
-    write_file(path, encode_png(frame));
-    written_.push_back(path);
+    write_file(part(frames_), encode_png(frame));
+    ++frames_;
   }
-  void finish() override { written_.clear(); }
+  void finish() override {
+    for (int i = 0; i < frames_; ++i) {
+      std::error_code wrong;
+      std::filesystem::rename(part(i), numbered(out_, i), wrong);
+      if (wrong)
+        throw Error(ErrorKind::failed,
+                    numbered(out_, i).string() + ": cannot be written: " + wrong.message());
+    }
+  }
 
  private:
+  /// Where a frame waits until all are there: what had its name stays until then.
+  Path part(int frame) const {
+    Path path = numbered(out_, frame);
+    return path.replace_filename("." + path.filename().string() + ".part");
+  }
+
   Path out_;
-  std::vector<Path> written_;
+  int frames_ = 0;
 };
 
 }  // namespace
@@ -37,6 +50,13 @@ Path numbered(const Path& path, int frame) {
   Path result = path;
   result.replace_filename(path.stem().string() + number + path.extension().string());
   return result;
+}
+
+std::vector<Path> files_of_film(const Path& out, int frames) {
+  if (lower_case(out.extension().string()) != ".png") return {out};
+  std::vector<Path> files;
+  for (int i = 0; i < frames; ++i) files.push_back(numbered(out, i));
+  return files;
 }
 
 std::unique_ptr<FilmWriter> png_frames_writer(const Path& out, const FilmShape&) {

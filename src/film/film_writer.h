@@ -37,6 +37,8 @@ const FilmFormat& film_format_of(const Path& path);
 
 /// walk.png and 7: walk-0007.png.
 Path numbered(const Path& path, int frame);
+/// The files that a film of so many frames is written to.
+std::vector<Path> files_of_film(const Path& out, int frames);
 
 std::unique_ptr<FilmWriter> webp_writer(const Path& out, const FilmShape& shape);
 /// 256 colours chosen for each frame; pixels are transparent or not.

@@ -111,8 +111,14 @@ Pose mirrored(const Scene& scene, const Pose& pose) {
   Points middles;
   for (const Stroke& stroke : scene.strokes) middles.push_back(stroke.rest[stroke.rest.size() / 2]);
   for (size_t i = 0; i < middles.size(); ++i) {
-    result.strokes[i] = pose.strokes[counterpart(middles, middles[i], "stroke")];
+    const size_t other = counterpart(middles, middles[i], "stroke");
+    result.strokes[i] = pose.strokes[other];
     for (Complex& z : result.strokes[i]) z = mirror(z);
+    // Drawn the other way round, its start is the other one's end.
+    const Points &rest = scene.strokes[i].rest, &theirs = scene.strokes[other].rest;
+    if (std::abs(mirror(theirs.back()) - rest.front()) <
+        std::abs(mirror(theirs.front()) - rest.front()))
+      std::ranges::reverse(result.strokes[i]);
   }
   for (size_t k = 0; k < pose.corners.size(); ++k) {
     const Index vertex = static_cast<Index>(

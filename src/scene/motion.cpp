@@ -79,8 +79,7 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
     const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
     Key key{frame.time, frame.ease, frame.turns, frame.pose, {}, {}};
     if (known != keys_.end()) {
-      key.shape = known->shape;
-      key.slopes = known->slopes;
+      key.shape.f = known->shape.f;
     } else {
       try {
         SampledMap map;
@@ -96,10 +95,10 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   const auto same = [](const Key& a, const Key& b) {
     return a.time == b.time && a.ease == b.ease && a.turns == b.turns && a.pose == b.pose;
   };
-  changed = changed || !std::ranges::equal(keys, keys_, same);
-  keys_ = std::move(keys);
   error_ = wrong;
-  if (changed) align(scene);
+  if (!changed && std::ranges::equal(keys, keys_, same)) return;
+  keys_ = std::move(keys);
+  align(scene);
 }
 
 /// Whole turns from key to key, and how fast each quantity passes them.

@@ -88,6 +88,31 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   CHECK(desk.scene().keyframes.size() == 2);
 }
 
+TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  act(desk, "time.auto_key");
+  go_to(desk, 0);
+  const Pose first = desk.workspace.document.scene().keyframes[0].pose;
+  const size_t steps = desk.steps();
+  desk.workspace.commit("Ease", with_ease(desk.workspace.document.scene(), 0, Ease::hold));
+  CHECK(desk.workspace.document.scene().keyframes[0].pose == first);
+  CHECK(desk.steps() == steps + 1);
+  CHECK(desk.workspace.timeline.shows);
+  desk.workspace.update_map({});
+  for (const double time : {1.25, 1.5, 1.75}) {
+    desk.workspace.commit_or_amend("Move key",
+                                   with_key_moved(desk.workspace.document.scene(), 1, time).first);
+    desk.workspace.go_to_time(time);
+    desk.workspace.update_map({});
+  }
+  CHECK(desk.workspace.document.scene().keyframes.size() == 2);
+  CHECK(desk.workspace.document.scene().keyframes[1].time == 1.75);
+  go_to(desk, 0);
+  act(desk, "time.delete_key");
+  CHECK(desk.workspace.document.scene().keyframes.size() == 1);
+}
+
 TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the time") {
   Desk desk(kBar);
   set_two_keys(desk);

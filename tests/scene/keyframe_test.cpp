@@ -202,6 +202,41 @@ TEST_CASE("Holds stay, linear keys go evenly, and other structures do not play")
   CHECK(offset_at(other, 1.5) == Approx(20).margin(1e-3));
 }
 
+TEST_CASE("Keys with equal poses keep their own turns and speeds, frame after frame") {
+  Scene scene = bar();
+  scene.pins[0].angle = 0.0;
+  const auto turned = [&](double angle) {
+    Scene s = scene;
+    s.pins[0].angle = angle;
+    for (Points& segment : s.pose.segments)
+      for (Complex& z : segment)
+        z = Complex(150, 50) + std::polar(1.0, angle) * (z - Complex(150, 50));
+    return whole_pose_of(s);
+  };
+  for (const double degrees : {0.0, 120.0, 240.0, 0.0})
+    scene.keyframes.push_back({static_cast<double>(scene.keyframes.size()),
+                               turned(degrees * kPi / 180),
+                               Ease::linear,
+                               0,
+                               {}});
+  scene.keyframes[3].turns = 1;
+  LiveMap map(MeshOptions{400});
+  map.finish(scene, {});
+  map.update(scene, {}, 2.5);
+  const VectorXc first = map.map().f;
+  map.update(scene, {}, 2.4);
+  map.update(scene, {}, 2.5);
+  CHECK((map.map().f - first).cwiseAbs().maxCoeff() <= 1e-9);
+}
+
+TEST_CASE("A stroke across the middle is its own mirror image") {
+  Scene scene = bar();
+  scene.method = "strokes";
+  scene.strokes.push_back(
+      {{{100, 50}, {150, 50}, {200, 50}}, {{100, 50}, {150, 50}, {200, 50}}, {}});
+  CHECK(mirrored(scene, whole_pose_of(scene)) == whole_pose_of(scene));
+}
+
 TEST_CASE("A pin that turns twice as drawn turns twice in between") {
   Scene scene = bar();
   scene.pins[0].angle = 0.0;

@@ -5,9 +5,11 @@
 
 #include "core/angle_pins.h"
 #include "core/boundary_angles.h"
+#include "core/compared/published_angles.h"
 #include "core/error.h"
 #include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
+#include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 
 namespace holomorph {
@@ -104,7 +106,9 @@ class AnglesDeformer final : public Deformer {
         map_(*rest_.mesh, coordinates_, rest_.samples, rest_.precision),
         frame_(*rest_.mesh, coordinates_, rest_.precision),
         acting_(acting_pins(rest_)) {
-    if (acting_.used.empty()) return;
+    if (parameter(method_named("angles"), rest_.parameters, "published") != 0)
+      published_.emplace(boundary_.cage, boundary_.corners, map_.anchor());
+    if (acting_.used.empty() || published_) return;
     std::vector<RestPin> pins;
     for (const size_t i : acting_.used) pins.push_back(rest_.pins[i]);
     pins_.emplace(*rest_.mesh, coordinates_, boundary_.corners, pins);
@@ -123,6 +127,7 @@ class AnglesDeformer final : public Deformer {
       return;
     }
     const PlacedAngles placed = place(pose, wanted.draft, out);
+    if (published_) return answer_as_published(placed, wanted, out);
     VectorXc f;
     map_.map(placed.theta, f, wanted.draft);
     out.f = (placed.scale * f).array() + placed.move;
@@ -138,6 +143,7 @@ class AnglesDeformer final : public Deformer {
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
+    if (published_) return nullptr;
     Rest rest = rest_;
     rest.samples = rest_.mesh->vertices;
     rest.precision = Precision::full;
@@ -150,6 +156,20 @@ class AnglesDeformer final : public Deformer {
   }
 
  private:
+  void answer_as_published(const PlacedAngles& placed, Wanted wanted, SampledMap& out) const {
+    const PublishedAngles::Values values = published_->map(placed.theta, rest_.samples);
+    out.f = (placed.scale * values.f).array() + placed.move;
+    out.ignores_pins = true;
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "as published: boundary angles are off by up to %.2g radians for each radian",
+                  published_->error());
+    say(out, text);
+    if (!wanted.derivatives) return;
+    out.fz = placed.scale * values.slope;
+    out.fzbar = VectorXc::Zero(out.f.size());
+  }
+
   bool rests(const Pose& pose) const {
     if (!cage_displacement(rest_, pose).isZero(0)) return false;
     for (const PoseCorner& corner : pose.corners)
@@ -214,6 +234,7 @@ class AnglesDeformer final : public Deformer {
   AngleFrame frame_;
   ActingPins acting_;
   std::optional<AnglePins> pins_;
+  std::optional<PublishedAngles> published_;  ///< to compare
   PlanarMatrix<double> slopes_;
 };
 
@@ -230,7 +251,11 @@ Method angles_method() {
       "Angles",
       "Turn corners and open or shut them (A); edges follow the cage's directions, not its "
       "lengths. Never folds.",
-      {},
+      {toggle("published", "As published",
+              "The functions of Weber and Gotsman, to compare: equal parts of the boundary, "
+              "and the map from its derivative by a fit. The note says how far angles are "
+              "off; it may fold, and pins do not act.",
+              false)},
       true,
       true,
       true,
