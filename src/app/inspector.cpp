@@ -17,8 +17,7 @@ void edit_number(const char* label, double value, const char* format, float spee
   double number = value;
   const bool changed =
       ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
-  if (changed && std::isfinite(number))
-    workspace.preview = edit(workspace.document.scene(), number);
+  if (changed && std::isfinite(number)) workspace.preview = edit(workspace.unedited(), number);
   if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
     workspace.commit(step, *workspace.preview);
 }
@@ -119,7 +118,7 @@ void method_section(Workspace& workspace) {
 /// A corner's own angles, and the tension of the edge behind it.
 void corner_angles(Workspace& workspace, Index vertex) {
   const Scene scene = workspace.scene();
-  if (!method_named(scene.method).uses_corners || workspace.layer == Layer::rest) return;
+  if (!follows(scene, "angles") || workspace.layer == Layer::rest) return;
   if (!is_corner(scene, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
   const PoseCorner pose = corner_at(scene, vertex);
   const double turn = (pose.before + pose.after) / 2, opening = corner_opening(scene, vertex);

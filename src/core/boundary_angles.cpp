@@ -20,9 +20,13 @@ struct Course {
 };
 
 Course course_of(const Points& controls) {
+  double size = 0;
+  for (const Complex& z : controls) size = std::max(size, std::abs(z));
   Points ways;
+  constexpr double kRounding = 1e-13;  // of a segment of no length whose degree was raised
   for (size_t i = 0; i + 1 < controls.size(); ++i)
-    if (controls[i + 1] != controls[i]) ways.push_back(controls[i + 1] - controls[i]);
+    if (std::abs(controls[i + 1] - controls[i]) > kRounding * size)
+      ways.push_back(controls[i + 1] - controls[i]);
   Course course;
   if (ways.empty()) return course;
   course.start = ways.front();

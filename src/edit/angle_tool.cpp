@@ -56,7 +56,7 @@ class AngleTool final : public Tool {
       cancel(workspace);
       return true;
     }
-    if (key != Key::del || !shown_corner(workspace)) return false;
+    if (key != Key::del || workspace.layer == Layer::rest || !shown_corner(workspace)) return false;
     remove(corners_of(workspace), workspace);
     return true;
   }
@@ -165,7 +165,7 @@ class AngleTool final : public Tool {
     turned_ = 0;
     scene_ = workspace.scene();
     corners_ = corners_of(workspace);
-    switches_ = !method_named(scene_.method).uses_corners;
+    switches_ = !follows(scene_, "angles");
   }
 
   /// The angle that was dragged around the mark's centre, counter-clockwise and unwrapped.

@@ -15,7 +15,7 @@ auto found(const Scene& scene, Index vertex) {
 
 /// A scene whose method sets angles, with the corners listed and this one among them.
 PoseCorner& corner(Scene& scene, Index vertex) {
-  if (!method_named(scene.method).uses_corners) scene = with_method(std::move(scene), "angles");
+  if (!follows(scene, "angles")) scene = with_method(std::move(scene), "angles");
   scene = scene.corners.empty() ? with_all_corners(std::move(scene))
                                 : with_corner(std::move(scene), vertex);
   return std::ranges::find(scene.corners, vertex, &Corner::vertex)->pose;

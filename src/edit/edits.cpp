@@ -155,16 +155,11 @@ Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyfram
   return scene;
 }
 
-namespace {
-
-/// Whether a scene's map is this method's, or the one of `bounded` that follows it.
 bool follows(const Scene& scene, const std::string& id) {
   return scene.method == id ||
          (scene.method == "bounded" &&
           choice(method_named("bounded"), scene.parameters, "reference") == id);
 }
-
-}  // namespace
 
 Scene with_stroke(Scene scene, Points rest, Points pose) {
   if (!follows(scene, "strokes")) scene = with_method(std::move(scene), "strokes");

@@ -47,6 +47,9 @@ Scene inserted(Scene scene, Index segment, double t);
 /// otherwise.
 Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve);
 
+/// Whether a scene's map is this method's, or the one of `bounded` that follows it.
+bool follows(const Scene& scene, const std::string& id);
+
 /// With a pin more; the method becomes one that uses pins. In keyframes it is where these say, by
 /// number, or at its pose.
 Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyframes = {});

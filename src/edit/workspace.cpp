@@ -99,6 +99,7 @@ Points Workspace::in_keyframes(Complex rest) {
 bool Workspace::update_map(Wanted wanted) {
   const std::optional<double> time = shown_time();
   const bool changed = map.update(preview ? *preview : document.scene(), wanted, time);
+  if (preview) timeline.playing = false;
   if (preview) return changed;  // an edit of what was shown
   timed.reset();  // while another structure is being prepared, the shown map has the old one
   if (time && map.posed() == document.scene()) timed = map.timed();

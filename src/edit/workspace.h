@@ -79,9 +79,9 @@ struct Workspace {
 
   /// The scene to show: the preview of a drag, the document's posed as at the shown time, or the
   /// document's.
-  const Scene& scene() const {
-    return preview ? *preview : timed && timeline.shows ? *timed : document.scene();
-  }
+  const Scene& scene() const { return preview ? *preview : unedited(); }
+  /// The same without a preview: what edits start from.
+  const Scene& unedited() const { return timed && timeline.shows ? *timed : document.scene(); }
   /// The time whose picture is wanted, where it is not the scene's own pose.
   std::optional<double> shown_time() const {
     return preview || !timeline.shows || document.scene().keyframes.empty()

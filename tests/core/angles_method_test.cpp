@@ -266,4 +266,8 @@ TEST_CASE("Angles: what cannot be is refused") {
   Pose flat{straight.cage, {}};
   flat.cage.segments[1][0] = flat.cage.segments[0][0];
   CHECK(run(straight, flat).f.allFinite());
+  // A pin that turns at a corner, where f' has no angle.
+  Rest at_corner = with_corners(rest, {0, 1, 2, 3});
+  at_corner.pins = {{{600, 100}, true}};
+  CHECK(run(at_corner, {rest.cage, {{{620, 90}, 0.3, 1}}, {}, {{}, {}, {}, {}}}).f.allFinite());
 }

@@ -110,7 +110,12 @@ class AnglesDeformer final : public Deformer {
       published_.emplace(boundary_.cage, boundary_.corners, map_.anchor());
     if (acting_.used.empty() || published_) return;
     std::vector<RestPin> pins;
-    for (const size_t i : acting_.used) pins.push_back(rest_.pins[i]);
+    for (const size_t i : acting_.used) {
+      pins.push_back(rest_.pins[i]);
+      // Where f' is a power it has no angle.
+      for (Index j = 0; j < boundary_.cage.size(); ++j)
+        if (pins.back().position == boundary_.cage.vertex(j)) pins.back().turns = false;
+    }
     pins_.emplace(*rest_.mesh, coordinates_, boundary_.corners, pins);
   }
 
