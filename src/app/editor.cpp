@@ -73,11 +73,6 @@ class Editor {
                                workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
     if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
-    if (refit_ && workspace_.map.has_map() && !workspace_.map.busy()) {
-      fit_ = true;  // now it is known how far the picture reaches
-      refit_ = false;
-      window_.wake();
-    }
     update_title();
     files_.autosave();
     draw_canvas();
@@ -172,7 +167,6 @@ class Editor {
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
       holomorph::run(action_named("time.play"), workspace_);
     if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
-    if (panning_ || input.wheel != 0 || input.pressed) refit_ = false;
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -224,7 +218,7 @@ class Editor {
   void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.replace_picture();
-    fit_ = refit_ = true;
+    fit_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
 
@@ -293,8 +287,7 @@ class Editor {
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_, palette_text_;
-  bool fit_ = false, refit_ = false, halved_ = false, panning_ = false, was_active_ = false,
-       restyle_ = false;
+  bool fit_ = false, halved_ = false, panning_ = false, was_active_ = false, restyle_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;

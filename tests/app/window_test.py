@@ -221,7 +221,7 @@ class WindowTest(unittest.TestCase):
         with Editor(PROGRAM, []) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             time.sleep(0.5)
-            editor.press(150, 350)  # the first tile
+            editor.press(100, 280)  # the first tile
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
             editor.key("ctrl+a")
             editor.key("Up")
