@@ -1,7 +1,7 @@
 // Colours the warped picture: the texture, a heat map, or a checker. Premultiplied alpha.
 uniform sampler2D picture;
 uniform sampler1D colors;
-uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one colour
+uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one colour, 4: tinted picture
 uniform vec4 flat_color;
 
 in vec2 uv;
@@ -22,6 +22,9 @@ void main() {
     vec2 wave = 2.0 * (abs(fract((cell - 0.5 * width) * 0.5) - 0.5) - abs(fract((cell + 0.5 * width) * 0.5) - 0.5)) / width;
     float light = 0.5 - 0.5 * wave.x * wave.y;
     color = vec4(mix(vec3(0.275, 0.353, 0.471), vec3(0.922), light), 1.0);
+  } else if (coloring == 4) {
+    vec4 here = texture(picture, uv);
+    color = flat_color.a * vec4(mix(here.rgb, here.a * flat_color.rgb, 0.5), here.a);
   } else {
     color = flat_color;
   }

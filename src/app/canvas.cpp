@@ -14,6 +14,10 @@ double texture_zoom(const Box& box) {
 
 }  // namespace
 
+Color onion_color(bool later) {
+  return later ? Color{0.35f, 0.67f, 1} : Color{1, 0.55f, 0.31f};
+}
+
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   update_heat(workspace);
   upload_picture(workspace);
@@ -32,6 +36,10 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   if (workspace.at_rest()) frame.placement = Placement::at_rest;
   frame.background = at.background;
   frame.backdrop = at.backdrop;
+  const std::vector<OnionSkin> skins = workspace.onion_skins();
+  for (const OnionSkin& skin : skins)
+    frame.ghosts.push_back(
+        {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
   renderer_.draw(frame);
 }
 

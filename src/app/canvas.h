@@ -14,6 +14,9 @@ struct CanvasFrame {
   Color background, backdrop;
 };
 
+/// Of the pictures of keys beside the time: warm before, cold after.
+Color onion_color(bool later);
+
 /// Owns the renderer and what it was last given. Needs a current OpenGL context.
 class Canvas {
  public:

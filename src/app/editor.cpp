@@ -73,6 +73,7 @@ class Editor {
                                workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
     if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
+    if (workspace_.timeline.recording) window_.wake();
     update_title();
     files_.autosave();
     draw_canvas();
@@ -145,6 +146,7 @@ class Editor {
     Input input;
     input.px = {io.MousePos.x, io.MousePos.y};
     input.mods = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
+    input.now_ms = now_ms();
     input.inside = !io.WantCaptureMouse && !workspace_.document.empty() &&
                    workspace_.viewport.contains_px(input.px);
     input.pressed = input.inside && ImGui::IsMouseClicked(0);

@@ -69,6 +69,14 @@ void FileDialog::enter(const Path& folder) {
   items_ = std::move(items);
 }
 
+/// The first of the files that saving would replace.
+std::optional<Path> FileDialog::first_there(const Path& path) const {
+  std::error_code error;
+  for (const Path& file : question_.writes ? question_.writes(path) : std::vector{path})
+    if (fs::exists(file, error)) return file;
+  return {};
+}
+
 void FileDialog::accept(const Path& wanted) {
   Path path = wanted;
   std::error_code error;
@@ -80,10 +88,10 @@ void FileDialog::accept(const Path& wanted) {
     }
   } else {
     if (!shows(path)) path += question_.extensions[0];
-    if (fs::exists(path, error) && !confirming_) {
+    if (const auto there = confirming_ ? std::nullopt : first_there(path)) {
       confirming_ = true;
       message_ =
-          path.filename().string() + " exists already. Enter or Replace puts this in its place.";
+          there->filename().string() + " exists already. Enter or Replace puts this in its place.";
       focus_ = true;
       return;
     }

@@ -17,6 +17,8 @@ struct FileQuestion {
   std::vector<std::string> extensions;  ///< lower case with the dot; the first is added when saving
   Path start;                           ///< a folder or a file; empty: the last folder
   bool asks_scale = false;              ///< also a scale, for pictures
+  /// What saving as this writes, where that is not the path itself.
+  std::function<std::vector<Path>(const Path&)> writes = {};
 };
 
 /// Shows one question at a time; the answer comes through the callback, once.
@@ -36,6 +38,7 @@ class FileDialog {
  private:
   void enter(const Path& folder);
   void accept(const Path& path);
+  std::optional<Path> first_there(const Path& path) const;
   bool shows(const Path& path) const;
 
   FileQuestion question_;

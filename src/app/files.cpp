@@ -215,7 +215,7 @@ void Files::ask_export_svg() {
               [this](const Path& path, double) -> std::string {
                 try {
                   check_not_a_source(path, workspace_.document.sources());
-                  write_file(path, svg_of(workspace_.document.scene()));
+                  write_file(path, svg_of(workspace_.unedited()));
                   workspace_.say("Exported " + path.filename().string() + ".");
                 } catch (const Error& error) {
                   return error.what();
@@ -261,14 +261,18 @@ void Files::ask_export_film() {
   for (const FilmFormat& format : film_formats()) extensions.push_back(format.extension);
   dialog_.ask(
       {FileQuestion::Mode::save, "Export a film: .webp, .gif, .apng, .png files, .mp4 or .webm",
-       "Export", extensions, start, true},
+       "Export", extensions, start, true, [this](const Path& path) { return files_of_film(path); }},
       [this](const Path& path, double scale) { return export_film(path, scale); });
+}
+
+std::vector<Path> Files::files_of_film(const Path& path) const {
+  return holomorph::files_of_film(path, last_frame_of(workspace_.document.scene()) + 1);
 }
 
 std::string Files::export_film(const Path& path, double scale) {
   try {
     film_format_of(path);
-    for (const Path& file : files_of_film(path, last_frame_of(workspace_.document.scene()) + 1))
+    for (const Path& file : files_of_film(path))
       check_not_a_source(file, workspace_.document.sources());
     FilmOptions options;
     options.scale = scale;

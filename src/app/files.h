@@ -63,6 +63,7 @@ class Files {
   std::string export_surface(const Path& path, double scale);
   void ask_export_film();
   std::string export_film(const Path& path, double scale);
+  std::vector<Path> files_of_film(const Path& path) const;
   void draw_film(double scale);
   void draw_question(double scale);
 

@@ -1,6 +1,7 @@
 // Every stroke has a dark edge under it, so that it shows on any picture.
 #include "app/overlay.h"
 
+#include "app/canvas.h"
 #include "app/corner_overlay.h"
 #include "edit/curve_edits.h"
 
@@ -163,24 +164,17 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
 }
 
-/// The cages of the keys before and after the time: warm and cold.
+/// The cages of the keys before and after the time, in the colours of their pictures.
 void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
-  const Motion& motion = workspace.map.motion();
-  if (!workspace.timeline.onion || !workspace.map.has_map() || !motion.plays()) return;
-  const Mesh& mesh = *workspace.map.prepared()->mesh;
-  const Scene& scene = workspace.document.scene();
   const float s = static_cast<float>(style.scale);
-  for (const bool forwards : {false, true}) {
-    const auto time = next_key(scene, workspace.timeline.time, forwards);
-    if (!time) continue;
-    const VectorXc f = motion.map_at(*time);
-    if (f.size() != static_cast<Index>(mesh.vertices.size())) continue;
+  for (const OnionSkin& skin : workspace.onion_skins()) {
     std::vector<ImVec2> line;
-    for (const int v : mesh.boundary) line.push_back(px(workspace, f[v]));
+    for (const int v : workspace.map.prepared()->mesh->boundary)
+      line.push_back(px(workspace, skin.f[v]));
     const int count = static_cast<int>(line.size());
+    const Color tint = onion_color(skin.later);
     list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 110), ImDrawFlags_Closed, 3 * s);
-    list.AddPolyline(line.data(), count,
-                     forwards ? IM_COL32(90, 170, 255, 230) : IM_COL32(255, 140, 80, 230),
+    list.AddPolyline(line.data(), count, ImGui::GetColorU32({tint[0], tint[1], tint[2], 0.9f}),
                      ImDrawFlags_Closed, 1.6f * s);
   }
 }
@@ -193,7 +187,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   const Scene& scene = workspace.scene();
   if (workspace.hide_overlays || workspace.show_original) return;
   const Layer layer = workspace.layer;
-  if (layer == Layer::pose) draw_onion(list, workspace, style);
+  draw_onion(list, workspace, style);
   if (workspace.show_cage && gesture.line.empty()) {
     const ImU32 color = layer == Layer::rest ? style.colors.rest : style.colors.pose;
     // With pins or strokes the posed cage is only the start of the map: it steps back behind the

@@ -44,59 +44,66 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   ImGui::SameLine(0, 3);
 }
 
-void number(const char* label, double& value, const char* format, float speed, float width) {
-  ImGui::SetNextItemWidth(width);
-  ImGui::DragScalar(label, ImGuiDataType_Double, &value, speed, nullptr, nullptr, format);
+/// Beside the last one; a gesture that starts on it is a step of its own.
+void tell_of_item(Workspace& workspace, const char* tooltip) {
+  if (ImGui::IsItemActivated()) workspace.carried_on.reset();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
+  ImGui::SameLine();
 }
 
-/// Time, frame rate, and what the key at the time has.
-void draw_numbers(Workspace& workspace, float s) {
-  const Scene scene = workspace.document.scene();
+void draw_time(Workspace& workspace, float s) {
   double time = workspace.timeline.time;
-  number("##time", time, "%.2f s", 0.01f, 76 * s);
-  if (time != workspace.timeline.time && std::isfinite(time)) workspace.go_to_time(time);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time that is shown");
-  ImGui::SameLine();
-  double rate = scene.animation.frames_per_second;
-  number("##rate", rate, "%.4g fps", 0.1f, 76 * s);
-  if (ImGui::IsItemDeactivatedAfterEdit() || (rate != scene.animation.frames_per_second)) {
-    Scene after = scene;
-    after.animation.frames_per_second = std::clamp(std::round(rate), 1.0, 240.0);
-    if (after != scene) workspace.commit_or_amend("Frame rate", after);
-  }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Frames a second: what steps and exports go by");
-  ImGui::SameLine();
+  ImGui::SetNextItemWidth(76 * s);
+  if (ImGui::DragScalar("##time", ImGuiDataType_Double, &time, 0.01f, nullptr, nullptr, "%.2f s") &&
+      std::isfinite(time))
+    workspace.go_to_time(time);
+  tell_of_item(workspace, "The time that is shown");
+}
+
+void draw_rate(Workspace& workspace, float s) {
+  Scene scene = workspace.document.scene();
+  double& rate = scene.animation.frames_per_second;
+  ImGui::SetNextItemWidth(76 * s);
+  const bool typed = ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps");
+  tell_of_item(workspace, "Frames a second: what steps and exports go by");
+  if (!typed || !std::isfinite(rate)) return;
+  rate = std::clamp(rate, kFewestFrames, kMostFrames);
+  workspace.commit_or_amend("Frame rate", scene);
+}
+
+void draw_blend(Workspace& workspace, float s) {
+  Scene scene = workspace.document.scene();
   int blend = scene.animation.straight ? 1 : 0;
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
-    Scene after = scene;
-    after.animation.straight = blend == 1;
-    workspace.commit("In-betweens", after);
+    scene.animation.straight = blend == 1;
+    workspace.commit("In-betweens", scene);
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to compare, "
-        "places");
+  tell_of_item(workspace,
+               "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to "
+               "compare, places");
+}
+
+/// What the key at the time has.
+void draw_key_numbers(Workspace& workspace, float s) {
+  Scene scene = workspace.document.scene();
   const size_t key = key_at(scene, workspace.timeline.time);
   if (key >= scene.keyframes.size()) return;
-  const Keyframe& frame = scene.keyframes[key];
-  ImGui::SameLine(0, 16 * s);
-  int ease = static_cast<int>(frame.ease);
+  ImGui::Dummy({8 * s, 0});
+  ImGui::SameLine();
+  int ease = static_cast<int>(scene.keyframes[key].ease);
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
     workspace.commit("Ease", with_ease(scene, key, static_cast<Ease>(ease)));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("How this key goes on to the next one");
+  tell_of_item(workspace, "How this key goes on to the next one");
   if (key == 0) return;
-  ImGui::SameLine();
-  int turns = frame.turns;
+  int& turns = scene.keyframes[key].turns;
   ImGui::SetNextItemWidth(96 * s);
   if (ImGui::InputInt("##turns", &turns, 1, 1)) {
-    Scene after = scene;
-    after.keyframes[key].turns = std::clamp(turns, -150, 150);
-    workspace.commit_or_amend("Whole turns", after);
+    turns = std::clamp(turns, -kMostTurns, kMostTurns);
+    workspace.commit_or_amend("Whole turns", scene);
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("Whole turns on the way from the key before, beyond the shortest way");
+  tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
 }
 
 void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 fill, bool plays) {
@@ -111,6 +118,31 @@ void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 fill, bool plays) {
 double snapped(const Scene& scene, double time) {
   if (ImGui::GetIO().KeyAlt) return std::clamp(time, 0.0, kLongestTime);
   return time_of_frame(scene, std::max(0, frame_at(scene, time)));
+}
+
+std::optional<size_t> key_under_pointer(const Scene& scene, const Ruler& ruler, float s) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (mouse.y <= ruler.bottom - 24 * s) return {};
+  std::optional<size_t> under;
+  for (size_t i = 0; i < scene.keyframes.size(); ++i)
+    if (std::abs(ruler.x(scene.keyframes[i].time) - mouse.x) < 8 * s) under = i;
+  return under;
+}
+
+/// The menu of the key at the time, while it is open.
+void draw_key_menu(Workspace& workspace) {
+  if (!ImGui::BeginPopup("key")) return;
+  const Scene scene = workspace.document.scene();
+  const size_t key = key_at(scene, workspace.timeline.time);
+  if (key < scene.keyframes.size()) {
+    for (const auto& [label, ease] :
+         {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
+      if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
+        workspace.commit("Ease", with_ease(scene, key, ease));
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete key")) run(action_named("time.delete_key"), workspace);
+  }
+  ImGui::EndPopup();
 }
 
 void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<size_t> hovered,
@@ -150,60 +182,52 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  const Scene scene = workspace.document.scene();
+  // Asked anew each time: commits replace it.
+  const auto scene = [&]() -> const Scene& { return workspace.document.scene(); };
   if (held_ == Held::nothing)
-    length_ = std::max({2.0, 1.1 * length_of(scene), 1.02 * workspace.timeline.time});
+    length_ = std::max({2.0, 1.1 * length_of(scene()), 1.02 * workspace.timeline.time});
   const Ruler ruler{corner.x + 10 * s, std::max(1.0f, room.x - 20 * s), corner.y,
                     corner.y + std::max(1.0f, room.y), length_};
   ImGui::InvisibleButton("track", {std::max(1.0f, room.x), std::max(1.0f, room.y)});
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
   std::optional<size_t> hovered;
-  if (ImGui::IsItemHovered())
-    for (size_t i = 0; i < scene.keyframes.size(); ++i)
-      if (std::abs(ruler.x(scene.keyframes[i].time) - mouse.x) < 8 * s &&
-          mouse.y > ruler.bottom - 24 * s)
-        hovered = i;
+  if (ImGui::IsItemHovered()) hovered = key_under_pointer(scene(), ruler, s);
   if (ImGui::IsItemActivated()) {
     workspace.timeline.playing = false;
+    workspace.carried_on.reset();
     held_ = hovered ? Held::key : Held::time;
     key_ = hovered.value_or(0);
-    if (hovered) workspace.go_to_time(scene.keyframes[*hovered].time);
+    if (hovered) workspace.go_to_time(scene().keyframes[*hovered].time);
   }
   if (ImGui::IsItemActive()) {
-    const double time = snapped(scene, ruler.time(mouse.x));
-    if (held_ == Held::time && time != workspace.timeline.time) workspace.go_to_time(time);
-    if (held_ == Held::key && key_ < scene.keyframes.size() && ImGui::IsMouseDragging(0, 3 * s) &&
-        time != scene.keyframes[key_].time && key_at(scene, time) >= scene.keyframes.size()) {
-      auto [after, number] = with_key_moved(scene, key_, time);
-      workspace.commit_or_amend("Move key", after);
-      key_ = number;
-      workspace.go_to_time(time);
-    }
+    drag(workspace, snapped(scene(), ruler.time(ImGui::GetIO().MousePos.x)), s);
     hovered = held_ == Held::key ? std::optional(key_) : std::nullopt;
   } else {
     held_ = Held::nothing;
   }
   if (hovered && ImGui::IsMouseClicked(1)) {
-    workspace.go_to_time(scene.keyframes[*hovered].time);
+    workspace.go_to_time(scene().keyframes[*hovered].time);
     ImGui::OpenPopup("key");
   }
   if (hovered && held_ == Held::nothing)
-    ImGui::SetTooltip("%.2f s%s", scene.keyframes[*hovered].time,
-                      fits(scene, scene.keyframes[*hovered].pose)
+    ImGui::SetTooltip("%.2f s%s", scene().keyframes[*hovered].time,
+                      fits(scene(), scene().keyframes[*hovered].pose)
                           ? "; drag to move, right-click for more"
                           : ": it has other points than the scene, and does not play");
   draw_ruler(workspace, ruler, hovered, s);
-  if (!ImGui::BeginPopup("key")) return;
-  const size_t key = key_at(scene, workspace.timeline.time);
-  if (key < scene.keyframes.size()) {
-    for (const auto& [label, ease] :
-         {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
-      if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
-        workspace.commit("Ease", with_ease(scene, key, ease));
-    ImGui::Separator();
-    if (ImGui::MenuItem("Delete key")) run(action_named("time.delete_key"), workspace);
-  }
-  ImGui::EndPopup();
+  draw_key_menu(workspace);
+}
+
+/// Takes the time or a key along.
+void TimelinePanel::drag(Workspace& workspace, double time, float s) {
+  const Scene& scene = workspace.document.scene();
+  if (held_ == Held::time && time != workspace.timeline.time) workspace.go_to_time(time);
+  if (held_ != Held::key || key_ >= scene.keyframes.size() || !ImGui::IsMouseDragging(0, 3 * s) ||
+      time == scene.keyframes[key_].time || key_at(scene, time) < scene.keyframes.size())
+    return;
+  auto [after, number] = with_key_moved(scene, key_, time);
+  workspace.commit_or_amend("Move key", after);
+  key_ = number;
+  workspace.go_to_time(time);
 }
 
 void TimelinePanel::draw(Workspace& workspace, double scale) {
@@ -230,7 +254,11 @@ void TimelinePanel::draw(Workspace& workspace, double scale) {
     ImGui::Dummy({6 * s, 0});
     ImGui::SameLine(0, 3);
   }
-  draw_numbers(workspace, s);
+  draw_time(workspace, s);
+  draw_rate(workspace, s);
+  draw_blend(workspace, s);
+  draw_key_numbers(workspace, s);
+  ImGui::NewLine();
   draw_track(workspace, s);
   ImGui::End();
   ImGui::PopStyleVar();

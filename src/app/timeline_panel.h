@@ -12,6 +12,7 @@ class TimelinePanel {
  private:
   enum class Held { nothing, time, key };
   void draw_track(Workspace& workspace, float scale);
+  void drag(Workspace& workspace, double time, float scale);
 
   Held held_ = Held::nothing;  ///< by the pointer
   size_t key_ = 0;             ///< the one that is held

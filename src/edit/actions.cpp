@@ -493,7 +493,7 @@ std::vector<Action> table() {
        [](Workspace& w) { w.timeline.loop = !w.timeline.loop; },
        [](const Workspace& w) { return w.timeline.loop; }},
       {"time.onion",
-       "Onion skin: cages of the keys before and after",
+       "Onion skin: the keys before and after",
        kOnion,
        "Time",
        {},

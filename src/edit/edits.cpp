@@ -146,11 +146,11 @@ Scene erased(Scene scene, const Selection& selection, Refit refit) {
   return scene;
 }
 
-Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyframes) {
+Scene with_pin(Scene scene, Complex rest, Complex pose, const std::vector<Points>& in_keyframes) {
   if (!method_named(scene.method).uses_pins) scene = with_method(std::move(scene), "pins");
   for (size_t i = 0; i < scene.keyframes.size(); ++i)
     if (Pose& key = scene.keyframes[i].pose; fits(scene, key))
-      key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i] : pose});
+      key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i].front() : pose});
   scene.pins.push_back({rest, pose, {}, {}});
   return scene;
 }
@@ -161,9 +161,11 @@ bool follows(const Scene& scene, const std::string& id) {
           choice(method_named("bounded"), scene.parameters, "reference") == id);
 }
 
-Scene with_stroke(Scene scene, Points rest, Points pose) {
+Scene with_stroke(Scene scene, Points rest, Points pose, const std::vector<Points>& in_keyframes) {
   if (!follows(scene, "strokes")) scene = with_method(std::move(scene), "strokes");
-  for_fitting_keys(scene, [&](Pose& key) { key.strokes.push_back(pose); });
+  for (size_t i = 0; i < scene.keyframes.size(); ++i)
+    if (Pose& key = scene.keyframes[i].pose; fits(scene, key))
+      key.strokes.push_back(i < in_keyframes.size() ? in_keyframes[i] : pose);
   scene.strokes.push_back({std::move(rest), std::move(pose), {}});
   return scene;
 }

@@ -50,12 +50,15 @@ Scene erased(Scene scene, const Selection& selection, Refit refit = Refit::curve
 /// Whether a scene's map is this method's, or the one of `bounded` that follows it.
 bool follows(const Scene& scene, const std::string& id);
 
-/// With a pin more; the method becomes one that uses pins. In keyframes it is where these say, by
-/// number, or at its pose.
-Scene with_pin(Scene scene, Complex rest, Complex pose, const Points& in_keyframes = {});
+/// With a pin more; the method becomes one that uses pins. In keyframes it is where these take its
+/// place at rest, by number, or at its pose.
+Scene with_pin(Scene scene, Complex rest, Complex pose,
+               const std::vector<Points>& in_keyframes = {});
 
-/// With a stroke more; the method becomes `strokes` unless it is, or follows that.
-Scene with_stroke(Scene scene, Points rest, Points pose);
+/// With a stroke more; the method becomes `strokes` unless it is, or follows that. In keyframes it
+/// is where these take it from rest, by number, or in its pose.
+Scene with_stroke(Scene scene, Points rest, Points pose,
+                  const std::vector<Points>& in_keyframes = {});
 /// The points of a stroke.
 const Points& curve_of(const Scene& scene, Index stroke, Layer layer);
 /// A stroke's layer redrawn, run through from the end that is nearer to its old start.

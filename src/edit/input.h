@@ -19,6 +19,7 @@ struct Input {
   bool inside = false;  ///< over the canvas and not over a panel
   double wheel = 0;     ///< lines scrolled upwards
   Modifiers mods;
+  double now_ms = 0;  ///< of a clock that never goes back
 };
 
 /// A key by what is printed on it in the user's layout ('A', ',', ...) or by name.

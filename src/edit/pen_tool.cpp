@@ -67,7 +67,7 @@ class PenTool final : public Tool {
       hover_ = handle_at(workspace, input.px);
       if (hover_) {
         if (!input.pressed) return;
-        if (edits_point(input, *hover_, workspace)) return hover_.reset();
+        if (erases(input, *hover_, workspace)) return hover_.reset();
         workspace.selection = {*hover_};
         drag_.start(input, workspace.selection, scene);
         return;

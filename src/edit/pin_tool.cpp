@@ -17,7 +17,7 @@ class PinTool final : public Tool {
     hover_ = handle_at(workspace, input.px);
     if (!input.pressed) return;
     if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
-    if (hover_ && edits_point(input, *hover_, workspace)) return hover_.reset();
+    if (hover_ && erases(input, *hover_, workspace)) return hover_.reset();
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
       workspace.selection.insert(*hover_);
@@ -38,8 +38,8 @@ class PinTool final : public Tool {
     const bool switches = !method_named(workspace.scene().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
     const Complex pose = workspace.at_rest() ? workspace.posed_at(*rest) : input.position;
-    if (!workspace.commit("Add pin",
-                          with_pin(workspace.scene(), *rest, pose, workspace.in_keyframes(*rest))))
+    if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose,
+                                              workspace.in_keyframes({&*rest, 1}))))
       return;
     if (switches)
       workspace.say("The method is \"Cage and pins\": cage points and pins act together.");

@@ -17,7 +17,7 @@ class SelectTool final : public Tool {
     if (!input.inside || !input.pressed) return;
     if (ring_.hovered() && !hover_) {
       ring_.start(input, workspace);
-    } else if (hover_ && edits_point(input, *hover_, workspace)) {
+    } else if (hover_ && erases(input, *hover_, workspace)) {
       hover_.reset();
     } else if (hover_) {
       pick(input, workspace);
@@ -66,7 +66,9 @@ class SelectTool final : public Tool {
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage())
       return "Draw a cage with P, or make one from the picture (Cage menu)";
-    if (drag_.active()) return "Shift keeps the axis";
+    if (drag_.active())
+      return workspace.timeline.recording ? "Recording: release to set the keys"
+                                          : "Shift keeps the axis";
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
@@ -74,7 +76,8 @@ class SelectTool final : public Tool {
       return "Drag to move; S bends and redraws strokes; Alt-click deletes";
     if (hover_ && hover_->control > 0) return "Drag to bend; Alt breaks a smooth point's tangents";
     if (hover_)
-      return "Drag to move; Shift-click adds; Alt-click deletes; Ctrl-click: smooth or corner";
+      return "Drag to move, with Ctrl to record motion; Shift-click adds; Alt-click deletes; "
+             "Ctrl-click: smooth or corner";
     return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
                                             "edge inserts; Tab returns to the pose"
                                           : "Drag points or pins; drag a box to select; "

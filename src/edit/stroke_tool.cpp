@@ -27,7 +27,7 @@ class StrokeTool final : public Tool {
     if (!input.inside || !input.pressed) return;
     const bool redraws = input.mods.shift && selected_stroke(workspace);
     if (!hover_ || redraws) return start_drawing(input, workspace);
-    if (edits_point(input, *hover_, workspace)) return hover_.reset();
+    if (erases(input, *hover_, workspace)) return hover_.reset();
     Selection& selection = workspace.selection;
     if (input.mods.shift && selection.contains(*hover_)) return void(selection.erase(*hover_));
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
@@ -117,7 +117,9 @@ class StrokeTool final : public Tool {
     if (rest.size() < 2) return workspace.say("A stroke goes on the picture, inside the cage.");
     const bool clipped = rest.size() < drawn.size();
     const bool switches = !method_named(workspace.scene().method).uses_strokes;
-    if (!workspace.commit("Draw stroke", with_stroke(workspace.scene(), rest, pose))) return;
+    if (!workspace.commit("Draw stroke",
+                          with_stroke(workspace.scene(), rest, pose, workspace.in_keyframes(rest))))
+      return;
     workspace.selection = {
         {Handle::Kind::stroke, static_cast<Index>(workspace.scene().strokes.size()) - 1, 0}};
     if (clipped) workspace.say("What was drawn beside the picture was left out.");

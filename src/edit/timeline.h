@@ -11,8 +11,9 @@ struct Timeline {
   double time = 0;     ///< seconds
   bool shows = false;  ///< the picture is that of the time, not the scene's own pose
   bool playing = false, loop = true;
+  bool recording = false;               ///< a drag sets keys, by the clock
   bool auto_key = false;                ///< pose edits set keys
-  bool onion = false;                   ///< cages of the keys beside the time
+  bool onion = false;                   ///< the pictures of the keys beside the time
   bool visible = false;                 ///< the panel
   std::optional<double> clock_ms = {};  ///< when the time was advanced last
 

@@ -8,22 +8,40 @@
 namespace holomorph {
 
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
-  if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) moving_ = true;
-  if (moving_) {
-    Complex by = input.position - start_;
-    if (input.mods.shift)
-      by =
-          std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
-    const Handle& first = *what_.begin();
-    const bool tangent = what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0;
-    workspace.preview =
-        tangent ? tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
-                                workspace.layer, input.mods.alt)
-                : moved(scene_, what_, by, workspace.layer);
+  if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
+    moving_ = true;
+    if (with_ctrl_ && !amends_ && workspace.layer == Layer::pose)
+      recording_.start(workspace, what_, input.now_ms);
   }
+  if (moving_) workspace.preview = dragged(input, workspace);
   if (!input.released && input.down) return false;
   active_ = false;
-  if (!workspace.preview) return true;
+  if (with_ctrl_ && !moving_ && !amends_) {
+    const auto clicked = handle_at(workspace, start_px_);
+    if (clicked && clicked->kind == Handle::Kind::cage && clicked->control == 0) {
+      workspace.selection = {*clicked};
+      toggle_corners(workspace);
+    }
+  }
+  finish(workspace);
+  return true;
+}
+
+Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
+  Complex by = input.position - start_;
+  if (input.mods.shift)
+    by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+  if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
+  const Handle& first = *what_.begin();
+  if (what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0)
+    return tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
+                         workspace.layer, input.mods.alt);
+  return moved(scene_, what_, by, workspace.layer);
+}
+
+void HandleDrag::finish(Workspace& workspace) {
+  if (recording_.active()) return recording_.finish(workspace);
+  if (!workspace.preview) return;
   if (amends_)
     workspace.amend(*workspace.preview);
   else
@@ -31,7 +49,6 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
                      : kind_of(what_) == "point"    ? "Move"
                                                     : "Move " + kind_of(what_),
                      *workspace.preview);
-  return true;
 }
 
 void toggle_corners(Workspace& workspace) {
@@ -43,18 +60,11 @@ void toggle_corners(Workspace& workspace) {
   workspace.commit(smooth ? "Smooth point" : "Corner", after);
 }
 
-bool edits_point(const Input& input, Handle handle, Workspace& workspace) {
-  const bool vertex = handle.kind == Handle::Kind::cage && handle.control == 0;
-  if (input.mods.alt && (vertex || handle.kind != Handle::Kind::cage)) {
-    workspace.erase({handle});
-    return true;
-  }
-  if (input.mods.ctrl && vertex) {
-    workspace.selection = {handle};
-    toggle_corners(workspace);
-    return true;
-  }
-  return false;
+bool erases(const Input& input, Handle handle, Workspace& workspace) {
+  const bool tangent = handle.kind == Handle::Kind::cage && handle.control > 0;
+  if (!input.mods.alt || tangent) return false;
+  workspace.erase({handle});
+  return true;
 }
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include "edit/input.h"
 #include "edit/posed_corners.h"
-#include "edit/workspace.h"
+#include "edit/recording.h"
 
 namespace holomorph {
 
@@ -52,8 +52,9 @@ std::unique_ptr<Tool> stroke_tool();
 std::unique_ptr<Tool> outline_tool();
 std::unique_ptr<Tool> angle_tool();
 
-/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. Shared by
-/// the tools that drag.
+/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. With Ctrl,
+/// a drag of the pose is recorded as motion, and a click makes a vertex smooth or a corner. Shared
+/// by the tools that drag.
 class HandleDrag {
  public:
   /// A drag that carries the last step on, which set or inserted what is dragged.
@@ -67,6 +68,7 @@ class HandleDrag {
     start_ = input.position;
     what_ = std::move(what);
     scene_ = scene;
+    with_ctrl_ = input.mods.ctrl;
     active_ = true;
     moving_ = false;
   }
@@ -76,14 +78,19 @@ class HandleDrag {
   bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
     if (active_) workspace.preview.reset();
+    recording_.cancel(workspace);
     active_ = false;
   }
 
  private:
+  Scene dragged(const Input& input, Workspace& workspace);
+  void finish(Workspace& workspace);
+
   Complex start_px_, start_;
   Selection what_;
   Scene scene_;
-  bool active_ = false, moving_ = false, amends_ = false;
+  Recording recording_;
+  bool active_ = false, moving_ = false, amends_ = false, with_ctrl_ = false;
 };
 
 /// A new outline as one step, with its convergence played; refused with a toast when it is none.
@@ -94,9 +101,9 @@ bool take_outline(Workspace& workspace, const std::string& label, Points outline
 /// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
 void toggle_corners(Workspace& workspace);
 
-/// Presses that edit a point instead of picking it: Alt deletes a vertex or pin, Ctrl makes a
-/// vertex smooth or a corner. Returns whether it was one.
-bool edits_point(const Input& input, Handle handle, Workspace& workspace);
+/// Presses with Alt delete a vertex, pin or stroke instead of picking it. Returns whether it was
+/// one.
+bool erases(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around the one selected pin: dragging it turns the picture around the pin, the wheel
 /// scales it there.

@@ -29,7 +29,7 @@ bool advance(Playback& playback, const LiveMap& map, double now_ms) {
 }
 
 bool Workspace::accepts(const Scene& scene) {
-  if (!scene.has_cage()) return true;
+  if (!scene.has_cage() || scene == document.scene()) return true;
   try {
     if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
     scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
@@ -43,35 +43,37 @@ bool Workspace::accepts(const Scene& scene) {
 bool Workspace::commit(const std::string& label, Scene scene) {
   preview.reset();
   playback = {};
-  carried_on.clear();
-  if (!accepts(scene)) return false;
+  carried_on.reset();
+  const bool shows = timed && timeline.shows, moves = poses(scene);
   scene = timed_edit(std::move(scene));
+  if (!accepts(scene)) return false;
+  if (moves && timeline.auto_key) {
+    timeline.visible = timeline.shows = true;
+  } else if (moves && shows) {
+    char text[48];
+    std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
+    document.commit(text, *timed);  // what undoing the edit goes back to
+    timeline.shows = timeline.playing = false;
+  }
   const bool done = document.commit(label, std::move(scene));
   timed.reset();
   prune_selection();
   return done;
 }
 
-Scene Workspace::timed_edit(Scene scene) {
-  const bool shows = timed && timeline.shows;
-  const Scene before = shows ? *timed : document.scene();
-  const Pose pose = whole_pose_of(scene), own = whole_pose_of(document.scene());
+bool Workspace::poses(const Scene& scene) const {
   // Edits that are none of the pose may start from what is shown or from the document's scene.
-  const bool poses = fits(scene, whole_pose_of(before)) && pose != whole_pose_of(before) &&
-                     !(fits(scene, own) && pose == own);
-  if (poses && timeline.auto_key) {
-    timeline.visible = timeline.shows = true;
-    return with_key(std::move(scene), timeline.time);
-  }
-  if (!shows) return scene;
-  if (poses) {
-    char text[48];
-    std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
-    document.commit(text, before);  // what undoing the edit goes back to
-    timeline.shows = timeline.playing = false;
-    return scene;
-  }
-  return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
+  const Pose pose = whole_pose_of(scene), own = whole_pose_of(document.scene()),
+             before = whole_pose_of(unedited());
+  return fits(scene, before) && pose != before && !(fits(scene, own) && pose == own);
+}
+
+Scene Workspace::timed_edit(Scene scene) const {
+  const bool moves = poses(scene);
+  if (moves && timeline.auto_key) return with_key(std::move(scene), timeline.time);
+  const Pose own = whole_pose_of(document.scene());
+  if (moves || !timed || !timeline.shows || !fits(scene, own)) return scene;
+  return posed_as(std::move(scene), own);
 }
 
 void Workspace::go_to_time(double seconds) {
@@ -88,12 +90,23 @@ void Workspace::set_key() {
   timeline.visible = true;
 }
 
-Points Workspace::in_keyframes(Complex rest) {
+std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
   const Scene& scene = document.scene();
   if (scene.keyframes.empty() || !map.has_map() || map.posed() != scene) return {};
-  Points places;
-  for (const Keyframe& key : scene.keyframes) places.push_back(map.place_at(key.time, rest));
+  std::vector<Points> places;
+  for (const Keyframe& key : scene.keyframes) places.push_back(map.places_at(key.time, rest));
   return places;
+}
+
+std::vector<OnionSkin> Workspace::onion_skins() const {
+  if (!timeline.onion || timeline.playing || at_rest() || !map.has_map()) return {};
+  const Motion& motion = map.motion();
+  std::vector<OnionSkin> skins;
+  for (const bool later : {false, true})
+    if (const auto time = next_key(document.scene(), timeline.time, later); time && motion.plays())
+      if (OnionSkin skin{motion.map_at(*time), later}; skin.f.size() == map.map().f.size())
+        skins.push_back(std::move(skin));
+  return skins;
 }
 
 bool Workspace::update_map(Wanted wanted) {
@@ -110,13 +123,10 @@ bool Workspace::update_map(Wanted wanted) {
 bool Workspace::amend(Scene scene) {
   preview.reset();
   playback = {};
+  const bool moves = whole_pose_of(scene) != whole_pose_of(document.scene());
+  if (moves && timeline.auto_key) scene = with_key(std::move(scene), timeline.time);
   if (!accepts(scene)) return false;
-  if (whole_pose_of(scene) != whole_pose_of(document.scene())) {
-    if (timeline.auto_key)
-      scene = with_key(std::move(scene), timeline.time);
-    else
-      timeline.shows = timeline.playing = false;
-  }
+  if (moves && !timeline.auto_key) timeline.shows = timeline.playing = false;
   document.amend(std::move(scene));
   timed.reset();
   return true;
@@ -134,7 +144,7 @@ void Workspace::commit_or_amend(const std::string& label, Scene scene) {
 void Workspace::go_to(size_t entry) {
   preview.reset();
   const Scene before = document.scene();
-  carried_on.clear();
+  carried_on.reset();
   playback = {};
   document.go_to(entry);
   timed.reset();
@@ -198,7 +208,10 @@ Complex Workspace::posed_at(Complex rest) const {
 
 std::optional<Cage> Workspace::solved_cage() const {
   if (!map.has_map() || !map.posed()) return {};
-  return map.prepared()->deformer->solved_cage(pose_of(*map.posed()));
+  const std::optional<Scene>& shown = map.timed() ? map.timed() : map.posed();
+  if (map.timed() && key_at(*shown, timeline.time) == shown->keyframes.size())
+    return {};  // on the way between keys there is none
+  return map.prepared()->deformer->solved_cage(pose_of(*shown));
 }
 
 Box Workspace::content_box() const {
@@ -224,7 +237,7 @@ void Workspace::open(Document opened) {
   map.clear();
   preview.reset();
   selection.clear();
-  carried_on.clear();
+  carried_on.reset();
   playback = {};
   timeline = {};
   timed.reset();

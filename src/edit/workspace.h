@@ -51,6 +51,12 @@ struct Toast {
   std::optional<Complex> where;
 };
 
+/// The map at a key beside the time that is shown.
+struct OnionSkin {
+  VectorXc f;  ///< at the mesh's vertices
+  bool later = false;
+};
+
 /// The editor's state beyond the document.
 struct Workspace {
   explicit Workspace(MeshOptions options = {}) : map(options) {}
@@ -73,7 +79,7 @@ struct Workspace {
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
   bool auto_cage_curved = false;
-  Selection carried_on;  ///< whose step commit_or_amend may carry further; empty: nobody's
+  std::optional<Selection> carried_on;  ///< whose step commit_or_amend may carry further
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window
 
@@ -90,8 +96,11 @@ struct Workspace {
   }
   /// Brings the map up to date with what is shown. Returns whether it changed.
   bool update_map(Wanted wanted);
-  /// Where keyframes take a place at rest, by number; none before their maps are known.
-  Points in_keyframes(Complex rest);
+  /// Where each keyframe takes places at rest; none before their maps are known.
+  std::vector<Points> in_keyframes(std::span<const Complex> rest);
+  /// What the onion skin shows: the keys before and after the time, where it is on and there is a
+  /// pose to compare with.
+  std::vector<OnionSkin> onion_skins() const;
   /// Goes to a time and shows it.
   void go_to_time(double seconds);
   /// The shown pose as the key at the time.
@@ -136,9 +145,11 @@ struct Workspace {
   void open(Document opened);
 
  private:
-  /// What an edit of what is shown at a time means: with auto-key a key, else a pose of its own;
-  /// what is no pose edit leaves the scene's own pose.
-  Scene timed_edit(Scene scene);
+  /// What an edit means where a time is shown: of the pose, with auto-key a key, else that what is
+  /// shown becomes the scene's own pose; of the structure, the latter; else the own pose stays.
+  Scene timed_edit(Scene scene) const;
+  /// Whether an edit moves something.
+  bool poses(const Scene& scene) const;
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

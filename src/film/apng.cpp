@@ -45,16 +45,16 @@ class ApngWriter final : public FilmWriter {
       if (type == "IDAT") data += png.substr(at + 8, length);
       at += length + 12;
     }
-    // Size, place, how long in 1/1000 s, cleared before, drawn over it as it is.
+    // Size, place, how long, cleared before, drawn over it as it is. Rates like 24 and 23.976 are
+    // exact as 250 over a whole number.
     const std::uint32_t first = sequence_++;
-    body_ +=
-        chunk("fcTL",
-              big_endian(first, 4) + big_endian(static_cast<std::uint32_t>(frame.width), 4) +
-                  big_endian(static_cast<std::uint32_t>(frame.height), 4) + big_endian(0, 4) +
-                  big_endian(0, 4) +
-                  big_endian(
-                      static_cast<std::uint32_t>(std::lround(1000 / shape_.frames_per_second)), 2) +
-                  big_endian(1000, 2) + big_endian(1, 1) + big_endian(0, 1));
+    body_ += chunk(
+        "fcTL",
+        big_endian(first, 4) + big_endian(static_cast<std::uint32_t>(frame.width), 4) +
+            big_endian(static_cast<std::uint32_t>(frame.height), 4) + big_endian(0, 4) +
+            big_endian(0, 4) + big_endian(250, 2) +
+            big_endian(static_cast<std::uint32_t>(std::lround(250 * shape_.frames_per_second)), 2) +
+            big_endian(1, 1) + big_endian(0, 1));
     body_ += frames_ == 0 ? chunk("IDAT", data) : chunk("fdAT", big_endian(sequence_, 4) + data);
     if (frames_ > 0) ++sequence_;
     ++frames_;

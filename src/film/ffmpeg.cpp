@@ -1,12 +1,15 @@
 // Films by the program ffmpeg. It reads raw frames from a socket, so that its end is an error here
 // and no signal, and writes beside the wanted file.
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <utility>
 
 #include "core/error.h"
@@ -17,12 +20,15 @@ extern char** environ;
 namespace holomorph {
 namespace {
 
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
 class FfmpegWriter final : public FilmWriter {
  public:
   FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
-      : out_(out), part_(out), log_(out), opaque_(opaque) {
+      : out_(out), part_(out), opaque_(opaque) {
     part_.replace_filename("." + out.stem().string() + ".part" + out.extension().string());
-    log_.replace_filename("." + out.stem().string() + ".log");
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
     std::vector<std::string> words{"ffmpeg",
@@ -50,7 +56,6 @@ class FfmpegWriter final : public FilmWriter {
     end();
     std::error_code ignored;
     std::filesystem::remove(part_, ignored);
-    std::filesystem::remove(log_, ignored);
   }
 
   void add(const Image& frame) override {
@@ -73,6 +78,7 @@ class FfmpegWriter final : public FilmWriter {
 
  private:
   void start(const std::vector<std::string>& words) {
+    if (!log_) throw Error(ErrorKind::failed, "no temporary file for ffmpeg can be made");
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
       throw Error(ErrorKind::failed, "no connection to ffmpeg can be made");
@@ -82,8 +88,7 @@ class FfmpegWriter final : public FilmWriter {
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(),
-                                       O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(log_.get()), STDERR_FILENO);
     const int wrong =
         ::posix_spawnp(&child_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
@@ -92,8 +97,9 @@ class FfmpegWriter final : public FilmWriter {
     if (wrong == 0) return;
     ::close(socket_);
     child_ = 0;
-    std::error_code ignored;
-    std::filesystem::remove(log_, ignored);
+    if (wrong != ENOENT)
+      throw Error(ErrorKind::failed,
+                  std::string("ffmpeg cannot be started: ") + std::strerror(wrong));
     throw Error(ErrorKind::failed,
                 "films of kind " + out_.extension().string() +
                     " are made by the program ffmpeg, which is not installed here; install it, or "
@@ -111,13 +117,11 @@ class FfmpegWriter final : public FilmWriter {
 
   [[noreturn]] void fail() {
     end();
-    std::string said;
-    try {
-      said = read_file(log_);
-    } catch (const Error&) {
-      // Then it said nothing.
-    }
-    said = said.substr(0, said.find('\n'));
+    std::rewind(log_.get());
+    std::array<char, 400> line{};
+    const std::string all =
+        std::fgets(line.data(), static_cast<int>(line.size()), log_.get()) ? line.data() : "";
+    const std::string said = all.substr(0, all.find('\n'));
     throw Error(ErrorKind::failed,
                 out_.string() + ": ffmpeg failed" + (said.empty() ? "" : ": " + said));
   }
@@ -134,8 +138,9 @@ class FfmpegWriter final : public FilmWriter {
     return flat;
   }
 
-  Path out_, part_, log_;
+  Path out_, part_;
   bool opaque_;
+  std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
   pid_t child_ = 0;
   int socket_ = -1, status_ = 0;
 };

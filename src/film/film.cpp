@@ -17,7 +17,10 @@ bool write_film(const Path& out, const Scene& scene, const Image* source,
   for (int i = 0; i < frames; ++i) times.push_back(i / scene.animation.frames_per_second);
   PictureMaker maker(scene, source);
   PictureOptions picture{options.view, options.scale, options.crop};
-  if (!options.crop) picture.shows = maker.shown_at(times);
+  if (!options.crop) {
+    picture.shows = maker.shown_at(times, [&] { return progress(0, frames); });
+    if (!picture.shows) return false;
+  }
   std::unique_ptr<FilmWriter> writer;
   for (int i = 0; i < frames; ++i) {
     if (!progress(i, frames)) return false;

@@ -65,26 +65,26 @@ int append(GifFileType* file, const GifByteType* bytes, int count) {
   return count;
 }
 
+void close(GifFileType* file) {
+  int ignored = 0;
+  EGifCloseFile(file, &ignored);
+}
+
 class GifWriter final : public FilmWriter {
  public:
   GifWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
     int wrong = 0;
-    file_ = EGifOpen(&bytes_, append, &wrong);
+    file_.reset(EGifOpen(&bytes_, append, &wrong));
     if (!file_) throw Error(ErrorKind::failed, out.string() + ": no memory for a GIF file");
-    EGifSetGifVersion(file_, true);
-    must(EGifPutScreenDesc(file_, shape.width, shape.height, 8, 0, nullptr));
+    EGifSetGifVersion(file_.get(), true);
+    must(EGifPutScreenDesc(file_.get(), shape.width, shape.height, 8, 0, nullptr));
     if (!shape.loops) return;
     const std::array<unsigned char, 3> forever{1, 0, 0};
-    must(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
-    must(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"));
-    must(EGifPutExtensionBlock(file_, 3, forever.data()));
-    must(EGifPutExtensionTrailer(file_));
+    must(EGifPutExtensionLeader(file_.get(), APPLICATION_EXT_FUNC_CODE));
+    must(EGifPutExtensionBlock(file_.get(), 11, "NETSCAPE2.0"));
+    must(EGifPutExtensionBlock(file_.get(), 3, forever.data()));
+    must(EGifPutExtensionTrailer(file_.get()));
   }
-  ~GifWriter() override {
-    int ignored = 0;
-    if (file_) EGifCloseFile(file_, &ignored);
-  }
-
   void add(const Image& frame) override {
     Quantized quantized = holomorph::quantized(frame);
     GraphicsControlBlock control{};
@@ -93,22 +93,21 @@ class GifWriter final : public FilmWriter {
     control.TransparentColor = quantized.transparent;
     std::array<GifByteType, 4> block{};
     EGifGCBToExtension(&control, block.data());
-    must(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
+    must(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
     const Owned<ColorMapObject, GifFreeMapObject> colors(
         GifMakeMapObject(static_cast<int>(quantized.palette.size()), quantized.palette.data()));
-    must(EGifPutImageDesc(file_, 0, 0, frame.width, frame.height, false, colors.get()));
+    must(EGifPutImageDesc(file_.get(), 0, 0, frame.width, frame.height, false, colors.get()));
     for (int row = 0; row < frame.height; ++row)
       must(EGifPutLine(
-          file_, &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(frame.width)],
+          file_.get(),
+          &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(frame.width)],
           frame.width));
     ++frames_;
   }
 
   void finish() override {
     int wrong = 0;
-    const int closed = EGifCloseFile(file_, &wrong);
-    file_ = nullptr;
-    must(closed);
+    must(EGifCloseFile(file_.release(), &wrong));
     write_file(out_, bytes_);
   }
 
@@ -124,7 +123,7 @@ class GifWriter final : public FilmWriter {
   Path out_;
   FilmShape shape_;
   std::string bytes_;
-  GifFileType* file_ = nullptr;
+  Owned<GifFileType, close> file_;
   int frames_ = 0;
 };
 

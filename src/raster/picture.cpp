@@ -61,18 +61,22 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
   return rasterized(job);
 }
 
-Box PictureMaker::shown_at(std::span<const double> times) {
+std::optional<Box> PictureMaker::shown_at(std::span<const double> times,
+                                          const std::function<bool()>& go_on) {
   Box box;
   if (source_) {
     box.include(0);
     box.include({static_cast<double>(source_->width), static_cast<double>(source_->height)});
   }
   if (!scene_.has_cage()) return box;
-  for (const double time : times)
+  for (const double time : times) {
+    if (!go_on()) return {};
     for (const Complex& z : map_at(time, false).f) box.include(z);
+  }
   // Operators in single precision are no reason for another row of pixels.
   constexpr double kRounding = 1e-3;
-  return {box.left + kRounding, box.bottom + kRounding, box.right - kRounding, box.top - kRounding};
+  return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,
+             box.top - kRounding};
 }
 
 }  // namespace holomorph

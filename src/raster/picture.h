@@ -1,6 +1,8 @@
 // A scene to a picture, as exported: prepare, pose, rasterize.
 #pragma once
 
+#include <functional>
+
 #include "raster/raster.h"
 #include "scene/live_map.h"
 
@@ -29,8 +31,9 @@ class PictureMaker {
 
   RasterResult picture(const PictureOptions& options);
   /// The part of the plane that all of these times need, with the picture's own rectangle: the same
-  /// for whoever draws some of them.
-  Box shown_at(std::span<const double> times);
+  /// for whoever draws some of them. `go_on` is asked before each; none when it says no.
+  std::optional<Box> shown_at(
+      std::span<const double> times, const std::function<bool()>& go_on = [] { return true; });
 
  private:
   SampledMap map_at(const std::optional<double>& time, bool derivatives);

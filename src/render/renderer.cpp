@@ -55,7 +55,7 @@ int mode_of(Placement placement) {
 }
 
 /// As the fragment shader counts them.
-enum class Coloring { picture, heat, checker, flat };
+enum class Coloring { picture, heat, checker, flat, ghost };
 
 void clear_canvas(const Frame& frame) {
   const int left = static_cast<int>(frame.canvas_left),
@@ -85,9 +85,9 @@ void clear_canvas(const Frame& frame) {
 struct Renderer::Objects {
   Program shaders = warp_program();
   GLuint program = shaders.id();
-  GLuint vertex_array = 0, quad_array = 0;
+  GLuint vertex_array = 0, quad_array = 0, ghost_array = 0;
   GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
-         feedback = 0;
+         feedback = 0, ghost = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0;
   double width = 0, height = 0;  ///< the picture's, in plane units
@@ -127,6 +127,19 @@ struct Renderer::Objects {
     glBindVertexArray(vertex_array);
     glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
   }
+  void draw_ghosts(const std::vector<Ghost>& ghosts) const {
+    constexpr float kStrength = 0.4f;
+    for (const Ghost& each : ghosts) {
+      check(static_cast<GLsizei>(each.positions.size()) == vertex_count,
+            "a position for each mesh vertex");
+      const std::vector<float> flat = pairs(each.positions);
+      upload(ghost, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
+      color(Coloring::ghost, each.tint, kStrength);
+      glUniform1i(at("mode"), mode_of(Placement::positions));
+      glBindVertexArray(ghost_array);
+      glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+    }
+  }
   /// The picture's rectangle.
   void draw_quad() const {
     glUniform1i(at("mode"), mode_of(Placement::at_rest));
@@ -161,24 +174,28 @@ Renderer::Renderer() {
   gl_ = std::make_unique<Objects>();
   Objects& gl = *gl_;
   for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix,
-                         &gl.controls, &gl.feedback})
+                         &gl.controls, &gl.feedback, &gl.ghost})
     glGenBuffers(1, buffer);
   for (GLuint* texture :
        {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture})
     glGenTextures(1, texture);
   glGenVertexArrays(1, &gl.vertex_array);
   glGenVertexArrays(1, &gl.quad_array);
+  glGenVertexArrays(1, &gl.ghost_array);
 
-  glBindVertexArray(gl.vertex_array);
   const auto attribute = [](GLuint buffer, GLuint location, GLint size) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, 0, nullptr);
   };
-  attribute(gl.rest, 0, 2);
-  attribute(gl.position, 1, 2);
-  attribute(gl.value, 2, 1);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.triangles);
+  for (const auto& [array, position] :
+       {std::pair(gl.vertex_array, gl.position), {gl.ghost_array, gl.ghost}}) {
+    glBindVertexArray(array);
+    attribute(gl.rest, 0, 2);
+    attribute(position, 1, 2);
+    attribute(gl.value, 2, 1);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.triangles);
+  }
   glBindVertexArray(gl.quad_array);
   attribute(gl.quad, 0, 2);
   glBindVertexArray(0);
@@ -196,14 +213,15 @@ Renderer::Renderer() {
 
 Renderer::~Renderer() {
   Objects& gl = *gl_;
-  for (const GLuint buffer :
-       {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix, gl.controls, gl.feedback})
+  for (const GLuint buffer : {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix,
+                              gl.controls, gl.feedback, gl.ghost})
     glDeleteBuffers(1, &buffer);
   for (const GLuint texture :
        {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture})
     glDeleteTextures(1, &texture);
   glDeleteVertexArrays(1, &gl.vertex_array);
   glDeleteVertexArrays(1, &gl.quad_array);
+  glDeleteVertexArrays(1, &gl.ghost_array);
 }
 
 int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
@@ -321,6 +339,7 @@ void Renderer::draw(const Frame& frame) {
   else if (picture)
     gl.draw_quad();
   if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings();
+  if (picture) gl.draw_ghosts(frame.ghosts);
   if (gl.index_count > 0 && (picture || frame.view != View::image)) {
     gl.color(frame.view == View::image     ? Coloring::picture
              : frame.view == View::checker ? Coloring::checker

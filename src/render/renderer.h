@@ -19,6 +19,12 @@ bool is_software_driver();
 /// How the vertices get their places.
 enum class Placement { at_rest, positions, by_operator };
 
+/// The picture once more, elsewhere, half transparent behind the drawn one.
+struct Ghost {
+  std::span<const Complex> positions;  ///< of the mesh's vertices
+  Color tint;
+};
+
 /// One drawing of the canvas. Window px have x to the right and y down.
 struct Frame {
   int window_width = 1, window_height = 1;  ///< of the framebuffer
@@ -29,6 +35,7 @@ struct Frame {
   bool diverging = false;  ///< the heat map's colours
   Placement placement = Placement::positions;
   bool wireframe = false;  ///< the mesh's edges over it
+  std::vector<Ghost> ghosts = {};
   bool map_alone = false;  ///< the mesh over nothing, opaque, in place of all of the picture
   Color background{0.2f, 0.2f, 0.2f},
       backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture

@@ -165,12 +165,15 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   return true;
 }
 
-Complex LiveMap::place_at(double time, Complex rest) {
+Points LiveMap::places_at(double time, std::span<const Complex> rest) {
+  Points places(rest.begin(), rest.end());
   motion_.follow(*posed_, shown_);
-  const auto at = locate(*shown_->mesh, shown_->mesh->vertices, rest);
-  if (!at || !motion_.plays()) return rest;
+  if (!motion_.plays()) return places;
   const VectorXc f = motion_.map_at(time);
-  return at->in(*shown_->mesh, {f.data(), static_cast<size_t>(f.size())});
+  for (Complex& z : places)
+    if (const auto at = locate(*shown_->mesh, shown_->mesh->vertices, z))
+      z = at->in(*shown_->mesh, {f.data(), static_cast<size_t>(f.size())});
+  return places;
 }
 
 SampledMap LiveMap::map_at_time(const Scene& scene, Wanted wanted) {

@@ -69,8 +69,8 @@ class LiveMap {
   /// The scene with its handles at the shown time; none where no time is shown.
   const std::optional<Scene>& timed() const { return timed_; }
   const Motion& motion() const { return motion_; }
-  /// Where the keyframes of the posed scene take a place at rest.
-  Complex place_at(double time, Complex rest);
+  /// Where the keyframes of the posed scene take places at rest; those outside the mesh stay.
+  Points places_at(double time, std::span<const Complex> rest);
   double pose_milliseconds() const { return pose_milliseconds_; }
   /// Grows by one whenever a newly prepared map is taken over.
   unsigned preparation() const { return preparation_; }

@@ -10,7 +10,6 @@ namespace holomorph {
 namespace {
 
 constexpr double kMostTurn = 1e3;  ///< radians: 159 times around
-constexpr int kMostTurns = 150;
 constexpr size_t kMostSegments = 5000, kMostPins = 2000, kMostStrokes = 200;
 constexpr std::array<const char*, 3> kEases{"smooth", "linear", "hold"};
 
@@ -136,6 +135,8 @@ Keyframe read_keyframe(const Reader& reader, const Scene& scene) {
   if (!scene.keyframes.empty() && scene.keyframes.back().time >= key.time)
     reader["time"].fail("keyframes must be in the order of their times, and no two at one time");
   key.pose = reader.has("pose") ? read_pose(reader["pose"], scene) : whole_pose_of(at_rest(scene));
+  if (reader.has("pose"))
+    key.pose_extra = reader["pose"].others({"cage", "pins", "strokes", "corners"});
   if (reader.has("ease")) {
     const std::string ease = reader["ease"].text();
     const auto found = std::ranges::find(kEases, ease);
@@ -152,7 +153,7 @@ AnimationSettings read_animation(const Reader& reader) {
   reader.object();
   AnimationSettings settings;
   if (reader.has("frames_per_second"))
-    settings.frames_per_second = reader["frames_per_second"].within(1, 240);
+    settings.frames_per_second = reader["frames_per_second"].within(kFewestFrames, kMostFrames);
   if (reader.has("in_betweens")) {
     const std::string what = reader["in_betweens"].text();
     if (what != "shapes" && what != "places")
@@ -194,6 +195,7 @@ Json keyframe_json(const Keyframe& key, const Scene& scene) {
   if (key.ease != Ease::smooth) item["ease"] = kEases[static_cast<size_t>(key.ease)];
   if (key.turns != 0) item["turns"] = key.turns;
   item["pose"] = pose_json(key.pose, scene);
+  add_extra(item["pose"], key.pose_extra);
   add_extra(item, key.extra);
   return item;
 }

@@ -64,7 +64,7 @@ struct Keyframe {
   Pose pose = {};
   Ease ease = Ease::smooth;
   int turns = 0;  ///< whole turns on the way from the key before, beyond the shortest
-  Extra extra = {};
+  Extra pose_extra = {}, extra = {};
   bool operator==(const Keyframe&) const = default;
 };
 
@@ -74,7 +74,10 @@ struct AnimationSettings {
   bool straight = false;  ///< in-betweens blend places instead of shapes, to compare
   bool operator==(const AnimationSettings&) const = default;
 };
-inline constexpr double kLongestTime = 3600;  ///< seconds
+inline constexpr double kLongestTime = 3600;                   ///< seconds
+inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< a second
+inline constexpr int kMostTurns = 150;                         ///< on the way to a keyframe
+inline constexpr size_t kMostKeyframes = 2000;
 
 /// All that is saved. rest and pose of the cage have the same number of segments; both are empty
 /// until a cage is drawn.

@@ -235,7 +235,6 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   }
   if (reader.has("keyframes")) {
     const Reader keys = reader["keyframes"].array();
-    constexpr size_t kMostKeyframes = 2000;
     if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
     for (size_t i = 0; i < keys.size(); ++i)
       scene.keyframes.push_back(read_keyframe(keys[i], scene));

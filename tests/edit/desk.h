@@ -10,6 +10,7 @@ namespace holomorph {
 struct Desk {
   Workspace workspace{MeshOptions{500}};
   std::vector<std::unique_ptr<Tool>> tools;
+  double now_ms = 0;
 
   explicit Desk(const Points& polygon = {}) {
     tools.push_back(select_tool());
@@ -34,6 +35,7 @@ struct Desk {
     input.px = workspace.viewport.px_at_plane(z);
     input.inside = true;
     input.mods = mods;
+    input.now_ms = now_ms;
     return input;
   }
   void hover(Complex z) { tool().input(at(z), workspace); }

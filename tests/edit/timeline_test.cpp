@@ -5,6 +5,7 @@
 
 #include "desk.h"
 #include "edit/actions.h"
+#include "edit/curve_edits.h"
 
 using namespace holomorph;
 
@@ -113,6 +114,37 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
   CHECK(desk.workspace.document.scene().keyframes.size() == 1);
 }
 
+TEST_CASE("Timeline: two drags of keys are two steps") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  const size_t steps = desk.steps();
+  Workspace& w = desk.workspace;
+  for (const double time : {1.25, 1.5}) {
+    w.carried_on.reset();  // as the panel does at a press
+    for (const double nearer : {time - 0.125, time})
+      w.commit_or_amend("Move key", with_key_moved(w.document.scene(), 1, nearer).first);
+  }
+  CHECK(desk.steps() == steps + 2);
+  act(desk, "edit.undo");
+  CHECK(w.document.scene().keyframes[1].time == 1.25);
+}
+
+TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
+  Desk desk(kBar);
+  Scene scene = desk.scene();
+  for (size_t i = 0; i < kMostKeyframes; ++i)
+    scene.keyframes.push_back({static_cast<double>(i), whole_pose_of(scene)});
+  REQUIRE(desk.workspace.commit("Many keys", scene));
+  desk.workspace.timeline.auto_key = true;
+  desk.workspace.timeline.time = 0.5;
+  Scene moved = scene;
+  moved.pose.segments[0][0] += 5.0;
+  CHECK_FALSE(desk.workspace.commit("Move", moved));
+  CHECK(desk.workspace.toasts.back().problem);
+  CHECK_FALSE(desk.workspace.amend(moved));
+  CHECK(desk.workspace.document.scene() == scene);
+}
+
 TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the time") {
   Desk desk(kBar);
   set_two_keys(desk);
@@ -121,12 +153,13 @@ TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the ti
   desk.workspace.commit("Method", other);
   CHECK(desk.workspace.timeline.shows);
   CHECK(desk.workspace.document.scene().pose.vertex(0) == 40.0);
-  // An inserted point goes into all keyframes.
+  // An inserted point goes into all keyframes; the own pose is then the shown one.
   desk.settle();
   desk.workspace.update_map({});
   desk.workspace.commit("Insert", inserted(desk.scene(), 0, 0.5));
   CHECK(playing_keys(desk.workspace.document.scene()).size() == 2);
   CHECK(desk.scene().keyframes[1].pose.cage.vertex(1) == Complex(190, 0));
+  CHECK(desk.workspace.document.scene().pose.vertex(0).real() == Approx(6.25).margin(0.01));
 }
 
 TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture is there") {
@@ -140,6 +173,121 @@ TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture 
   CHECK(playing_keys(scene).size() == 2);
   CHECK(std::abs(scene.keyframes[0].pose.pins[0].position - Complex(150, 50)) < 0.1);
   CHECK(std::abs(scene.keyframes[1].pose.pins[0].position - Complex(190, 50)) < 0.1);
+}
+
+TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the picture is there") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 1);
+  desk.workspace.tool = ToolId::stroke;
+  desk.draw({{120, 50}, {160, 52}, {220, 50}});
+  const Scene& scene = desk.workspace.document.scene();
+  REQUIRE(scene.strokes.size() == 1);
+  CHECK(playing_keys(scene).size() == 2);
+  const Points &first = scene.keyframes[0].pose.strokes[0],
+               &second = scene.keyframes[1].pose.strokes[0];
+  CHECK(std::abs(second.front() - Complex(120, 50)) < 0.1);
+  REQUIRE(first.size() == second.size());
+  for (size_t i = 0; i < first.size(); ++i)
+    CHECK(std::abs(second[i] - first[i] - Complex(40, 0)) < 0.1);
+}
+
+TEST_CASE("Timeline: the onion skin is the keys before and after") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 0.5);
+  CHECK(desk.workspace.onion_skins().empty());
+  act(desk, "time.onion");
+  const std::vector<OnionSkin> skins = desk.workspace.onion_skins();
+  REQUIRE(skins.size() == 2);
+  const double rest = desk.workspace.map.prepared()->mesh->vertices[0].real();
+  CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
+  CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
+  CHECK((skins[1].later && !skins[0].later));
+  go_to(desk, 0);
+  CHECK(desk.workspace.onion_skins().size() == 1);
+}
+
+namespace {
+
+/// Half a circle through (300, 100) in two seconds, with Ctrl, sixty times a second.
+Complex on_arc(double seconds) {
+  return Complex(250, 100) + std::polar(50.0, kPi / 2 * seconds);
+}
+
+void record(Desk& desk) {
+  constexpr Modifiers kCtrl{true, false, false};
+  desk.now_ms = 5000;
+  desk.press({300, 100}, kCtrl);
+  desk.move({300, 104}, kCtrl);  // the clock starts
+  for (int i = 1; i <= 120; ++i) {
+    desk.now_ms = 5000 + 1000.0 / 60 * i;
+    desk.move(on_arc(i / 60.0), kCtrl);
+    desk.workspace.update_map({});
+  }
+  desk.release(on_arc(2), kCtrl);
+  desk.workspace.update_map({});
+}
+
+}  // namespace
+
+TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs") {
+  Desk desk(kBar);
+  const size_t steps = desk.steps();
+  record(desk);
+  const Scene& scene = desk.workspace.document.scene();
+  CHECK(desk.steps() == steps + 1);
+  CHECK(scene.keyframes.size() >= 5);
+  CHECK(scene.keyframes.size() <= 15);
+  CHECK(scene.keyframes.front().time == 0);
+  CHECK(length_of(scene) == Approx(2).margin(0.03));
+  CHECK(scene.pose.vertex(2) == Complex(300, 100));  // its own pose stays
+  CHECK(desk.workspace.timeline.shows);
+  for (const double time : {0.3, 0.77, 1.31, 1.9}) {
+    go_to(desk, time);
+    INFO("at " << time << " s");
+    // Half a frame's length along the arc, and what few keys may be off.
+    CHECK(std::abs(desk.scene().pose.vertex(2) - on_arc(time)) < 1.6 + 2);
+  }
+  act(desk, "edit.undo");
+  CHECK(desk.workspace.document.scene().keyframes.empty());
+}
+
+TEST_CASE("Timeline: what moves already goes on under a recording") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 0);
+  record(desk);
+  const Scene& scene = desk.workspace.document.scene();
+  REQUIRE(scene.keyframes.size() > 3);
+  const size_t there = key_at(scene, 1);
+  REQUIRE(there < scene.keyframes.size());
+  CHECK(scene.keyframes[there].pose.cage.vertex(0) == Complex(40, 0));
+  CHECK(std::abs(scene.keyframes[there].pose.cage.vertex(2) - on_arc(1)) < 1.6);
+  CHECK(scene.keyframes.back().pose.cage.vertex(0) == Complex(40, 0));
+  go_to(desk, 0.5);
+  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(2));
+}
+
+TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing") {
+  Desk desk(kBar);
+  constexpr Modifiers kCtrl{true, false, false};
+  const size_t steps = desk.steps();
+  desk.press({300, 100}, kCtrl);
+  desk.now_ms = 700;
+  desk.move({320, 120}, kCtrl);
+  CHECK(desk.workspace.timeline.recording);
+  CHECK(desk.workspace.timeline.time == 0);
+  desk.now_ms = 1200;
+  desk.move({330, 120}, kCtrl);
+  CHECK(desk.workspace.timeline.time == Approx(0.5));
+  desk.tool().key(Key::escape, desk.workspace);
+  CHECK_FALSE(desk.workspace.timeline.recording);
+  CHECK(desk.workspace.timeline.time == 0);
+  CHECK(desk.steps() == steps);
+  desk.click({300, 100}, kCtrl);
+  CHECK(desk.scene().keyframes.empty());
+  CHECK(is_smooth(desk.scene(), 2, Layer::pose));
 }
 
 TEST_CASE("Timeline: time goes on, loops, and stops at the end") {

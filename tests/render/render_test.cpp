@@ -119,6 +119,34 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
   }
 }
 
+TEST_CASE("Ghosts of the picture are tinted, half transparent and behind it") {
+  constexpr int kSide = 60;
+  const Context context(kSide, kSide);
+  Renderer renderer;
+  Image white(20, 20);
+  for (std::uint8_t& value : white.pixels) value = 255;
+  renderer.set_picture(20, 20, white.pixels.data());
+  const Mesh mesh = domain_mesh(polygon_cage(Points{{0, 0}, {20, 0}, {20, 20}, {0, 20}}), {100});
+  renderer.set_mesh(&mesh);
+  std::vector<Complex> moved = mesh.vertices;
+  for (Complex& z : moved) z += 20.0;
+  Frame frame;
+  frame.window_width = frame.window_height = kSide;
+  frame.canvas_width = frame.canvas_height = kSide;
+  frame.center = {30, 30};
+  frame.background = frame.backdrop = {0, 0, 0};
+  frame.ghosts = {{mesh.vertices, {1, 0, 0}}, {moved, {1, 0, 0}}};
+  renderer.draw(frame);
+  Image shown(kSide, kSide);
+  read_framebuffer(kSide, kSide, shown.pixels.data());
+  const std::uint8_t *drawn = shown.at(10, 49), *ghost = shown.at(30, 49),
+                     *beside = shown.at(50, 49);
+  CHECK((drawn[0] == 255 && drawn[1] == 255));
+  CHECK(static_cast<int>(ghost[0]) == Approx(0.4 * 255).margin(2));
+  CHECK(static_cast<int>(ghost[1]) == Approx(0.2 * 255).margin(2));
+  CHECK((beside[0] == 0 && beside[1] == 0));
+}
+
 TEST_CASE("A picture beyond the driver's textures is shown reduced, in its own place") {
   const Context context(64, 64);
   Renderer renderer;

@@ -56,6 +56,7 @@ TEST_CASE("Keyframes survive writing and reading, whatever their structure") {
   scene.keyframes[1].ease = Ease::hold;
   scene.keyframes[2].turns = -2;
   scene.keyframes[2].extra = R"({"mood":"glad"})";
+  scene.keyframes[1].pose_extra = R"({"wind":3})";
   scene.keyframes[0].pose.pins.clear();  // another structure
   scene.animation = {30, true};
   scene.animation_extra = R"({"loop":true})";
