@@ -261,6 +261,7 @@ class Editor {
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
       if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
+      if (workspace_.timeline.recording) status.hint = recording_hint(workspace_.timeline);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
         status.cursor_at_rest = workspace_.rest_at(input.position);

@@ -80,25 +80,22 @@ BoundaryAngles boundary_angles(const Cage& rest, const Cage& pose,
         "boundary angles: pose and rest fit");
   const Turns at_rest = turns_of(rest, nullptr), posed = turns_of(pose, &at_rest);
   const size_t n = static_cast<size_t>(rest.size()), p = corners.size();
-  // Of each segment, at its start and end.
-  std::vector<double> starts(n), ends(n);
+  std::vector<double> starts(n);  // of each segment
   double angle = angle_between(at_rest.segments[0].start, posed.segments[0].start);
   for (size_t e = 0; e < n; ++e) {
     if (e > 0) angle += posed.vertices[e] - at_rest.vertices[e];
     starts[e] = angle;
     angle += posed.segments[e].turn - at_rest.segments[e].turn;
-    ends[e] = angle;
   }
   BoundaryAngles angles;
   angles.theta.resize(2 * static_cast<Index>(p));
   VectorXd jumps(static_cast<Index>(p));
   for (size_t k = 0; k < p; ++k) {
     const size_t j = static_cast<size_t>(corners[k]);
-    // At the first vertex the way around may have brought whole turns, which are no jump.
     const double after = starts[j] + own[k].after,
                  jump = posed.vertices[j] - at_rest.vertices[j] + own[k].after - own[k].before;
     jumps[static_cast<Index>(k)] = jump;
-    angles.theta[static_cast<Index>(2 * k)] = j == 0 ? ends[n - 1] + own[k].before : after - jump;
+    angles.theta[static_cast<Index>(2 * k)] = after - jump;
     angles.theta[static_cast<Index>(2 * k + 1)] = after;
   }
   for (size_t k = 0; k < p; ++k) {

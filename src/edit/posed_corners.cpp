@@ -82,7 +82,9 @@ std::optional<Index> posed_vertex_at(const Workspace& workspace, Complex px) {
   double distance = workspace.handle_px;
   for (Index v = 0; v < workspace.scene().pose.size(); ++v) {
     const double here = std::abs(workspace.viewport.px_at_plane(posed_vertex(workspace, v)) - px);
-    if (here < distance) best = v, distance = here;
+    if (here >= distance) continue;
+    best = v;
+    distance = here;
   }
   return best;
 }
@@ -95,7 +97,9 @@ std::optional<Index> posed_segment_at(const Workspace& workspace, Complex px) {
     const Points line = posed_segment(workspace, s);
     for (size_t i = 0; i + 1 < line.size(); ++i) {
       const double here = nearest_on_segment(line[i], line[i + 1], z).distance;
-      if (here < distance) best = s, distance = here;
+      if (here >= distance) continue;
+      best = s;
+      distance = here;
     }
   }
   return best;

@@ -58,7 +58,9 @@ std::vector<size_t> Recording::needed(double tolerance) const {
       for (size_t h = 0; h < here.handles.size(); ++h) {
         const double off =
             std::abs(here.handles[h] - (1 - share) * a.handles[h] - share * b.handles[h]);
-        if (off > most) worst = i, most = off;
+        if (off <= most) continue;
+        worst = i;
+        most = off;
       }
     }
     if (worst > first) {
@@ -73,7 +75,7 @@ std::vector<size_t> Recording::needed(double tolerance) const {
 }
 
 void Recording::finish(Workspace& workspace) {
-  constexpr double kTolerancePx = 1.5;
+  constexpr double kTolerancePx = 3;
   if (last_.time > samples_.back().time) {
     const double frame = 1 / start_.animation.frames_per_second;
     last_.time = std::min(kLongestTime, frame * std::ceil(last_.time / frame));
@@ -106,6 +108,13 @@ void Recording::cancel(Workspace& workspace) {
   samples_.clear();
   workspace.timeline.recording = false;
   workspace.timeline.time = start_time_;
+}
+
+std::string recording_hint(const Timeline& timeline) {
+  char text[64];
+  std::snprintf(text, sizeof text, "Recording, %.1f s; release to set the keys, Esc drops them",
+                timeline.time);
+  return text;
 }
 
 }  // namespace holomorph

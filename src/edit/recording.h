@@ -14,7 +14,7 @@ class Recording {
   /// The scene at this moment with the handles by `by` from where they were at the start. The
   /// workspace's time goes along.
   Scene follow(Workspace& workspace, Complex by, double now_ms);
-  /// Sets the keyframes, as few as keep handles within a window pixel and a half of their ways
+  /// Sets the keyframes, as few as keep handles within three window pixels of their ways
   /// were they even between, as one step; those that were there in that time keep theirs.
   void finish(Workspace& workspace);
   void cancel(Workspace& workspace);
@@ -31,9 +31,12 @@ class Recording {
   Selection what_;
   Scene start_;  ///< what was shown
   double start_time_ = 0, start_ms_ = 0;
-  bool over_keys_ = false;  ///< keyframes are what was shown
+  bool over_keys_ = false;       ///< keyframes are what was shown
   std::vector<Sample> samples_;  ///< the first of each frame
   Sample last_;
 };
+
+/// What to say meanwhile.
+std::string recording_hint(const Timeline& timeline);
 
 }  // namespace holomorph

@@ -66,9 +66,7 @@ class SelectTool final : public Tool {
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage())
       return "Draw a cage with P, or make one from the picture (Cage menu)";
-    if (drag_.active())
-      return workspace.timeline.recording ? "Recording: release to set the keys"
-                                          : "Shift keeps the axis";
+    if (drag_.active()) return "Shift keeps the axis";
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";

@@ -296,7 +296,9 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
         Polyline(without_repeats(curve_of(scene, handle.index, workspace.layer)), false)
             .nearest(workspace.viewport.plane_at_px(px))
             .distance;
-    if (here < distance) best = handle, distance = here;
+    if (here >= distance) continue;
+    best = handle;
+    distance = here;
   }
   return best;
 }

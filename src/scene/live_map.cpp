@@ -180,8 +180,7 @@ SampledMap LiveMap::map_at_time(const Scene& scene, Wanted wanted) {
   SampledMap map;
   map.f = motion_.map_at(*time_);
   timed_ = motion_.scene_at(scene, *time_, map.f);
-  if (motion_.error())
-    map.note = "a keyframe does not play: " + std::string(motion_.error()->what());
+  if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
   if (!wanted.derivatives) return map;
   VertexDerivatives derivatives = vertex_derivatives(*shown_->mesh, map.f);
   map.fz = std::move(derivatives.fz);

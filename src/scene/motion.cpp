@@ -65,8 +65,10 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   bool changed = straight_ != scene.animation.straight;
   straight_ = scene.animation.straight;
   if (prepared != prepared_) {
-    if (!between_ || &between_->mesh() != prepared->mesh.get())
-      between_.emplace(prepared->mesh), locations_.clear();
+    if (!between_ || &between_->mesh() != prepared->mesh.get()) {
+      between_.emplace(prepared->mesh);
+      locations_.clear();
+    }
     prepared_ = prepared;
     keys_.clear();
     changed = true;
@@ -86,7 +88,9 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
         prepared->deformer->deform(pose_of(posed_as(scene, frame.pose)), map, {});
         key.shape.f = std::move(map.f);
       } catch (const Error& error) {
-        if (!wrong) wrong = error;
+        char when[48];
+        std::snprintf(when, sizeof when, "the keyframe at %.2f s: ", frame.time);
+        if (!wrong) wrong = Error(error.kind(), when + std::string(error.what()), error.where());
         continue;
       }
     }

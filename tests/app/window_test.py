@@ -555,6 +555,7 @@ class WindowTest(unittest.TestCase):
             names = ["walk-000%d.png" % i for i in range(3)]
             editor.wait(lambda s: all(os.path.exists(os.path.join(self.work, n)) for n in names), "three frames", 20)
             self.assertFalse(os.path.exists(os.path.join(self.work, "walk-0003.png")))
+            time.sleep(1)  # until the window that shows the progress is gone
             frames = [Image.open(os.path.join(self.work, n)) for n in names]
             self.assertEqual(len({frame.size for frame in frames}), 1)
             self.save_as(editor, os.path.join(self.work, "walk.json"))
@@ -562,6 +563,70 @@ class WindowTest(unittest.TestCase):
         self.assertEqual(len(saved["keyframes"]), 2)
         turns = [corner["before"] for corner in saved["keyframes"][1]["pose"]["corners"]]
         self.assertEqual([turn > 1 for turn in turns], [False, True, True, False])
+
+    def test_motion_is_recorded_and_its_keys_are_seen_around(self):
+        Image.effect_mandelbrot((320, 120), (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "bar.png"))
+        cage = [[10, 10], [310, 10], [310, 110], [10, 110]]
+        scene = os.path.join(self.work, "bar.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "bar.png"},
+                       "cage": {"rest": [[p] for p in cage]}}, file)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            # A corner goes up and back while Ctrl is held, by the clock.
+            editor.move(310, 110)
+            editor.xdotool("keydown", "ctrl")
+            editor.xdotool("mousedown", 1)
+            for y in (130, 150, 170, 190, 210):
+                editor.move(330, y)
+            time.sleep(0.3)  # nothing moves, and time goes on
+            self.screenshot(editor, "recording")
+            for y in (180, 150, 130):
+                editor.move(310, y)
+            editor.xdotool("mouseup", 1)
+            editor.xdotool("keyup", "ctrl")
+            state = editor.wait(lambda s: s["keys"] >= 3 and s["shows_time"], "keys")
+            self.assertGreater(state["time"], 1.2)
+            self.assertEqual(state["history"], 2)  # one step
+            self.assertLess(state["keys"], 20)
+            # The keys before and after are seen around a time between them.
+            plain = self.screenshot(editor, "no-onion")
+            editor.key("ctrl+shift+p")
+            time.sleep(0.3)
+            editor.type("onion")
+            editor.key("Return")
+            time.sleep(0.5)
+            for _ in range(3):
+                editor.key("comma")
+            time.sleep(0.4)
+            onion = self.screenshot(editor, "onion")
+            left, top, width, height = (int(state[k]) for k in ("left", "top", "width", "height"))
+            view = numpy.s_[top:top + height, left:left + width]
+            self.assertGreater((numpy.abs(onion - plain)[view].max(axis=2) > 30).mean(), 0.003)
+            # Frames that are there already are asked about.
+            path = os.path.join(self.work, "clip.png")
+            first = os.path.join(self.work, "clip-0000.png")
+            with open(first, "w") as file:
+                file.write("mine")
+            editor.key("ctrl+shift+p")
+            time.sleep(0.3)
+            editor.type("film")
+            editor.key("Return")
+            time.sleep(0.4)
+            editor.key("ctrl+a")
+            editor.type(path)
+            editor.key("Return")
+            time.sleep(0.5)
+            with open(first) as file:
+                self.assertEqual(file.read(), "mine")
+            editor.key("Return")  # Replace
+            end = time.time() + 20
+            while os.path.getsize(first) < 100 and time.time() < end:
+                time.sleep(0.1)
+            self.assertEqual(Image.open(first).format, "PNG")
+            time.sleep(1)
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["keys"] == 0, "no keys after one undo")
 
     def test_a_stroke_is_drawn_and_its_pose_dragged(self):
         with Editor(PROGRAM, [self.picture]) as editor:

@@ -1,0 +1,122 @@
+// A pose's mirror image: everything takes what its counterpart at rest has.
+#include "core/error.h"
+#include "scene/keyframes.h"
+
+namespace holomorph {
+namespace {
+
+/// Left to right through the middle of a scene's cage at rest.
+class Mirror {
+ public:
+  explicit Mirror(const Scene& scene) {
+    const Box box = box_of(outline_of(scene.rest));
+    axis_ = box.center().real();
+    far_ = 0.02 * box.diagonal();
+  }
+
+  Complex operator()(Complex z) const { return {2 * axis_ - z.real(), z.imag()}; }
+  Points operator()(Points line) const {
+    for (Complex& z : line) z = (*this)(z);
+    return line;
+  }
+  /// Which of these places lies where the mirror takes z.
+  size_t counterpart(const Points& places, Complex z, const char* what) const {
+    const Complex wanted = (*this)(z);
+    const auto nearest =
+        std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });
+    if (std::abs(*nearest - wanted) > far_)
+      throw Error(ErrorKind::bad_input,
+                  std::string("the pose cannot be mirrored: a ") + what +
+                      " has no counterpart on the other side of the cage's middle",
+                  z);
+    return static_cast<size_t>(nearest - places.begin());
+  }
+
+ private:
+  double axis_ = 0, far_ = 0;
+};
+
+Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
+  const Points vertices = vertices_of(rest);
+  const size_t n = vertices.size();
+  Cage result;
+  for (size_t e = 0; e < n; ++e) {
+    // The mirrored cage runs the other way: segment e's counterpart starts at its end's.
+    const size_t start = mirror.counterpart(vertices, vertices[e], "cage point"),
+                 end = mirror.counterpart(vertices, vertices[(e + 1) % n], "cage point");
+    if ((end + 1) % n != start)
+      throw Error(ErrorKind::bad_input,
+                  "the pose cannot be mirrored: the cage's two sides have different points",
+                  vertices[e]);
+    Points controls = pose.controls(static_cast<Index>(end));
+    std::ranges::reverse(controls);
+    controls.pop_back();
+    result.segments.push_back(mirror(std::move(controls)));
+  }
+  return result;
+}
+
+std::vector<PosePin> mirrored_pins(const Mirror& mirror, const std::vector<Pin>& pins,
+                                   const std::vector<PosePin>& posed) {
+  Points places;
+  for (const Pin& pin : pins) places.push_back(pin.rest);
+  std::vector<PosePin> result;
+  for (const Complex& z : places) {
+    const PosePin& other = posed[mirror.counterpart(places, z, "pin")];
+    result.push_back({mirror(other.position), -other.angle, other.scale});
+  }
+  return result;
+}
+
+std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Stroke>& strokes,
+                                     const std::vector<Points>& posed) {
+  Points middles;
+  for (const Stroke& stroke : strokes) middles.push_back(stroke.rest[stroke.rest.size() / 2]);
+  std::vector<Points> result;
+  for (size_t i = 0; i < strokes.size(); ++i) {
+    const size_t other = mirror.counterpart(middles, middles[i], "stroke");
+    result.push_back(mirror(posed[other]));
+    // Drawn the other way round, its start is the other one's end.
+    const Points &rest = strokes[i].rest, &theirs = strokes[other].rest;
+    if (std::abs(mirror(theirs.back()) - rest.front()) <
+        std::abs(mirror(theirs.front()) - rest.front()))
+      std::ranges::reverse(result.back());
+  }
+  return result;
+}
+
+std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Scene& scene,
+                                         const std::vector<PoseCorner>& posed) {
+  const Points vertices = vertices_of(scene.rest);
+  const size_t count = posed.size();
+  std::vector<PoseCorner> result;
+  for (size_t k = 0; k < count; ++k) {
+    const Index vertex = static_cast<Index>(
+        mirror.counterpart(vertices, scene.rest.vertex(scene.corners[k].vertex), "cage point"));
+    const auto other = std::ranges::find(scene.corners, vertex, &Corner::vertex);
+    if (other == scene.corners.end())
+      throw Error(ErrorKind::bad_input,
+                  "the pose cannot be mirrored: a corner's counterpart is none",
+                  scene.rest.vertex(vertex));
+    const size_t at = static_cast<size_t>(other - scene.corners.begin());
+    // What comes after a corner comes before its counterpart.
+    result.push_back(
+        {-posed[at].after, -posed[at].before, posed[(at + count - 1) % count].tension});
+  }
+  return result;
+}
+
+}  // namespace
+
+Pose mirrored(const Scene& scene, const Pose& pose) {
+  check(fits(scene, pose), "mirrored: the pose fits");
+  const Mirror mirror(scene);
+  Pose result = pose;
+  result.cage = mirrored_cage(mirror, scene.rest, pose.cage);
+  result.pins = mirrored_pins(mirror, scene.pins, pose.pins);
+  result.strokes = mirrored_strokes(mirror, scene.strokes, pose.strokes);
+  result.corners = mirrored_corners(mirror, scene, pose.corners);
+  return result;
+}
+
+}  // namespace holomorph
