@@ -1,0 +1,136 @@
+// Menu Cage: the cage, and what the method does with it.
+#include "edit/actions/groups.h"
+#include "edit/corner_edits.h"
+#include "edit/curve_edits.h"
+#include "edit/tool.h"
+#include "scene/auto_cage.h"
+
+namespace holomorph {
+namespace {
+
+bool has_image(const Workspace& w) {
+  return w.document.image() != nullptr;
+}
+bool has_cage_selection(const Workspace& w) {
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::cage && handle.control == 0) return true;
+  return false;
+}
+
+void make_cage(Workspace& w) {
+  Cage cage = auto_cage(*w.document.image(),
+                        {w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved});
+  if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)))) {
+    w.layer = Layer::pose;
+    w.tool = ToolId::select;
+    w.selection.clear();
+  }
+}
+
+void switch_layer(Workspace& w) {
+  w.layer = w.layer == Layer::pose ? Layer::rest : Layer::pose;
+  w.prune_selection();
+}
+
+bool converges(const Workspace& w) {
+  return w.map.map().energies.size() > 1;
+}
+
+// Glyphs of Font Awesome 4.
+constexpr const char* kMagic = "\uf0d0";
+
+}  // namespace
+
+std::vector<Action> cage_actions() {
+  return {
+      {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
+      {"cage.rest",
+       "Show and edit the rest shape",
+       "",
+       "Cage",
+       {Key::tab},
+       has_cage,
+       switch_layer,
+       [](const Workspace& w) { return w.layer == Layer::rest; }},
+      {"cage.corner",
+       "Smooth point or corner",
+       "",
+       "Cage",
+       {'C'},
+       has_cage_selection,
+       toggle_corners},
+      {"cage.all_corners",
+       "All points are corners with angles",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) { return !w.scene().corners.empty(); },
+       [](Workspace& w) { w.commit("All corners", with_all_corners(w.scene())); }},
+      {"cage.bake",
+       "Pose the cage as the pins do",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) {
+         return w.scene().has_cage() && method_named(w.scene().method).uses_pins &&
+                !w.scene().pins.empty();
+       },
+       [](Workspace& w) { w.commit("Pose by pins", baked(w.scene())); }},
+      {"cage.raise",
+       "Raise the curves' degree",
+       "",
+       "Cage",
+       {},
+       has_cage,
+       [](Workspace& w) { w.commit("Raise degree", raised(w.scene(), w.selection, w.layer)); }},
+      {"cage.lower",
+       "Lower the curves' degree",
+       "",
+       "Cage",
+       {},
+       has_cage,
+       [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.layer)); }},
+      {"map.fold_free",
+       "Make it fold-free",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) {
+         return w.document.scene().has_cage() && w.scene().method != "bounded";
+       },
+       [](Workspace& w) { w.commit("Make fold-free", fold_free(w.scene())); }},
+      {"map.play",
+       "Watch the map converge",
+       "",
+       "Cage",
+       {},
+       converges,
+       [](Workspace& w) {
+         Playback& p = w.playback;
+         p.playing = !p.playing;
+         if (p.playing && !p.iteration) p.iteration = 0;
+       },
+       [](const Workspace& w) { return w.playback.playing; }},
+      {"map.step",
+       "One iteration more",
+       "",
+       "Cage",
+       {},
+       [](const Workspace& w) { return converges(w) && w.playback.iteration; },
+       [](Workspace& w) {
+         const int last = static_cast<int>(w.map.map().energies.size()) - 1,
+                   next = w.playback.iteration.value_or(-1) + 1;
+         w.playback = {};
+         if (next < last) w.playback.iteration = next;
+       }},
+      {"map.restart",
+       "Back to the first iteration",
+       "",
+       "Cage",
+       {},
+       converges,
+       [](Workspace& w) { w.playback = {0}; }},
+  };
+}
+
+}  // namespace holomorph

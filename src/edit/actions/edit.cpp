@@ -1,0 +1,179 @@
+// Menus Edit and Tools, and the arrow keys.
+#include "edit/actions/groups.h"
+
+namespace holomorph {
+namespace {
+
+template <ToolId tool>
+void choose(Workspace& w) {
+  w.tool = tool;
+}
+template <ToolId tool>
+bool chosen(const Workspace& w) {
+  return w.tool == tool;
+}
+
+/// Arrow keys.
+template <int dx, int dy, int tenths>
+void nudge(Workspace& w) {
+  const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
+  w.commit_or_amend("Nudge", moved(w.scene(), w.selection, by, w.layer));
+}
+
+void select_all(Workspace& w) {
+  const auto all = handles_of(w.scene(), w.layer);
+  w.selection = Selection(all.begin(), all.end());
+}
+
+template <Refit refit>
+void erase_selection(Workspace& w) {
+  w.erase(Selection(w.selection), refit);
+}
+
+void reset_selection(Workspace& w) {
+  w.commit(w.selection.empty() ? "Reset pose" : "Reset selection", reset(w.scene(), w.selection));
+}
+
+void free_pin_angles(Workspace& w) {
+  Scene scene = w.scene();
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::pin) scene.pins[handle.index].angle.reset();
+  w.commit("Free pin angle", scene);
+}
+
+bool has_turned_pin(const Workspace& w) {
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.layer) &&
+        w.scene().pins[handle.index].angle)
+      return true;
+  return false;
+}
+
+bool can_undo(const Workspace& w) {
+  return !w.preview && w.document.history().can_undo();
+}
+bool can_redo(const Workspace& w) {
+  return !w.preview && w.document.history().can_redo();
+}
+void undo(Workspace& w) {
+  w.go_to(w.document.history().index() - 1);
+}
+void redo(Workspace& w) {
+  w.go_to(w.document.history().index() + 1);
+}
+
+/// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
+template <int dx, int dy>
+void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
+  const auto add = [&](const char* id, const char* by, Modifiers mods, void (*run)(Workspace&)) {
+    all.push_back({"edit.nudge_" + where + id,
+                   "Nudge " + where + by,
+                   "",
+                   "",
+                   {{key, mods}},
+                   has_selection,
+                   run});
+  };
+  add("", "", {}, nudge<dx, dy, 10>);
+  add("_10", " by 10", kShift, nudge<dx, dy, 100>);
+  add("_fine", " by 0.1", kCtrl, nudge<dx, dy, 1>);
+}
+
+// Glyphs of Font Awesome 4.
+constexpr const char *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
+                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf14e",
+                     *kStroke = "\uf1fc", *kReset = "\uf0e2";
+
+}  // namespace
+
+std::vector<Action> edit_actions() {
+  std::vector<Action> all{
+      {"edit.undo", "Undo", kUndo, "Edit", {{'Z', kCtrl}}, can_undo, undo},
+      {"edit.redo", "Redo", kRedo, "Edit", {{'Z', kCtrlShift}, {'Y', kCtrl}}, can_redo, redo},
+      {"edit.select_all", "Select all", "", "Edit", {{'A', kCtrl}}, has_cage, select_all},
+      {"edit.select_none",
+       "Select none",
+       "",
+       "Edit",
+       {{'D', kCtrl}},
+       has_selection,
+       [](Workspace& w) { w.selection.clear(); }},
+      {"edit.delete",
+       "Delete selection",
+       kTrash,
+       "Edit",
+       {Key::del, Key::backspace},
+       has_selection,
+       erase_selection<Refit::curve>},
+      {"edit.delete_plain",
+       "Delete, keep the neighbours' tangents",
+       "",
+       "Edit",
+       {{Key::del, kShift}},
+       has_selection,
+       erase_selection<Refit::tangents>},
+      {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
+      {"edit.remove_outline",
+       "Remove the outline",
+       "",
+       "Edit",
+       {},
+       [](const Workspace& w) { return !w.scene().outline.empty(); },
+       [](Workspace& w) {
+         Scene scene = w.document.scene();
+         scene.outline.clear();
+         scene.surface.reset();
+         if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
+         w.commit("Remove outline", scene);
+       }},
+      {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
+      {"tool.select",
+       "Select and move",
+       kPointer,
+       "Tools",
+       {'V'},
+       always,
+       choose<ToolId::select>,
+       chosen<ToolId::select>},
+      {"tool.pen",
+       "Pen: draw a cage, insert points",
+       kPen,
+       "Tools",
+       {'P'},
+       always,
+       choose<ToolId::pen>,
+       chosen<ToolId::pen>},
+      {"tool.pin", "Pin", kPin, "Tools", {'N'}, always, choose<ToolId::pin>, chosen<ToolId::pin>},
+      {"tool.stroke",
+       "Stroke: draw lines on the picture and reshape them",
+       kStroke,
+       "Tools",
+       {'S'},
+       always,
+       choose<ToolId::stroke>,
+       chosen<ToolId::stroke>},
+      {"tool.outline",
+       "Outline: draw the shape that the picture goes onto",
+       kOutline,
+       "Tools",
+       {'O'},
+       always,
+       choose<ToolId::outline>,
+       chosen<ToolId::outline>},
+      {"tool.angle",
+       "Angles: turn corners, open and shut them",
+       kAngle,
+       "Tools",
+       {'A'},
+       always,
+       choose<ToolId::angle>,
+       chosen<ToolId::angle>},
+  };
+  add_nudges<-1, 0>(all, "left", Key::left);
+  add_nudges<1, 0>(all, "right", Key::right);
+  add_nudges<0, 1>(all, "up", Key::up);
+  add_nudges<0, -1>(all, "down", Key::down);
+  return all;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,40 @@
+// What the files of the action table share.
+#pragma once
+
+#include "edit/actions.h"
+
+namespace holomorph {
+
+std::vector<Action> file_actions();
+std::vector<Action> edit_actions();
+std::vector<Action> cage_actions();
+std::vector<Action> time_actions();
+std::vector<Action> view_actions();
+
+inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false},
+    kCtrlShift{true, true, false};
+
+inline bool always(const Workspace&) {
+  return true;
+}
+inline bool has_cage(const Workspace& w) {
+  return w.scene().has_cage();
+}
+inline bool has_surface(const Workspace& w) {
+  return w.scene().surface.has_value();
+}
+inline bool has_content(const Workspace& w) {
+  return w.scene().has_cage() || w.document.image();
+}
+inline bool has_selection(const Workspace& w) {
+  return !w.selection.empty();
+}
+inline bool plays(const Workspace& w) {
+  return playing_keys(w.document.scene()).size() > 1;
+}
+template <Request request>
+void ask(Workspace& w) {
+  w.request = request;
+}
+
+}  // namespace holomorph

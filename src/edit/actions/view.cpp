@@ -1,0 +1,157 @@
+// Menus View and Help.
+#include "edit/actions/groups.h"
+
+namespace holomorph {
+namespace {
+
+template <View view>
+void look(Workspace& w) {
+  w.view = view;
+}
+template <View view>
+bool looks(const Workspace& w) {
+  return w.view == view;
+}
+
+void zoom_by(Workspace& w, double factor) {
+  w.viewport.zoom_at(
+      {w.viewport.left + w.viewport.width / 2, w.viewport.top + w.viewport.height / 2}, factor);
+}
+
+void frame_selection(Workspace& w) {
+  Box box;
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::stroke)
+      for (const Complex& z : curve_of(w.scene(), handle.index, w.layer)) box.include(z);
+    else
+      box.include(position_of(w.scene(), handle, w.layer));
+  const double least = 60;  // one point alone is shown with its surroundings
+  if (!box.empty()) {
+    const Complex center = box.center();
+    box.include(center + Complex(least, least));
+    box.include(center - Complex(least, least));
+  }
+  w.viewport.fit(box.empty() ? w.content_box() : box);
+}
+
+// Glyphs of Font Awesome 4.
+constexpr const char *kFilm = "\uf008", *kFit = "\uf065", *kHelp = "\uf059", *kSearch = "\uf002";
+
+}  // namespace
+
+std::vector<Action> view_actions() {
+  return {
+      {"view.image", "Picture", "", "View", {'1'}, always, look<View::image>, looks<View::image>},
+      {"view.angle",
+       "Angle distortion",
+       "",
+       "View",
+       {'2'},
+       has_cage,
+       look<View::angle>,
+       looks<View::angle>},
+      {"view.area", "Area", "", "View", {'3'}, has_cage, look<View::area>, looks<View::area>},
+      {"view.stretch",
+       "Largest stretch",
+       "",
+       "View",
+       {'4'},
+       has_cage,
+       look<View::stretch>,
+       looks<View::stretch>},
+      {"view.checker",
+       "Checker",
+       "",
+       "View",
+       {'5'},
+       has_cage,
+       look<View::checker>,
+       looks<View::checker>},
+      {"view.compare",
+       "Compare with other projections",
+       "",
+       "View",
+       {},
+       [](const Workspace& w) {
+         return w.document.scene().has_cage() && w.scene().method == "bounded";
+       },
+       ask<Request::compare>},
+      {"view.mesh",
+       "Mesh",
+       "",
+       "View",
+       {'M'},
+       has_cage,
+       [](Workspace& w) { w.show_mesh = !w.show_mesh; },
+       [](const Workspace& w) { return w.show_mesh; }},
+      {"view.timeline",
+       "Timeline",
+       kFilm,
+       "View",
+       {'T'},
+       has_cage,
+       [](Workspace& w) { w.timeline.visible = !w.timeline.visible; },
+       [](const Workspace& w) { return w.timeline.visible; }},
+      {"view.surface",
+       "Surface in space",
+       "",
+       "View",
+       {},
+       has_surface,
+       [](Workspace& w) { w.show_surface = !w.show_surface; },
+       [](const Workspace& w) { return w.shows_surface(); }},
+      {"view.overlays",
+       "Cage and pins",
+       "",
+       "View",
+       {'0'},
+       always,
+       [](Workspace& w) { w.show_cage = !w.show_cage; },
+       [](const Workspace& w) { return w.show_cage; }},
+      {"view.frame", "Frame selection", "", "View", {'F'}, has_content, frame_selection},
+      {"view.fit",
+       "Fit all",
+       kFit,
+       "View",
+       {{'F', kShift}, {'0', kCtrl}},
+       has_content,
+       [](Workspace& w) { w.viewport.fit(w.content_box()); }},
+      {"view.actual",
+       "100 %",
+       "",
+       "View",
+       {{'1', kCtrl}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 1 / w.viewport.zoom); }},
+      {"view.zoom_in",
+       "Zoom in",
+       "",
+       "View",
+       {'+', '=', {'=', kCtrl}, {'+', kCtrl}, {'=', kCtrlShift}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 1.25); }},
+      {"view.zoom_out",
+       "Zoom out",
+       "",
+       "View",
+       {'-', {'-', kCtrl}},
+       has_content,
+       [](Workspace& w) { zoom_by(w, 0.8); }},
+      {"help.palette",
+       "Find an action...",
+       kSearch,
+       "Help",
+       {{'P', kCtrlShift}},
+       always,
+       ask<Request::palette>},
+      {"help.keys",
+       "Keys and mouse",
+       kHelp,
+       "Help",
+       {Key::f1, '?', {'?', kShift}},
+       always,
+       ask<Request::help>},
+  };
+}
+
+}  // namespace holomorph
