@@ -127,8 +127,9 @@ void Files::save(bool as, const Then& then) {
   if (start.empty() && !document.image_path().empty())
     start = beside_document(document.image_path().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
-  dialog_.ask({FileQuestion::Mode::save, "Save the scene", "Save", {".json"}, start, false},
-              [this, then](const Path& path, double) { return save_to(path, then); });
+  dialog_.ask(
+      {FileQuestion::Mode::save, "Save the scene", "Save", {".json", ".holomorph"}, start, false},
+      [this, then](const Path& path, double) { return save_to(path, then); });
 }
 
 std::string Files::export_to(const Path& path, double scale) {
@@ -347,7 +348,8 @@ void Files::answer(Request request) {
         dialog_.ask({FileQuestion::Mode::open,
                      "Open a picture or a scene",
                      "Open",
-                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json", ".obj"},
+                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json",
+                      ".holomorph", ".obj"},
                      {},
                      false},
                     [this](const Path& path, double) { return open(path); });

@@ -26,11 +26,18 @@ constexpr Row kRows[] = {
     {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
 constexpr double kThumbnail = 320;  ///< pixels of the longer side
 
+/// Beside the installed program, wherever that is, or in the source it was built from.
+Path assets() {
+  std::error_code error;
+  const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const Path installed = program.parent_path().parent_path() / "share/holomorph/assets";
+  return !error && std::filesystem::exists(installed) ? installed : Path(HOLOMORPH_ASSETS);
+}
+
 }  // namespace
 
 std::vector<Sample> load_samples() {
-  const Path folder = std::filesystem::exists(HOLOMORPH_ASSETS) ? Path(HOLOMORPH_ASSETS)
-                                                                : Path(HOLOMORPH_INSTALLED_ASSETS);
+  const Path folder = assets();
   std::vector<Sample> samples;
   for (const Row& row : kRows) {
     Sample sample{folder / (std::string(row.name) + ".json"), row.title, row.text, {}};

@@ -80,6 +80,8 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_STENCIL_BITS, 8);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "holomorph");  // as the desktop file says
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "holomorph");
   for (const int samples :
        {4, 0}) {  // some drivers have no multisampling; on a processor it is too slow
     glfwWindowHint(GLFW_SAMPLES, samples);

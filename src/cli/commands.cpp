@@ -27,7 +27,7 @@ namespace holomorph {
 namespace {
 
 LoadedScene load(const Path& path) {
-  if (lower_case(path.extension().string()) != ".json" && std::filesystem::is_regular_file(path) &&
+  if (!is_scene_name(path) && std::filesystem::is_regular_file(path) &&
       !read_file(path).starts_with("{"))
     throw Error(ErrorKind::bad_input, path.string() +
                                           ": this is no scene; make one from a picture with "

@@ -142,6 +142,11 @@ LoadedScene scene_of_surface(const Path& obj) {
   return loaded;
 }
 
+bool is_scene_name(const Path& path) {
+  const std::string kind = lower_case(path.extension().string());
+  return kind == ".json" || kind == ".holomorph";
+}
+
 Document::Document() : id_(fresh_id()), history_(Scene{}, "New") {}
 
 Document::Document(LoadedScene loaded, Path path)
@@ -155,7 +160,7 @@ Document::Document(LoadedScene loaded, Path path)
 
 Document Document::open(const Path& path) {
   const std::string kind = lower_case(path.extension().string());
-  if (kind == ".json") return {load_scene(path), fs::absolute(path).lexically_normal()};
+  if (is_scene_name(path)) return {load_scene(path), fs::absolute(path).lexically_normal()};
   if (kind == ".obj") return {scene_of_surface(path), Path()};
   return {scene_of_image(path), Path()};
 }

@@ -17,6 +17,8 @@ struct LoadedScene {
 };
 /// Reads a scene file and the picture that it names, relative to the file's folder. Throws Error.
 LoadedScene load_scene(const Path& path);
+/// Whether a name is a scene's: .json, or .holomorph, which desktops know.
+bool is_scene_name(const Path& path);
 
 /// The absolute path of a scene's picture; empty without one.
 Path image_path_of(const Scene& scene, const Path& scene_path);
@@ -45,7 +47,7 @@ LoadedScene scene_of_surface(const Path& obj);
 class Document {
  public:
   Document();  ///< empty, nothing to lose
-  /// Opens a scene (by its name, .json), a textured surface (.obj) or a picture (anything else).
+  /// Opens a scene (by its name), a textured surface (.obj) or a picture (anything else).
   /// Throws Error and leaves nothing behind.
   static Document open(const Path& path);
   /// A scene to start from: as if drawn just now, it counts as saved but has no file. Throws Error.

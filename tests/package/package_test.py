@@ -1,0 +1,85 @@
+# The Debian package as it is installed: unpacked somewhere, it runs and finds its own files.
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BUILD, SOURCE = sys.argv[1:3]
+sys.path.insert(0, os.path.join(SOURCE, "tests/app"))
+from driver import Editor  # noqa: E402
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="holomorph-package-")
+        subprocess.run(["cpack", "-G", "DEB", "-B", cls.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
+        cls.packages = {n.split("_")[0]: os.path.join(cls.folder, n) for n in os.listdir(cls.folder) if n.endswith(".deb")}
+        cls.root = os.path.join(cls.folder, "root")
+        subprocess.run(["dpkg-deb", "-x", cls.packages["holomorph"], cls.root], check=True)
+        cls.program = os.path.join(cls.root, "usr/bin/holomorph")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def field(self, package, name):
+        return subprocess.run(["dpkg-deb", "-f", self.packages[package], name], check=True, capture_output=True,
+                              text=True).stdout
+
+    def test_it_names_what_it_needs(self):
+        needs = self.field("holomorph", "Depends")
+        for package in ("libglfw3", "libopenblas0", "fonts-roboto-unhinted", "fonts-font-awesome", "libwebp7"):
+            self.assertIn(package, needs)
+        # Each of the fonts is opened by its path: the packages named have it.
+        for font, package in (("Roboto-Regular.ttf", "fonts-roboto-unhinted"), ("fontawesome-webfont.ttf", "fonts-font-awesome")):
+            files = subprocess.run(["dpkg", "-L", package], check=True, capture_output=True, text=True).stdout
+            self.assertIn(font, files)
+        self.assertNotIn("usr/include", subprocess.run(["dpkg-deb", "-c", self.packages["holomorph"]], check=True,
+                                                       capture_output=True, text=True).stdout)
+
+    def test_the_program_runs_where_it_is_unpacked(self):
+        scene = os.path.join(self.root, "usr/share/holomorph/assets/gecko.json")
+        report = json.loads(subprocess.run([self.program, "info", scene, "--json"], check=True, capture_output=True,
+                                           text=True).stdout)
+        self.assertEqual(report["method"], "pins")
+
+    def test_the_window_shows_its_own_samples(self):
+        # Without them there, tiles would come from the source: the first one is another picture here.
+        assets = os.path.join(self.root, "usr/share/holomorph/assets")
+        shutil.copy(os.path.join(assets, "fish.json"), os.path.join(assets, "giraffe.json"))
+        with open(os.path.join(assets, "fish.json")) as file:
+            points = len(json.load(file)["cage"]["rest"])
+        with Editor(self.program, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            time.sleep(0.5)
+            name = subprocess.run(["xprop", "-root", "_NET_CLIENT_LIST"], env=editor.environment, capture_output=True)
+            self.assertEqual(name.returncode, 0)
+            windows = subprocess.run(["xdotool", "search", "--class", "^holomorph$"], env=editor.environment,
+                                     capture_output=True, text=True).stdout.split()
+            self.assertTrue(windows, "the window is known by the desktop file's name")
+            editor.press(100, 280)  # the first tile
+            editor.wait(lambda s: s["cage_points"] == points, "the sample")
+
+    def test_a_desktop_knows_scenes(self):
+        desktop = os.path.join(self.root, "usr/share/applications/holomorph.desktop")
+        subprocess.run(["desktop-file-validate", desktop], check=True)
+        mime = os.path.join(self.root, "usr/share/mime")
+        subprocess.run(["update-mime-database", mime], check=True, stderr=subprocess.DEVNULL)
+        with open(os.path.join(mime, "globs2")) as file:
+            self.assertIn("application/x-holomorph:*.holomorph", file.read())
+        with open(os.path.join(mime, "magic"), "rb") as file:
+            self.assertIn(b"application/x-holomorph", file.read())
+        icon = os.path.join(self.root, "usr/share/icons/hicolor/scalable/apps/holomorph.svg")
+        picture = os.path.join(self.folder, "icon.png")
+        subprocess.run(["rsvg-convert", "-w", "48", icon, "-o", picture], check=True)
+        self.assertGreater(os.path.getsize(picture), 500)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
