@@ -125,7 +125,8 @@ class Editor {
 
   void take_key(const Shortcut& key) {
     if (key == Shortcut(Key::space)) return;  // a tap plays, a drag pans: see navigate
-    if (key.mods == Modifiers{} && key.key >= 256 &&
+    const bool escapes = key.key == static_cast<int>(Key::escape) && current_tool().busy();
+    if ((key.mods == Modifiers{} || escapes) && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
     if (current_tool().busy() && !only_looks(key)) {  // a gesture is finished first

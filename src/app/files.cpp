@@ -186,7 +186,9 @@ std::string Files::import_svg(const Path& path, bool pose) {
       scene.pose = std::move(cage);
     else
       scene = with_cage(std::move(scene), std::move(cage));
-    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene))) return "";
+    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
+                           From::document))
+      return "";
     workspace_.layer = Layer::pose;
     workspace_.tool = ToolId::select;
   } catch (const Error& error) {

@@ -19,7 +19,7 @@ bool draw_help(double scale) {
       {"Drag on empty canvas", "select with a box; Shift adds"},
       {"Double-click an edge", "insert a cage point"},
       {"Alt-click a point or pin", "delete it"},
-      {"Ctrl-drag points or pins", "record their motion as keyframes, by the clock"},
+      {"Ctrl-drag points, pins, strokes", "record their motion as keyframes, by the clock"},
       {"Ctrl-click a cage point", "smooth or corner; drag its tangents, Alt breaks them"},
       {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
       {"Wheel on the ring", "scale the picture around the pin"},

@@ -105,7 +105,7 @@ void method_section(Workspace& workspace) {
         workspace.preview = after;
       }
       if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
-        workspace.commit(spec.label, *workspace.preview);
+        workspace.commit(spec.label, *workspace.preview, From::document);
       ImGui::EndDisabled();
     }
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))

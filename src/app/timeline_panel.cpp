@@ -2,6 +2,7 @@
 #include "app/timeline_panel.h"
 
 #include <cmath>
+#include <utility>
 
 #include "app/panels.h"
 
@@ -60,24 +61,13 @@ void draw_time(Workspace& workspace, float s) {
   tell_of_item(workspace, "The time that is shown");
 }
 
-void draw_rate(Workspace& workspace, float s) {
-  Scene scene = workspace.document.scene();
-  double& rate = scene.animation.frames_per_second;
-  ImGui::SetNextItemWidth(76 * s);
-  const bool typed = ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps");
-  tell_of_item(workspace, "Frames a second: what steps and exports go by");
-  if (!typed || !std::isfinite(rate)) return;
-  rate = std::clamp(rate, kFewestFrames, kMostFrames);
-  workspace.commit_or_amend("Frame rate", scene);
-}
-
 void draw_blend(Workspace& workspace, float s) {
   Scene scene = workspace.document.scene();
   int blend = scene.animation.straight ? 1 : 0;
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
     scene.animation.straight = blend == 1;
-    workspace.commit("In-betweens", scene);
+    workspace.commit("In-betweens", scene, From::document);
   }
   tell_of_item(workspace,
                "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to "
@@ -94,14 +84,14 @@ void draw_key_numbers(Workspace& workspace, float s) {
   int ease = static_cast<int>(scene.keyframes[key].ease);
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
-    workspace.commit("Ease", with_ease(scene, key, static_cast<Ease>(ease)));
+    workspace.commit("Ease", with_ease(scene, key, static_cast<Ease>(ease)), From::document);
   tell_of_item(workspace, "How this key goes on to the next one");
   if (key == 0) return;
   int& turns = scene.keyframes[key].turns;
   ImGui::SetNextItemWidth(96 * s);
   if (ImGui::InputInt("##turns", &turns, 1, 1)) {
     turns = std::clamp(turns, -kMostTurns, kMostTurns);
-    workspace.commit_or_amend("Whole turns", scene);
+    workspace.commit_or_amend("Whole turns", scene, From::document);
   }
   tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
 }
@@ -138,7 +128,7 @@ void draw_key_menu(Workspace& workspace) {
     for (const auto& [label, ease] :
          {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
       if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
-        workspace.commit("Ease", with_ease(scene, key, ease));
+        workspace.commit("Ease", with_ease(scene, key, ease), From::document);
     ImGui::Separator();
     if (ImGui::MenuItem("Delete key")) run(action_named("time.delete_key"), workspace);
   }
@@ -179,6 +169,20 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
 }
 
 }  // namespace
+
+void TimelinePanel::draw_rate(Workspace& workspace, float s) {
+  Scene scene = workspace.document.scene();
+  double rate = rate_.value_or(scene.animation.frames_per_second);
+  ImGui::SetNextItemWidth(76 * s);
+  if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps")) rate_ = rate;
+  const bool typed = ImGui::IsItemDeactivatedAfterEdit();
+  tell_of_item(workspace, "Frames a second: what steps and exports go by");
+  if (!typed || !rate_) return;
+  rate = *std::exchange(rate_, std::nullopt);
+  if (!std::isfinite(rate)) return;
+  scene.animation.frames_per_second = std::clamp(rate, kFewestFrames, kMostFrames);
+  workspace.commit("Frame rate", scene, From::document);
+}
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
@@ -225,7 +229,8 @@ void TimelinePanel::drag(Workspace& workspace, double time, float s) {
       time == scene.keyframes[key_].time || key_at(scene, time) < scene.keyframes.size())
     return;
   auto [after, number] = with_key_moved(scene, key_, time);
-  workspace.commit_or_amend("Move key", after);
+  workspace.commit_or_amend("Move key", after, From::document);
+  if (workspace.document.scene() != after) return;
   key_ = number;
   workspace.go_to_time(time);
 }

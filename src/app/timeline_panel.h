@@ -11,12 +11,14 @@ class TimelinePanel {
 
  private:
   enum class Held { nothing, time, key };
+  void draw_rate(Workspace& workspace, float scale);
   void draw_track(Workspace& workspace, float scale);
   void drag(Workspace& workspace, double time, float scale);
 
-  Held held_ = Held::nothing;  ///< by the pointer
-  size_t key_ = 0;             ///< the one that is held
-  double length_ = 2;          ///< of the ruler in seconds, which stays while something is held
+  Held held_ = Held::nothing;   ///< by the pointer
+  size_t key_ = 0;              ///< the one that is held
+  std::optional<double> rate_;  ///< while it is being typed
+  double length_ = 2;           ///< of the ruler in seconds, which stays while something is held
 };
 
 }  // namespace holomorph

@@ -148,7 +148,8 @@ bool take_outline(Workspace& workspace, const std::string& label, Points outline
     return false;
   }
   if (!workspace.commit(
-          label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface))))
+          label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface)),
+          From::document))
     return false;
   workspace.layer = Layer::pose;
   workspace.show_surface = true;

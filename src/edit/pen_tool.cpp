@@ -69,7 +69,7 @@ class PenTool final : public Tool {
         if (!input.pressed) return;
         if (erases(input, *hover_, workspace)) return hover_.reset();
         workspace.selection = {*hover_};
-        drag_.start(input, workspace.selection, scene);
+        drag_.start(input, *hover_, workspace.selection, scene);
         return;
       }
       if (const auto hit = edge_at(workspace, input.px)) {
@@ -94,7 +94,9 @@ class PenTool final : public Tool {
 
   void close(Workspace& workspace) {
     // A refused drawing stays, so that a point can be taken back.
-    if (!workspace.commit("Draw cage", with_cage(workspace.scene(), path_.cage()))) return;
+    if (!workspace.commit("Draw cage", with_cage(workspace.document.scene(), path_.cage()),
+                          From::document))
+      return;
     path_.cancel();
     workspace.layer = Layer::pose;
     workspace.tool = ToolId::select;

@@ -21,7 +21,7 @@ class PinTool final : public Tool {
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
       workspace.selection.insert(*hover_);
-      drag_.start(input, workspace.selection, workspace.scene());
+      drag_.start(input, *hover_, workspace.selection, workspace.scene());
       return;
     }
     if (!workspace.scene().has_cage()) {

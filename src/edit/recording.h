@@ -7,33 +7,38 @@ namespace holomorph {
 
 class Recording {
  public:
-  /// From the workspace's time on, with what is shown; what has keyframes already goes on moving
-  /// beside the handles.
-  void start(Workspace& workspace, Selection what, double now_ms);
+  /// From the workspace's time on. Where keyframes play, everything but the handles goes on moving
+  /// with them; else it stays as it is shown. Tangents of segments whose degree changes with time
+  /// are left out. Returns whether anything is left to record.
+  bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
   /// The scene at this moment with the handles by `by` from where they were at the start. The
   /// workspace's time goes along.
   Scene follow(Workspace& workspace, Complex by, double now_ms);
-  /// Sets the keyframes, as few as keep handles within three window pixels of their ways
-  /// were they even between, as one step; those that were there in that time keep theirs.
+  /// Sets linear keyframes at frames, as few as keep everything within three window pixels of its
+  /// way, as one step. Keys that are there already keep what was not dragged; those that do not
+  /// play stay as they are.
   void finish(Workspace& workspace);
   void cancel(Workspace& workspace);
 
  private:
   struct Sample {
     double time = 0;
+    Complex by;
     Pose pose;
-    Points handles;
+    Points places;  ///< of all handles
   };
-  Points handles_in(const Scene& scene) const;
-  std::vector<size_t> needed(double tolerance) const;
+  /// A scene with the handles where they are dragged to.
+  Scene dragged(Scene scene, Complex by) const;
+  Scene base_at(const Workspace& workspace, double time) const;
+  Sample sample_at(double time) const;
+  std::vector<double> needed(double tolerance) const;
 
   Selection what_;
   Scene start_;  ///< what was shown
   double start_time_ = 0, start_ms_ = 0;
-  bool over_keys_ = false;       ///< keyframes are what was shown
-  std::vector<Sample> samples_;  ///< the first of each frame
-  Sample last_;
+  bool over_keys_ = false;
+  std::vector<Sample> samples_;
 };
 
 /// What to say meanwhile.

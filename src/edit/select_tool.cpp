@@ -91,7 +91,7 @@ class SelectTool final : public Tool {
     }
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
     selection.insert(*hover_);
-    drag_.start(input, selection, workspace.scene());
+    drag_.start(input, *hover_, selection, workspace.scene());
   }
 
   void follow_marquee(const Input& input, Workspace& workspace) {

@@ -33,7 +33,7 @@ class StrokeTool final : public Tool {
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
     selection.insert(*hover_);
     if (hover_->kind == Handle::Kind::stroke && start_pull(input, workspace)) return;
-    drag_.start(input, selection, workspace.scene());
+    drag_.start(input, *hover_, selection, workspace.scene());
   }
 
   void cancel(Workspace& workspace) override {

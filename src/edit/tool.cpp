@@ -11,17 +11,18 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
     moving_ = true;
     if (with_ctrl_ && !amends_ && workspace.layer == Layer::pose)
-      recording_.start(workspace, what_, input.now_ms);
+      if (!recording_.start(workspace, what_, input.now_ms)) {
+        active_ = false;
+        return true;
+      }
   }
   if (moving_) workspace.preview = dragged(input, workspace);
   if (!input.released && input.down) return false;
   active_ = false;
-  if (with_ctrl_ && !moving_ && !amends_) {
-    const auto clicked = handle_at(workspace, start_px_);
-    if (clicked && clicked->kind == Handle::Kind::cage && clicked->control == 0) {
-      workspace.selection = {*clicked};
-      toggle_corners(workspace);
-    }
+  const bool vertex = pressed_.kind == Handle::Kind::cage && pressed_.control == 0;
+  if (with_ctrl_ && !moving_ && !amends_ && vertex) {
+    workspace.selection = {pressed_};
+    toggle_corners(workspace);
   }
   finish(workspace);
   return true;

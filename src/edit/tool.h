@@ -58,12 +58,14 @@ std::unique_ptr<Tool> angle_tool();
 class HandleDrag {
  public:
   /// A drag that carries the last step on, which set or inserted what is dragged.
-  void start_amending(const Input& input, Selection what, const Scene& scene) {
-    start(input, std::move(what), scene);
+  void start_amending(const Input& input, const Selection& what, const Scene& scene) {
+    start(input, *what.begin(), what, scene);
     amends_ = true;
   }
-  void start(const Input& input, Selection what, const Scene& scene) {
+  /// `pressed` is the one of them that is under the pointer.
+  void start(const Input& input, Handle pressed, Selection what, const Scene& scene) {
     amends_ = false;
+    pressed_ = pressed;
     start_px_ = input.px;
     start_ = input.position;
     what_ = std::move(what);
@@ -78,7 +80,7 @@ class HandleDrag {
   bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
     if (active_) workspace.preview.reset();
-    recording_.cancel(workspace);
+    if (recording_.active()) recording_.cancel(workspace);
     active_ = false;
   }
 
@@ -87,6 +89,7 @@ class HandleDrag {
   void finish(Workspace& workspace);
 
   Complex start_px_, start_;
+  Handle pressed_;
   Selection what_;
   Scene scene_;
   Recording recording_;

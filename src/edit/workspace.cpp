@@ -7,6 +7,11 @@
 #include "scene/scene_json.h"
 
 namespace holomorph {
+namespace {
+
+constexpr const char* kNotKnown = "One moment, the picture at this time is being prepared.";
+
+}  // namespace
 
 bool advance(Playback& playback, const LiveMap& map, double now_ms) {
   if (!playback.playing || map.busy()) return false;
@@ -40,54 +45,83 @@ bool Workspace::accepts(const Scene& scene) {
   return true;
 }
 
-bool Workspace::commit(const std::string& label, Scene scene) {
+bool Workspace::commit(const std::string& label, Scene scene, From from) {
+  carried_on.reset();
+  const std::optional<Scene> at_time = timeline.shows ? timed : std::nullopt;
+  return enter(std::move(scene), from, [&](Scene entered) {
+    if (at_time && !timeline.shows) {
+      char text[48];
+      std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
+      document.commit(text, *at_time);  // what undoing the edit goes back to
+    }
+    document.commit(label, std::move(entered));
+  });
+}
+
+bool Workspace::amend(Scene scene, From from) {
+  return enter(std::move(scene), from, [&](Scene entered) { document.amend(std::move(entered)); });
+}
+
+bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& put) {
   preview.reset();
   playback = {};
-  carried_on.reset();
-  const bool shows = timed && timeline.shows, moves = poses(scene);
-  scene = timed_edit(std::move(scene));
-  if (!accepts(scene)) return false;
-  if (moves && timeline.auto_key) {
-    timeline.visible = timeline.shows = true;
-  } else if (moves && shows) {
-    char text[48];
-    std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
-    document.commit(text, *timed);  // what undoing the edit goes back to
-    timeline.shows = timeline.playing = false;
+  const Pose own = whole_pose_of(document.scene()), before = whole_pose_of(unedited());
+  const Pose shown = from == From::shown ? whole_pose_of(scene) : before;
+  const bool moves = from == From::shown && fits(scene, before) && shown != before,
+             sets_key = moves && timeline.auto_key;
+  if (sets_key && !knows_pose()) {
+    say(kNotKnown);
+    return false;
   }
-  const bool done = document.commit(label, std::move(scene));
+  if (sets_key)
+    scene = keyed(std::move(scene));
+  else if (from == From::shown && !moves && fits(scene, own))
+    scene = posed_as(std::move(scene), own);
+  if (!accepts(scene)) return false;
+  if (sets_key)
+    timeline.visible = timeline.shows = true;
+  else if (moves)
+    timeline.shows = timeline.playing = false;
+  put(std::move(scene));
   timed.reset();
+  if (shown_time() && fits(document.scene(), shown)) timed = posed_as(document.scene(), shown);
   prune_selection();
-  return done;
+  return true;
 }
 
-bool Workspace::poses(const Scene& scene) const {
-  // Edits that are none of the pose may start from what is shown or from the document's scene.
-  const Pose pose = whole_pose_of(scene), own = whole_pose_of(document.scene()),
-             before = whole_pose_of(unedited());
-  return fits(scene, before) && pose != before && !(fits(scene, own) && pose == own);
+/// With the scene's pose as the key at the time, and the document's own pose.
+Scene Workspace::keyed(Scene scene) {
+  const Scene& before = document.scene();
+  if (const size_t there = key_at(before, timeline.time);
+      there < before.keyframes.size() && !fits(before, before.keyframes[there].pose))
+    say("A key that did not play was there; undo brings it back.");
+  scene = with_key(std::move(scene), timeline.time);
+  if (map.posed() && map.posed()->keyframes == before.keyframes) {
+    map.follow_keys();
+    keep_turns(scene, before, map.motion());
+  }
+  const Pose own = whole_pose_of(before);
+  return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
 }
 
-Scene Workspace::timed_edit(Scene scene) const {
-  const bool moves = poses(scene);
-  if (moves && timeline.auto_key) return with_key(std::move(scene), timeline.time);
-  const Pose own = whole_pose_of(document.scene());
-  if (moves || !timed || !timeline.shows || !fits(scene, own)) return scene;
-  return posed_as(std::move(scene), own);
+bool Workspace::knows_pose() const {
+  return !shown_time() || timed || playing_keys(document.scene()).empty();
 }
 
 void Workspace::go_to_time(double seconds) {
   preview.reset();
+  if (seconds != timeline.time) timed.reset();
   timeline.go_to(seconds);
 }
 
 void Workspace::set_key() {
+  if (!knows_pose()) return say(kNotKnown);
   char label[32];
   std::snprintf(label, sizeof label, "Key at %.2f s", timeline.time);
-  const bool own_pose = !timeline.shows;
-  commit(label, with_key(scene(), timeline.time));
-  if (own_pose) timeline.shows = true;
-  timeline.visible = true;
+  const Scene shown = scene();
+  if (!commit(label, keyed(shown), From::document)) return;
+  timeline.visible = timeline.shows = true;
+  timed = posed_as(document.scene(), whole_pose_of(shown));
 }
 
 std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
@@ -100,12 +134,11 @@ std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
 
 std::vector<OnionSkin> Workspace::onion_skins() const {
   if (!timeline.onion || timeline.playing || at_rest() || !map.has_map()) return {};
-  const Motion& motion = map.motion();
   std::vector<OnionSkin> skins;
   for (const bool later : {false, true})
-    if (const auto time = next_key(document.scene(), timeline.time, later); time && motion.plays())
-      if (OnionSkin skin{motion.map_at(*time), later}; skin.f.size() == map.map().f.size())
-        skins.push_back(std::move(skin));
+    if (const VectorXc* f = map.motion().key_beside(timeline.time, later);
+        f && f->size() == map.map().f.size())
+      skins.push_back({*f, later});
   return skins;
 }
 
@@ -113,31 +146,21 @@ bool Workspace::update_map(Wanted wanted) {
   const std::optional<double> time = shown_time();
   const bool changed = map.update(preview ? *preview : document.scene(), wanted, time);
   if (preview) timeline.playing = false;
+  if (timeline.onion && map.has_map()) map.follow_keys();
   if (preview) return changed;  // an edit of what was shown
-  timed.reset();  // while another structure is being prepared, the shown map has the old one
+  // While another method is being prepared, handles stay where they were at the time.
+  if (!time || (timed && !fits(document.scene(), whole_pose_of(*timed)))) timed.reset();
   if (time && map.posed() == document.scene()) timed = map.timed();
   prune_selection();  // degrees of posed segments vary with time
   return changed;
 }
 
-bool Workspace::amend(Scene scene) {
-  preview.reset();
-  playback = {};
-  const bool moves = whole_pose_of(scene) != whole_pose_of(document.scene());
-  if (moves && timeline.auto_key) scene = with_key(std::move(scene), timeline.time);
-  if (!accepts(scene)) return false;
-  if (moves && !timeline.auto_key) timeline.shows = timeline.playing = false;
-  document.amend(std::move(scene));
-  timed.reset();
-  return true;
-}
-
-void Workspace::commit_or_amend(const std::string& label, Scene scene) {
+void Workspace::commit_or_amend(const std::string& label, Scene scene, From from) {
   const History& history = document.history();
   if (carried_on == selection && layer == Layer::pose && history.can_undo() &&
       history.entries()[history.index()].label == label)
-    amend(std::move(scene));
-  else if (commit(label, std::move(scene)))
+    amend(std::move(scene), from);
+  else if (commit(label, std::move(scene), from))
     carried_on = selection;
 }
 

@@ -1,6 +1,7 @@
 // Everything that tools and actions act on; the window draws it.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "core/heat.h"
@@ -53,9 +54,13 @@ struct Toast {
 
 /// The map at a key beside the time that is shown.
 struct OnionSkin {
-  VectorXc f;  ///< at the mesh's vertices
+  const VectorXc& f;  ///< at the mesh's vertices
   bool later = false;
 };
+
+/// What an edit started from: what is shown, which may be a time's, or the document's own scene,
+/// which then is taken as it is.
+enum class From { shown, document };
 
 /// The editor's state beyond the document.
 struct Workspace {
@@ -98,6 +103,8 @@ struct Workspace {
   bool update_map(Wanted wanted);
   /// Where each keyframe takes places at rest; none before their maps are known.
   std::vector<Points> in_keyframes(std::span<const Complex> rest);
+  /// Whether unedited() is what is shown: not while the map of another time is on its way.
+  bool knows_pose() const;
   /// What the onion skin shows: the keys before and after the time, where it is on and there is a
   /// pose to compare with.
   std::vector<OnionSkin> onion_skins() const;
@@ -118,14 +125,17 @@ struct Workspace {
   bool shows_surface() const { return show_surface && scene().surface.has_value(); }
 
   /// One undo step; a rest cage that cannot be used is refused with a toast that shows where.
-  bool commit(const std::string& label, Scene scene);
+  /// Where a time is shown, an edit of the pose from there is a key with auto-key, and else becomes
+  /// the scene's own pose and leaves the time; an edit of the structure makes what is shown the own
+  /// pose; other edits leave that.
+  bool commit(const std::string& label, Scene scene, From from = From::shown);
   /// The last step, carried further; refused in the same way.
-  bool amend(Scene scene);
+  bool amend(Scene scene, From from = From::shown);
   /// Another entry of the history; drops what is selected of a structure that it changes.
   void go_to(size_t entry);
   /// The same for what is done in many small pieces: with the selection unchanged it carries the
   /// last step further, if that has the same label.
-  void commit_or_amend(const std::string& label, Scene scene);
+  void commit_or_amend(const std::string& label, Scene scene, From from = From::shown);
   /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
   void erase(const Selection& handles, Refit refit = Refit::curve);
   /// Drops handles that an edit took away.
@@ -145,11 +155,8 @@ struct Workspace {
   void open(Document opened);
 
  private:
-  /// What an edit means where a time is shown: of the pose, with auto-key a key, else that what is
-  /// shown becomes the scene's own pose; of the structure, the latter; else the own pose stays.
-  Scene timed_edit(Scene scene) const;
-  /// Whether an edit moves something.
-  bool poses(const Scene& scene) const;
+  bool enter(Scene scene, From from, const std::function<void(Scene)>& put);
+  Scene keyed(Scene scene);
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "film/ordered_tasks.h"
 
 namespace holomorph {
 namespace {
@@ -12,16 +13,25 @@ class PngFrames final : public FilmWriter {
  public:
   explicit PngFrames(const Path& out) : out_(out) {}
   ~PngFrames() override {
+    wait();
     for (int i = 0; i < frames_; ++i) {
       std::error_code ignored;
       std::filesystem::remove(part(i), ignored);
     }
   }
   void add(const Image& frame) override {
-    write_file(part(frames_), encode_png(frame));
+    files_.add([path = part(frames_), frame] {
+      write_file(path, encode_png(frame));
+      return path;
+    });
     ++frames_;
   }
   void finish() override {
+    files_.finish();
+    for (int i = 0; i < frames_; ++i)
+      if (std::filesystem::is_directory(numbered(out_, i)))
+        throw Error(ErrorKind::failed,
+                    numbered(out_, i).string() + ": there is a folder of this name");
     for (int i = 0; i < frames_; ++i) {
       std::error_code wrong;
       std::filesystem::rename(part(i), numbered(out_, i), wrong);
@@ -32,6 +42,13 @@ class PngFrames final : public FilmWriter {
   }
 
  private:
+  void wait() noexcept {
+    try {
+      files_.finish();
+    } catch (...) {
+      // Whoever added frames has been told, or does not want them any more.
+    }
+  }
   /// Where a frame waits until all are there: what had its name stays until then.
   Path part(int frame) const {
     Path path = numbered(out_, frame);
@@ -40,6 +57,7 @@ class PngFrames final : public FilmWriter {
 
   Path out_;
   int frames_ = 0;
+  OrderedTasks<Path> files_{[](const Path&) {}};
 };
 
 }  // namespace

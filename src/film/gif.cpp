@@ -73,6 +73,12 @@ void close(GifFileType* file) {
 class GifWriter final : public FilmWriter {
  public:
   GifWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
+    constexpr double kMostFramesOfGif = 50;  // viewers slow down what is faster
+    if (shape.frames_per_second > kMostFramesOfGif)
+      throw Error(ErrorKind::bad_input,
+                  out.string() +
+                      ": a GIF shows 50 frames a second at most; lower the frame rate, or "
+                      "choose .webp or .apng");
     int wrong = 0;
     file_.reset(EGifOpen(&bytes_, append, &wrong));
     if (!file_) throw Error(ErrorKind::failed, out.string() + ": no memory for a GIF file");

@@ -22,11 +22,14 @@ Scene with_key(Scene scene, double time) {
   const size_t there = key_at(scene, time);
   Pose pose = whole_pose_of(scene);
   if (there < scene.keyframes.size()) {
-    scene.keyframes[there].pose = std::move(pose);
+    Keyframe& key = scene.keyframes[there];
+    if (!fits(scene, key.pose)) key.pose_extra.clear();
+    key.pose = std::move(pose);
     return scene;
   }
   const auto next = std::ranges::upper_bound(scene.keyframes, time, {}, &Keyframe::time);
-  scene.keyframes.insert(next, {time, std::move(pose)});
+  const Ease ease = next == scene.keyframes.begin() ? Ease::smooth : std::prev(next)->ease;
+  scene.keyframes.insert(next, {time, std::move(pose), ease});
   return scene;
 }
 

@@ -7,7 +7,8 @@ namespace holomorph {
 
 /// The keyframe at a time, to a thousandth of a second; none: its number is keyframes.size().
 size_t key_at(const Scene& scene, double time);
-/// With the scene's pose as the keyframe at a time; one that is there keeps its ease.
+/// With the scene's pose as the keyframe at a time; one that is there keeps its ease, a new one
+/// goes on as the one before it.
 Scene with_key(Scene scene, double time);
 Scene without_key(Scene scene, size_t key);
 /// A keyframe at another time, clamped to what is allowed; one that is there already is replaced.

@@ -167,7 +167,7 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
 
 Points LiveMap::places_at(double time, std::span<const Complex> rest) {
   Points places(rest.begin(), rest.end());
-  motion_.follow(*posed_, shown_);
+  follow_keys();
   if (!motion_.plays()) return places;
   const VectorXc f = motion_.map_at(time);
   for (Complex& z : places)

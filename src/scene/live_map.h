@@ -68,7 +68,12 @@ class LiveMap {
   const std::optional<Scene>& posed() const { return posed_; }
   /// The scene with its handles at the shown time; none where no time is shown.
   const std::optional<Scene>& timed() const { return timed_; }
+  /// The maps at the posed scene's keyframes: up to date where a time is shown, and after
+  /// follow_keys().
   const Motion& motion() const { return motion_; }
+  void follow_keys() {
+    if (shown_ && posed_) motion_.follow(*posed_, shown_);
+  }
   /// Where the keyframes of the posed scene take places at rest; those outside the mesh stay.
   Points places_at(double time, std::span<const Complex> rest);
   double pose_milliseconds() const { return pose_milliseconds_; }

@@ -1,5 +1,8 @@
 // A pose's mirror image: everything takes what its counterpart at rest has.
+#include <algorithm>
+
 #include "core/error.h"
+#include "core/polyline.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -19,12 +22,13 @@ class Mirror {
     for (Complex& z : line) z = (*this)(z);
     return line;
   }
-  /// Which of these places lies where the mirror takes z.
+  /// Which of these places, z among them, lies where the mirror takes z, and is taken to z.
   size_t counterpart(const Points& places, Complex z, const char* what) const {
-    const Complex wanted = (*this)(z);
-    const auto nearest =
-        std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });
-    if (std::abs(*nearest - wanted) > far_)
+    const auto nearest_to = [&](Complex wanted) {
+      return std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });
+    };
+    const auto nearest = nearest_to((*this)(z));
+    if (std::abs(*nearest - (*this)(z)) > far_ || *nearest_to((*this)(*nearest)) != z)
       throw Error(ErrorKind::bad_input,
                   std::string("the pose cannot be mirrored: a ") + what +
                       " has no counterpart on the other side of the cage's middle",
@@ -71,7 +75,10 @@ std::vector<PosePin> mirrored_pins(const Mirror& mirror, const std::vector<Pin>&
 std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Stroke>& strokes,
                                      const std::vector<Points>& posed) {
   Points middles;
-  for (const Stroke& stroke : strokes) middles.push_back(stroke.rest[stroke.rest.size() / 2]);
+  for (const Stroke& stroke : strokes) {
+    const Polyline line(without_repeats(stroke.rest), false);
+    middles.push_back(line.at(0.5 * line.length()));
+  }
   std::vector<Points> result;
   for (size_t i = 0; i < strokes.size(); ++i) {
     const size_t other = mirror.counterpart(middles, middles[i], "stroke");

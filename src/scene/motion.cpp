@@ -9,11 +9,14 @@
 namespace holomorph {
 namespace {
 
+constexpr double kTie = 1e-3;
+
 /// How much the picture is meant to turn from one pose to another, whole turns included: as a pin
 /// that turns does, or as corners do on average.
 ExpectedTurn expected_turn(const Scene& scene, const Pose& from, const Pose& to, int turns) {
   ExpectedTurn expected;
-  expected.radians = 2 * kPi * turns;
+  // Of two ways that are half a turn each, the shorter one.
+  expected.radians = 2 * kPi * turns * (1 - kTie);
   const Method& method = method_named(scene.method);
   if (method.uses_pins)
     for (size_t i = 0; i < scene.pins.size(); ++i)
@@ -130,6 +133,45 @@ Motion::Place Motion::place_of(double time) const {
   return {from, (time - keys_[from].time) / (next->time - keys_[from].time)};
 }
 
+const VectorXc* Motion::key_beside(double time, bool later) const {
+  constexpr double kHere = 1e-3;
+  const VectorXc* found = nullptr;
+  for (const Key& key : keys_) {
+    if (!later && key.time < time - kHere) found = &key.shape.f;
+    if (later && key.time > time + kHere) return &key.shape.f;
+  }
+  return later ? nullptr : found;
+}
+
+double Motion::turned_at(double time) const {
+  const auto [i, u] = place_of(time);
+  const double from = keys_[i].shape.logarithm.imag().mean();
+  if (u == 0) return from;
+  const double s = keys_[i].ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  return from + s * (keys_[i + 1].shape.logarithm.imag().mean() - from);
+}
+
+void keep_turns(Scene& scene, const Scene& before, const Motion& motion) {
+  const auto is_new = [&](const Keyframe& key) {
+    return key_at(before, key.time) == before.keyframes.size();
+  };
+  const auto pose_at = [&](const Keyframe& key) {
+    return is_new(key) ? whole_pose_of(motion.scene_at(before, key.time, motion.map_at(key.time)))
+                       : before.keyframes[key_at(before, key.time)].pose;
+  };
+  const std::vector<size_t> playing = playing_keys(scene);
+  for (size_t i = 1; i < playing.size(); ++i) {
+    const Keyframe& from = scene.keyframes[playing[i - 1]];
+    Keyframe& to = scene.keyframes[playing[i]];
+    if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
+      continue;
+    const double given = expected_turn(before, pose_at(from), pose_at(to), 0).radians,
+                 beyond = motion.turned_at(to.time) - motion.turned_at(from.time) - given;
+    const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
+    to.turns = std::min(turns, kMostTurns) * (beyond < 0 ? -1 : 1);
+  }
+}
+
 VectorXc Motion::map_at(double time) const {
   const auto [i, u] = place_of(time);
   const Key& from = keys_[i];
@@ -175,7 +217,7 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
   const double s = a.ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
   // What stays where it is stays there on the way; other handles go with the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
-    if (at_a == at_b) return at_a;
+    if (at_a == at_b && b.turns == 0) return at_a;
     const Frame now = frame_at(rest, map), before = frame_at(rest, a.shape.f),
                 after = frame_at(rest, b.shape.f);
     return now.f +

@@ -24,6 +24,15 @@ class Motion {
   bool plays() const { return !keys_.empty(); }
   const std::optional<Error>& error() const { return error_; }
 
+  /// The map at the last key before a time, or the first one behind it; null without one.
+  const VectorXc* key_beside(double time, bool later) const;
+  /// By how much the picture has turned at a time, on average; whole turns count.
+  double turned_at(double time) const;
+  /// Between the first key and the last.
+  bool covers(double time) const {
+    return plays() && keys_.front().time <= time && time <= keys_.back().time;
+  }
+
   /// f at the mesh's vertices; before the first key and behind the last one as there.
   VectorXc map_at(double time) const;
   /// The scene with its handles as they are in that map, which is map_at: on the way from one
@@ -59,5 +68,9 @@ class Motion {
   std::optional<Error> error_;
   mutable std::map<std::pair<double, double>, Location> locations_;
 };
+
+/// Sets the whole turns of keys that `before` has not, and of those behind them, so that the
+/// picture turns as it did in the motion of `before`.
+void keep_turns(Scene& scene, const Scene& before, const Motion& motion);
 
 }  // namespace holomorph

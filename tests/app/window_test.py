@@ -555,7 +555,7 @@ class WindowTest(unittest.TestCase):
             names = ["walk-000%d.png" % i for i in range(3)]
             editor.wait(lambda s: all(os.path.exists(os.path.join(self.work, n)) for n in names), "three frames", 20)
             self.assertFalse(os.path.exists(os.path.join(self.work, "walk-0003.png")))
-            time.sleep(1)  # until the window that shows the progress is gone
+            editor.wait(lambda s: not s["exporting"], "the end of the export")
             frames = [Image.open(os.path.join(self.work, n)) for n in names]
             self.assertEqual(len({frame.size for frame in frames}), 1)
             self.save_as(editor, os.path.join(self.work, "walk.json"))
@@ -589,16 +589,27 @@ class WindowTest(unittest.TestCase):
             self.assertGreater(state["time"], 1.2)
             self.assertEqual(state["history"], 2)  # one step
             self.assertLess(state["keys"], 20)
+            # Escape drops one, with Ctrl still held.
+            editor.move(10, 110)
+            editor.xdotool("keydown", "ctrl")
+            editor.xdotool("mousedown", 1)
+            editor.move(-20, 140)
+            editor.move(-40, 140)
+            editor.xdotool("key", "Escape")
+            editor.wait(lambda s: not s["gesture"], "the dropped recording")
+            editor.xdotool("mouseup", 1)
+            editor.xdotool("keyup", "ctrl")
+            self.assertEqual(editor.state()["history"], 2)
             # The keys before and after are seen around a time between them.
+            for _ in range(5):
+                editor.key("comma")
+            time.sleep(0.4)
             plain = self.screenshot(editor, "no-onion")
             editor.key("ctrl+shift+p")
             time.sleep(0.3)
             editor.type("onion")
             editor.key("Return")
             time.sleep(0.5)
-            for _ in range(3):
-                editor.key("comma")
-            time.sleep(0.4)
             onion = self.screenshot(editor, "onion")
             left, top, width, height = (int(state[k]) for k in ("left", "top", "width", "height"))
             view = numpy.s_[top:top + height, left:left + width]
@@ -624,7 +635,7 @@ class WindowTest(unittest.TestCase):
             while os.path.getsize(first) < 100 and time.time() < end:
                 time.sleep(0.1)
             self.assertEqual(Image.open(first).format, "PNG")
-            time.sleep(1)
+            editor.wait(lambda s: not s["exporting"], "the end of the export")
             editor.key("ctrl+z")
             editor.wait(lambda s: s["keys"] == 0, "no keys after one undo")
 

@@ -85,8 +85,80 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   REQUIRE(desk.scene().keyframes.size() == 3);
   CHECK(desk.scene().keyframes[1].time == 0.5);
   CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(400, 200)) < 1e-3);
+  CHECK(desk.workspace.document.scene().pose.vertex(2) == Complex(340, 100));  // its own stays
   act(desk, "edit.undo");
   CHECK(desk.scene().keyframes.size() == 2);
+  // The time stays shown, and the next edit is one of what is there.
+  CHECK(desk.workspace.timeline.shows);
+  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
+}
+
+TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
+  for (const bool auto_key : {false, true}) {
+    Desk desk(kBar);
+    set_two_keys(desk);
+    desk.workspace.timeline.auto_key = auto_key;
+    // The own pose is that of the second key: copied there, pasted onto the first.
+    go_to(desk, 1);
+    act(desk, "time.copy");
+    go_to(desk, 0);
+    CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
+    act(desk, "time.paste");
+    CHECK(desk.scene().pose.vertex(0) == Complex(40, 0));
+    CHECK(desk.workspace.timeline.shows == auto_key);
+    if (auto_key) CHECK(desk.scene().keyframes[0].pose.cage.vertex(0) == Complex(40, 0));
+    act(desk, "edit.undo");
+    if (!auto_key) act(desk, "edit.undo");
+    go_to(desk, 0.5);
+    act(desk, "edit.reset");
+    CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
+  }
+}
+
+TEST_CASE("Timeline: while a time's picture is on its way no key is set from another pose") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 0);
+  desk.workspace.commit("Method", with_method(desk.scene(), "harmonic"));
+  desk.workspace.go_to_time(0.5);
+  desk.workspace.update_map({});
+  if (!desk.workspace.knows_pose()) {  // unless the worker was faster
+    act(desk, "time.key");
+    CHECK(desk.workspace.document.scene().keyframes.size() == 2);
+  }
+  // Where the time is the same, so are the handles.
+  desk.settle();
+  go_to(desk, 1);
+  desk.workspace.commit("Method", with_method(desk.scene(), "mean_value"));
+  act(desk, "time.key");
+  CHECK(desk.workspace.document.scene().keyframes[1].pose.cage.vertex(0) == Complex(40, 0));
+}
+
+TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
+  Desk desk(kBar);
+  act(desk, "time.key");
+  desk.workspace.timeline.time = 1;
+  act(desk, "time.key");
+  for (const int turns : {1, -2})
+    for (const double time : {0.25, 0.4, 0.5, 0.625, 0.75}) {
+      Scene scene = desk.workspace.document.scene();
+      scene.keyframes[1].turns = turns;
+      scene.keyframes[0].ease = Ease::linear;
+      desk.workspace.commit("Turns", scene, From::document);
+      const auto turned = [&](double at) {
+        go_to(desk, at);
+        return desk.workspace.map.motion().turned_at(at);
+      };
+      const double before = turned(0.9), mid = turned(time);
+      CHECK(before == Approx(0.9 * 2 * kPi * turns).margin(1e-6));
+      act(desk, "time.key");
+      REQUIRE(desk.workspace.document.scene().keyframes.size() == 3);
+      CHECK(desk.workspace.document.scene().keyframes[1].ease == Ease::linear);
+      INFO(turns << " turns, a key at " << time);
+      CHECK(turned(time) == Approx(mid).margin(1e-6));
+      CHECK(turned(0.9) == Approx(before).margin(1e-6));
+      act(desk, "edit.undo");
+    }
 }
 
 TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
@@ -96,14 +168,15 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
   go_to(desk, 0);
   const Pose first = desk.workspace.document.scene().keyframes[0].pose;
   const size_t steps = desk.steps();
-  desk.workspace.commit("Ease", with_ease(desk.workspace.document.scene(), 0, Ease::hold));
+  desk.workspace.commit("Ease", with_ease(desk.workspace.document.scene(), 0, Ease::hold),
+                        From::document);
   CHECK(desk.workspace.document.scene().keyframes[0].pose == first);
   CHECK(desk.steps() == steps + 1);
   CHECK(desk.workspace.timeline.shows);
   desk.workspace.update_map({});
   for (const double time : {1.25, 1.5, 1.75}) {
-    desk.workspace.commit_or_amend("Move key",
-                                   with_key_moved(desk.workspace.document.scene(), 1, time).first);
+    desk.workspace.commit_or_amend(
+        "Move key", with_key_moved(desk.workspace.document.scene(), 1, time).first, From::document);
     desk.workspace.go_to_time(time);
     desk.workspace.update_map({});
   }
@@ -122,7 +195,8 @@ TEST_CASE("Timeline: two drags of keys are two steps") {
   for (const double time : {1.25, 1.5}) {
     w.carried_on.reset();  // as the panel does at a press
     for (const double nearer : {time - 0.125, time})
-      w.commit_or_amend("Move key", with_key_moved(w.document.scene(), 1, nearer).first);
+      w.commit_or_amend("Move key", with_key_moved(w.document.scene(), 1, nearer).first,
+                        From::document);
   }
   CHECK(desk.steps() == steps + 2);
   act(desk, "edit.undo");
@@ -134,7 +208,7 @@ TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
   Scene scene = desk.scene();
   for (size_t i = 0; i < kMostKeyframes; ++i)
     scene.keyframes.push_back({static_cast<double>(i), whole_pose_of(scene)});
-  REQUIRE(desk.workspace.commit("Many keys", scene));
+  REQUIRE(desk.workspace.commit("Many keys", scene, From::document));
   desk.workspace.timeline.auto_key = true;
   desk.workspace.timeline.time = 0.5;
   Scene moved = scene;
@@ -203,29 +277,47 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
   const double rest = desk.workspace.map.prepared()->mesh->vertices[0].real();
   CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
   CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
-  CHECK((skins[1].later && !skins[0].later));
+  // The own pose is compared with the keys as they are now.
+  Scene scene = desk.workspace.document.scene();
+  for (Points& segment : scene.keyframes[1].pose.cage.segments) segment[0] += 7.0;
+  desk.workspace.commit("Key", scene, From::document);
+  desk.workspace.timeline.shows = false;
+  desk.workspace.update_map({});
+  CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
+  scene.keyframes.insert(scene.keyframes.begin() + 1, {0.75, scene.keyframes[0].pose});
+  scene.keyframes[1].pose.pins.push_back({{5, 5}});  // does not play
+  desk.workspace.commit("Hollow", scene, From::document);
+  desk.workspace.update_map({});
+  CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
+  CHECK(desk.workspace.onion_skins().back().later);
   go_to(desk, 0);
   CHECK(desk.workspace.onion_skins().size() == 1);
 }
 
 namespace {
 
-/// Half a circle through (300, 100) in two seconds, with Ctrl, sixty times a second.
+using Way = Complex (*)(double seconds);
+
+/// Half a circle from (300, 100) in two seconds; the same way straight.
 Complex on_arc(double seconds) {
   return Complex(250, 100) + std::polar(50.0, kPi / 2 * seconds);
 }
+Complex straight(double seconds) {
+  return Complex(300, 100) + seconds * Complex(150, 40);
+}
 
-void record(Desk& desk) {
+/// Two seconds with Ctrl, sixty times a second.
+void record(Desk& desk, Way way = on_arc) {
   constexpr Modifiers kCtrl{true, false, false};
   desk.now_ms = 5000;
-  desk.press({300, 100}, kCtrl);
-  desk.move({300, 104}, kCtrl);  // the clock starts
+  desk.press(way(0), kCtrl);
+  desk.move(way(0) + Complex(0, 4), kCtrl);  // the clock starts
   for (int i = 1; i <= 120; ++i) {
     desk.now_ms = 5000 + 1000.0 / 60 * i;
-    desk.move(on_arc(i / 60.0), kCtrl);
+    desk.move(way(i / 60.0), kCtrl);
     desk.workspace.update_map({});
   }
-  desk.release(on_arc(2), kCtrl);
+  desk.release(way(2), kCtrl);
   desk.workspace.update_map({});
 }
 
@@ -240,30 +332,120 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
   CHECK(scene.keyframes.size() >= 5);
   CHECK(scene.keyframes.size() <= 15);
   CHECK(scene.keyframes.front().time == 0);
-  CHECK(length_of(scene) == Approx(2).margin(0.03));
+  CHECK(length_of(scene) == 2);
   CHECK(scene.pose.vertex(2) == Complex(300, 100));  // its own pose stays
   CHECK(desk.workspace.timeline.shows);
   for (const double time : {0.3, 0.77, 1.31, 1.9}) {
     go_to(desk, time);
     INFO("at " << time << " s");
-    // Half a frame's length along the arc, and what few keys may be off.
-    CHECK(std::abs(desk.scene().pose.vertex(2) - on_arc(time)) < 1.6 + 2);
+    CHECK(std::abs(desk.scene().pose.vertex(2) - on_arc(time)) < 4);
   }
   act(desk, "edit.undo");
   CHECK(desk.workspace.document.scene().keyframes.empty());
 }
 
+TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
+  Desk desk(kBar);
+  record(desk, straight);
+  CHECK(desk.workspace.document.scene().keyframes.size() <= 10);
+  for (const double time : {0.2, 0.9, 1.5, 1.95}) {
+    go_to(desk, time);
+    INFO("at " << time << " s");
+    CHECK(std::abs(desk.scene().pose.vertex(2) - straight(time)) < 3);
+  }
+  CHECK(length_of(desk.workspace.document.scene()) == 2);
+}
+
+TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of others") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  Scene scene = desk.workspace.document.scene();
+  scene.keyframes[0].pose.pins.push_back({{5, 5}});  // another structure
+  scene.keyframes.push_back({3, scene.keyframes[1].pose});
+  scene.keyframes.back().turns = 1;
+  desk.workspace.commit("Hollow", scene, From::document);
+  const Keyframe hollow = scene.keyframes[0];
+  go_to(desk, 0);
+  const Complex from = desk.scene().pose.vertex(2);
+  CHECK(from == Complex(340, 100));
+  constexpr Modifiers kCtrl{true, false, false};
+  desk.press(from, kCtrl);
+  for (int i = 1; i <= 60; ++i) {
+    desk.now_ms = 1000.0 / 30 * i;
+    desk.move(from + Complex(0, i), kCtrl);
+  }
+  desk.release(from + Complex(0, 60), kCtrl);
+  const Scene& after = desk.workspace.document.scene();
+  CHECK(after.keyframes[0] == hollow);
+  CHECK(after.keyframes.back().time == 3);
+  go_to(desk, 3);
+  CHECK(desk.workspace.map.motion().turned_at(3) == Approx(2 * kPi).margin(0.05));
+}
+
+TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  Scene scene = desk.workspace.document.scene();
+  Points& segment = scene.keyframes[1].pose.cage.segments[0];
+  segment = {segment[0], segment[0] + Complex(100, -30), segment[0] + Complex(200, -30)};
+  desk.workspace.commit("Curved", scene, From::document);
+  desk.settle();
+  go_to(desk, 1);
+  const Handle tangent{Handle::Kind::cage, 0, 1};
+  REQUIRE(exists(desk.scene(), tangent, Layer::pose));
+  const Complex at = position_of(desk.scene(), tangent, Layer::pose);
+  const size_t steps = desk.steps();
+  constexpr Modifiers kCtrl{true, false, false};
+  desk.press(at, kCtrl);
+  for (int i = 1; i <= 30; ++i) {
+    desk.now_ms = 50.0 * i;
+    desk.move(at + Complex(0, -i), kCtrl);
+  }
+  desk.release(at, kCtrl);
+  CHECK(desk.steps() == steps);
+  CHECK_FALSE(desk.workspace.timeline.recording);
+  CHECK_FALSE(desk.workspace.toasts.empty());
+  // Its vertex is, and takes the tangents along that there are.
+  desk.workspace.selection.clear();
+  const Complex vertex = desk.scene().pose.vertex(0);
+  desk.press(vertex, kCtrl);
+  for (int i = 1; i <= 30; ++i) {
+    desk.now_ms = 5000 + 50.0 * i;
+    desk.move(vertex + Complex(-i, 0), kCtrl);
+  }
+  desk.release(vertex + Complex(-30, 0), kCtrl);
+  CHECK(desk.steps() == steps + 1);
+  CHECK(desk.workspace.document.scene().keyframes.back().pose.cage.vertex(0).real() ==
+        Approx(vertex.real() - 30).margin(1));
+}
+
+TEST_CASE("Timeline: another document opened during a recording keeps its time") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 0.75);
+  const Complex from = desk.scene().pose.vertex(2);
+  desk.press(from, {true, false, false});
+  desk.move(from + Complex(20, 0), {true, false, false});
+  REQUIRE(desk.workspace.timeline.recording);
+  desk.workspace.open(Document());
+  desk.tool().cancel(desk.workspace);
+  CHECK(desk.workspace.timeline.time == 0);
+  CHECK_FALSE(desk.workspace.timeline.recording);
+}
+
 TEST_CASE("Timeline: what moves already goes on under a recording") {
   Desk desk(kBar);
   set_two_keys(desk);
-  go_to(desk, 0);
+  act(desk, "edit.reset");  // from the scene's own pose, too
+  CHECK_FALSE(desk.workspace.timeline.shows);
+  desk.workspace.timeline.time = 0;
   record(desk);
   const Scene& scene = desk.workspace.document.scene();
   REQUIRE(scene.keyframes.size() > 3);
   const size_t there = key_at(scene, 1);
   REQUIRE(there < scene.keyframes.size());
   CHECK(scene.keyframes[there].pose.cage.vertex(0) == Complex(40, 0));
-  CHECK(std::abs(scene.keyframes[there].pose.cage.vertex(2) - on_arc(1)) < 1.6);
+  CHECK(std::abs(scene.keyframes[there].pose.cage.vertex(2) - on_arc(1)) < 1);
   CHECK(scene.keyframes.back().pose.cage.vertex(0) == Complex(40, 0));
   go_to(desk, 0.5);
   CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(2));

@@ -20,7 +20,8 @@ bool has_cage_selection(const Workspace& w) {
 void make_cage(Workspace& w) {
   Cage cage = auto_cage(*w.document.image(),
                         {w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved});
-  if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)))) {
+  if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)),
+               From::document)) {
     w.layer = Layer::pose;
     w.tool = ToolId::select;
     w.selection.clear();

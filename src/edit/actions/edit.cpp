@@ -124,7 +124,7 @@ std::vector<Action> edit_actions() {
          scene.outline.clear();
          scene.surface.reset();
          if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
-         w.commit("Remove outline", scene);
+         w.commit("Remove outline", scene, From::document);
        }},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
       {"tool.select",

@@ -72,7 +72,9 @@ std::vector<Action> time_actions() {
        "Time",
        {},
        [](const Workspace& w) { return key_here(w).has_value(); },
-       [](Workspace& w) { w.commit("Delete key", without_key(w.document.scene(), *key_here(w))); }},
+       [](Workspace& w) {
+         w.commit("Delete key", without_key(w.document.scene(), *key_here(w)), From::document);
+       }},
       {"time.auto_key",
        "Auto-key: edits of the pose set keys",
        kRecord,
