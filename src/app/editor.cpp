@@ -87,6 +87,7 @@ class Editor {
     PartsState parts{current_tool().busy(), comparison_.rows()};
     parts.on_surface = workspace_.shows_surface() && surface_pane_.has_picture();
     parts.yaw = surface_pane_.camera().yaw;
+    parts.exporting = files_.busy();
     parts.distance = surface_pane_.camera().distance;
     state_file_->write(workspace_, parts);
   }

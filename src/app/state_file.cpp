@@ -21,7 +21,8 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       " \"modified\": %s, \"busy\": %s, \"gesture\": %s, \"empty\": %s, \"error\": %s,\n"
       " \"status\": \"%s\", \"boundary_turns\": %.6f, \"folds\": %s, \"iteration\": %d, "
       "\"iterations\": %d, \"playing\": %s,\n"
-      "  \"zeros\": %d, \"compared_rows\": %d, \"on_surface\": %s, \"yaw\": %.6f, "
+      "  \"zeros\": %d, \"compared_rows\": %d, \"on_surface\": %s, \"exporting\": %s, \"yaw\": "
+      "%.6f, "
       "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
       "\"runs\": %s}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
@@ -43,8 +44,8 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(workspace.map.map().energies.size()),
       workspace.playback.playing ? "true" : "false",
       static_cast<int>(workspace.map.map().zeros.size()), parts.compared_rows,
-      parts.on_surface ? "true" : "false", parts.yaw, parts.distance,
-      static_cast<int>(workspace.scene().corners.size()),
+      parts.on_surface ? "true" : "false", parts.exporting ? "true" : "false", parts.yaw,
+      parts.distance, static_cast<int>(workspace.scene().corners.size()),
       static_cast<int>(workspace.document.scene().keyframes.size()), workspace.timeline.time,
       workspace.timeline.shows ? "true" : "false", workspace.timeline.playing ? "true" : "false");
   if (text == last_) return;

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <set>
@@ -12,6 +13,7 @@
 #include "core/error.h"
 #include "core/inverse.h"
 #include "film/film.h"
+#include "film/ordered_tasks.h"
 #include "raster/textured.h"
 #include "raster/unwarp.h"
 #include "scene/auto_cage.h"
@@ -35,6 +37,16 @@ LoadedScene load(const Path& path) {
   LoadedScene loaded = load_scene(path);
   if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
   return loaded;
+}
+
+/// From here on Ctrl-C and a polite kill end what writes films at the next frame, so that nothing
+/// half done is left.
+volatile std::sig_atomic_t interrupted = 0;
+void heed_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
+}
+void stop_if_interrupted() {
+  if (interrupted) throw Error(ErrorKind::failed, "interrupted");
 }
 
 void check_out(const Path& out, const Path& scene, const LoadedScene& loaded) {
@@ -177,13 +189,19 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
   }
   for (int i = range.first; i <= range.last; ++i)
     check_out(numbered(command.out, i), command.scene, loaded);
+  heed_interrupts();
+  OrderedTasks<Path> files([](const Path&) {});
   for (int i = range.first; i <= range.last; ++i) {
-    const Path out = numbered(command.out, i);
+    stop_if_interrupted();
     options.time = i / rate;
-    write_file(out, encode_png(maker.picture(options).image));
+    files.add([out = numbered(command.out, i), image = maker.picture(options).image] {
+      write_file(out, encode_png(image));
+      return out;
+    });
     if (::isatty(STDERR_FILENO))
       std::fprintf(stderr, "\rframe %d of %d..%d", i, range.first, range.last);
   }
+  files.finish();
   std::fprintf(stderr, "%s%d frames, %s to %s\n", ::isatty(STDERR_FILENO) ? "\r" : "",
                range.last - range.first + 1, numbered(command.out, range.first).c_str(),
                numbered(command.out, range.last).c_str());
@@ -327,12 +345,14 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
                 command.out.string() + ": the name must end in ." + command.format);
   const bool shows_progress = ::isatty(STDERR_FILENO);
   int frames = 0;
+  heed_interrupts();
   write_film(command.out, loaded.scene, loaded.image.get(), {command.scale},
              [&](int done, int all) {
                if (shows_progress) std::fprintf(stderr, "\rframe %d of %d ", done, all);
                frames = all;
-               return true;
+               return !interrupted;
              });
+  stop_if_interrupted();
   std::fprintf(stderr, "%s%s: %d frames\n", shows_progress ? "\r" : "", command.out.c_str(),
                frames);
 }

@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include "film/film_writer.h"
+#include "film/ordered_tasks.h"
 
 namespace holomorph {
 namespace {
@@ -35,7 +36,18 @@ class ApngWriter final : public FilmWriter {
   ApngWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {}
 
   void add(const Image& frame) override {
-    const std::string png = encode_png(frame);
+    pngs_.add([frame] { return encode_png(frame); });
+  }
+
+  void finish() override {
+    pngs_.finish();
+    write_file(out_,
+               head_ + chunk("acTL", big_endian(frames_, 4) + big_endian(shape_.loops ? 0 : 1, 4)) +
+                   body_ + chunk("IEND", ""));
+  }
+
+ private:
+  void append(const std::string& png) {
     std::string data;
     for (size_t at = kSignature; at + 12 <= png.size();) {
       const size_t length = number_at(png, at);
@@ -50,8 +62,8 @@ class ApngWriter final : public FilmWriter {
     const std::uint32_t first = sequence_++;
     body_ += chunk(
         "fcTL",
-        big_endian(first, 4) + big_endian(static_cast<std::uint32_t>(frame.width), 4) +
-            big_endian(static_cast<std::uint32_t>(frame.height), 4) + big_endian(0, 4) +
+        big_endian(first, 4) + big_endian(static_cast<std::uint32_t>(shape_.width), 4) +
+            big_endian(static_cast<std::uint32_t>(shape_.height), 4) + big_endian(0, 4) +
             big_endian(0, 4) + big_endian(250, 2) +
             big_endian(static_cast<std::uint32_t>(std::lround(250 * shape_.frames_per_second)), 2) +
             big_endian(1, 1) + big_endian(0, 1));
@@ -60,17 +72,11 @@ class ApngWriter final : public FilmWriter {
     ++frames_;
   }
 
-  void finish() override {
-    write_file(out_,
-               head_ + chunk("acTL", big_endian(frames_, 4) + big_endian(shape_.loops ? 0 : 1, 4)) +
-                   body_ + chunk("IEND", ""));
-  }
-
- private:
   Path out_;
   FilmShape shape_;
   std::string head_, body_;
   std::uint32_t frames_ = 0, sequence_ = 0;
+  OrderedTasks<std::string> pngs_{[this](const std::string& png) { append(png); }};
 };
 
 }  // namespace

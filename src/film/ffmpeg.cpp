@@ -63,6 +63,7 @@ class FfmpegWriter final : public FilmWriter {
     for (size_t sent = 0; sent < flat.pixels.size();) {
       const ssize_t count =
           ::send(socket_, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
+      if (count < 0 && errno == EINTR) continue;
       if (count <= 0) fail();
       sent += static_cast<size_t>(count);
     }

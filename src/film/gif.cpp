@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "film/film_writer.h"
+#include "film/ordered_tasks.h"
 
 namespace holomorph {
 namespace {
@@ -92,7 +93,18 @@ class GifWriter final : public FilmWriter {
     must(EGifPutExtensionTrailer(file_.get()));
   }
   void add(const Image& frame) override {
-    Quantized quantized = holomorph::quantized(frame);
+    palettes_.add([frame] { return quantized(frame); });
+  }
+
+  void finish() override {
+    palettes_.finish();
+    int wrong = 0;
+    must(EGifCloseFile(file_.release(), &wrong));
+    write_file(out_, bytes_);
+  }
+
+ private:
+  void append_frame(Quantized quantized) {
     GraphicsControlBlock control{};
     control.DisposalMode = DISPOSE_BACKGROUND;
     control.DelayTime = hundredths(frames_ + 1) - hundredths(frames_);
@@ -102,22 +114,15 @@ class GifWriter final : public FilmWriter {
     must(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
     const Owned<ColorMapObject, GifFreeMapObject> colors(
         GifMakeMapObject(static_cast<int>(quantized.palette.size()), quantized.palette.data()));
-    must(EGifPutImageDesc(file_.get(), 0, 0, frame.width, frame.height, false, colors.get()));
-    for (int row = 0; row < frame.height; ++row)
+    must(EGifPutImageDesc(file_.get(), 0, 0, shape_.width, shape_.height, false, colors.get()));
+    for (int row = 0; row < shape_.height; ++row)
       must(EGifPutLine(
           file_.get(),
-          &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(frame.width)],
-          frame.width));
+          &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(shape_.width)],
+          shape_.width));
     ++frames_;
   }
 
-  void finish() override {
-    int wrong = 0;
-    must(EGifCloseFile(file_.release(), &wrong));
-    write_file(out_, bytes_);
-  }
-
- private:
   int hundredths(int frames) const {
     return static_cast<int>(std::lround(100 * frames / shape_.frames_per_second));
   }
@@ -131,6 +136,8 @@ class GifWriter final : public FilmWriter {
   std::string bytes_;
   Owned<GifFileType, close> file_;
   int frames_ = 0;
+  OrderedTasks<Quantized> palettes_{
+      [this](Quantized quantized) { append_frame(std::move(quantized)); }};
 };
 
 }  // namespace

@@ -364,6 +364,18 @@ class CommandLine(unittest.TestCase):
         self.assertIn("no such codec", result.stderr)
         self.assertEqual([n for n in os.listdir(self.folder) if "film" in n], [])  # nothing is left
 
+    def test_interrupted_films_leave_nothing(self):
+        sample = os.path.join(SOURCE, "assets/fern.json")
+        for kind in ("webp", "apng", "gif"):
+            process = subprocess.Popen([PROGRAM, "export", sample, "--format", kind, "--out", self.path("fern." + kind)],
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(0.7)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(20), 1, kind)
+            self.assertIn("interrupted", process.stderr.read())
+            process.stderr.close()
+        self.assertEqual([n for n in os.listdir(self.folder) if "fern" in n], [])
+
     def test_times_and_frames_that_are_none_are_named(self):
         scene = self.keyed_scene()
         path = self.write("s.json", scene)
