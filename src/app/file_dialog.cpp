@@ -69,12 +69,14 @@ void FileDialog::enter(const Path& folder) {
   items_ = std::move(items);
 }
 
-/// The first of the files that saving would replace.
-std::optional<Path> FileDialog::first_there(const Path& path) const {
-  std::error_code error;
-  for (const Path& file : question_.writes ? question_.writes(path) : std::vector{path})
-    if (fs::exists(file, error)) return file;
-  return {};
+/// The files that saving would replace.
+std::vector<Path> FileDialog::files_there(const Path& path) const {
+  std::vector<Path> files = question_.writes ? question_.writes(path) : std::vector{path};
+  std::erase_if(files, [](const Path& file) {
+    std::error_code error;
+    return !fs::exists(file, error);
+  });
+  return files;
 }
 
 void FileDialog::accept(const Path& wanted) {
@@ -87,11 +89,20 @@ void FileDialog::accept(const Path& wanted) {
       return;
     }
   } else {
+    if (!shows(path) && question_.extensions.size() > 1 && path.has_extension()) {
+      message_ = path.extension().string() + " is not written here; choose one of";
+      for (const std::string& extension : question_.extensions) message_ += " " + extension;
+      return;
+    }
     if (!shows(path)) path += question_.extensions[0];
-    if (const auto there = confirming_ ? std::nullopt : first_there(path)) {
+    if (const std::vector<Path> there = confirming_ ? std::vector<Path>() : files_there(path);
+        !there.empty()) {
       confirming_ = true;
-      message_ =
-          there->filename().string() + " exists already. Enter or Replace puts this in its place.";
+      message_ = there[0].filename().string() +
+                 (there.size() == 1 ? " exists already. Enter or Replace puts this in its place."
+                                    : " and " + std::to_string(there.size() - 1) +
+                                          " more exist already. Enter or Replace puts these in "
+                                          "their places.");
       focus_ = true;
       return;
     }

@@ -38,7 +38,7 @@ class FileDialog {
  private:
   void enter(const Path& folder);
   void accept(const Path& path);
-  std::optional<Path> first_there(const Path& path) const;
+  std::vector<Path> files_there(const Path& path) const;
   bool shows(const Path& path) const;
 
   FileQuestion question_;

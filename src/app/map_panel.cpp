@@ -75,7 +75,10 @@ void injectivity_section(Workspace& workspace, bool light) {
   const Injectivity& found = workspace.map.injectivity();
   const ImVec4 warning = ImGui::ColorConvertU32ToFloat4(canvas_colors(light).warning);
   const auto show = [&](Complex where, const char* text) {
-    ImGui::SameLine();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x +
+                      ImGui::CalcTextSize("Show me").x + 2 * style.FramePadding.x;
+    if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     ImGui::PushID(text);
     if (ImGui::SmallButton("Show me")) {
       workspace.layer = Layer::pose;

@@ -236,7 +236,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
 }
 
 bool begin_combo(const char* label, const char* preview) {
-  if (!ImGui::BeginCombo(label, preview)) return false;
+  if (!ImGui::BeginCombo(label, preview, ImGuiComboFlags_HeightLargest)) return false;
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   return true;
 }

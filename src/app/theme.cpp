@@ -76,7 +76,8 @@ void apply_theme(double scale, bool light) {
   c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_ButtonHovered] = rgb(hover);
   c[ImGuiCol_FrameBgActive] = c[ImGuiCol_ButtonActive] = rgb(accent, 0.55f);
   c[ImGuiCol_CheckMark] = rgb(accent);
-  c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);  // the value shows through
+  c[ImGuiCol_PlotHistogram] = rgb(accent, 0.5f);  // progress
+  c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);    // the value shows through
   c[ImGuiCol_SliderGrabActive] = rgb(accent, 0.75f);
   c[ImGuiCol_ModalWindowDimBg] = rgb(0x000000, 0.5f);
   c[ImGuiCol_Header] = rgb(accent, light ? 0.22f : 0.30f);

@@ -130,7 +130,15 @@ void draw_key_menu(Workspace& workspace) {
       if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
         workspace.commit("Ease", with_ease(scene, key, ease), From::document);
     ImGui::Separator();
-    if (ImGui::MenuItem("Delete key")) run(action_named("time.delete_key"), workspace);
+    int turns = scene.keyframes[key].turns;
+    ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
+    if (key > 0 && ImGui::InputInt("whole turns before it", &turns)) {
+      Scene after = scene;
+      after.keyframes[key].turns = std::clamp(turns, -kMostTurns, kMostTurns);
+      workspace.commit_or_amend("Whole turns", after, From::document);
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete key", "Del")) run(action_named("time.delete_key"), workspace);
   }
   ImGui::EndPopup();
 }
@@ -200,7 +208,11 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
     workspace.carried_on.reset();
     held_ = hovered ? Held::key : Held::time;
     key_ = hovered.value_or(0);
-    if (hovered) workspace.go_to_time(scene().keyframes[*hovered].time);
+    if (hovered) {
+      workspace.go_to_time(scene().keyframes[*hovered].time);
+      workspace.timeline.chosen = true;
+      workspace.selection.clear();  // Delete means the key now
+    }
   }
   if (ImGui::IsItemActive()) {
     drag(workspace, snapped(scene(), ruler.time(ImGui::GetIO().MousePos.x)), s);
@@ -233,6 +245,7 @@ void TimelinePanel::drag(Workspace& workspace, double time, float s) {
   if (workspace.document.scene() != after) return;
   key_ = number;
   workspace.go_to_time(time);
+  workspace.timeline.chosen = true;
 }
 
 void TimelinePanel::draw(Workspace& workspace, double scale) {

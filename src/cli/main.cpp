@@ -65,7 +65,9 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   sub->add_flag("--crop", render.crop,
                 "Keep the picture's rectangle; otherwise nothing is cut off");
-  auto* time = sub->add_option("--time", render.time, "A time of the keyframes, in seconds");
+  auto* time = sub->add_option("--time", render.time,
+                               "A time of the keyframes, in seconds; behind the last one as there")
+                   ->check(CLI::NonNegativeNumber);
   sub->add_option("--frames", render.frames,
                   "Frames of the keyframes, A..B or all, each to a file with its number: "
                   "walk.png to walk-0007.png")

@@ -11,6 +11,7 @@ struct Timeline {
   double time = 0;     ///< seconds
   bool shows = false;  ///< the picture is that of the time, not the scene's own pose
   bool playing = false, loop = true;
+  bool chosen = false;                  ///< the key at the time was clicked
   bool recording = false;               ///< a drag sets keys, by the clock
   bool auto_key = false;                ///< pose edits set keys
   bool onion = false;                   ///< the pictures of the keys beside the time
@@ -21,6 +22,7 @@ struct Timeline {
   void go_to(double seconds) {
     time = std::clamp(seconds, 0.0, kLongestTime);
     shows = true;
+    chosen = false;
     clock_ms.reset();
   }
 };

@@ -9,6 +9,10 @@
 namespace holomorph {
 namespace {
 
+constexpr const char* kLeft =
+    "The pose has no key: it stays the scene's own, and Ctrl+Z leads back. I sets a key, with K "
+    "every "
+    "edit does.";
 constexpr const char* kNotKnown = "One moment, the picture at this time is being prepared.";
 
 }  // namespace
@@ -47,15 +51,10 @@ bool Workspace::accepts(const Scene& scene) {
 
 bool Workspace::commit(const std::string& label, Scene scene, From from) {
   carried_on.reset();
-  const std::optional<Scene> at_time = timeline.shows ? timed : std::nullopt;
-  return enter(std::move(scene), from, [&](Scene entered) {
-    if (at_time && !timeline.shows) {
-      char text[48];
-      std::snprintf(text, sizeof text, "Pose at %.2f s", timeline.time);
-      document.commit(text, *at_time);  // what undoing the edit goes back to
-    }
-    document.commit(label, std::move(entered));
-  });
+  preview.reset();
+  const std::optional<double> at = shown_time();
+  return enter(std::move(scene), from,
+               [&](Scene entered) { document.commit(label, std::move(entered), at); });
 }
 
 bool Workspace::amend(Scene scene, From from) {
@@ -110,8 +109,17 @@ bool Workspace::knows_pose() const {
 
 void Workspace::go_to_time(double seconds) {
   preview.reset();
+  if (!timeline.shows && seconds != timeline.time && leaves_a_pose()) say(kLeft);
   if (seconds != timeline.time) timed.reset();
   timeline.go_to(seconds);
+}
+
+/// Whether the scene's own pose is in none of its keyframes.
+bool Workspace::leaves_a_pose() const {
+  const Scene& scene = document.scene();
+  return document.history().can_undo() && !playing_keys(scene).empty() &&
+         std::ranges::find(scene.keyframes, whole_pose_of(scene), &Keyframe::pose) ==
+             scene.keyframes.end();
 }
 
 void Workspace::set_key() {
@@ -167,13 +175,18 @@ void Workspace::commit_or_amend(const std::string& label, Scene scene, From from
 void Workspace::go_to(size_t entry) {
   preview.reset();
   const Scene before = document.scene();
+  const size_t from = document.history().index();
   carried_on.reset();
   playback = {};
   document.go_to(entry);
   timed.reset();
-  // What was undone is to be seen.
-  if (whole_pose_of(before) != whole_pose_of(document.scene())) timeline.shows = false;
   timeline.playing = false;
+  // What was undone or done again last is to be seen, at its time.
+  const std::optional<double> at =
+      document.history().entries()[entry < from ? entry + 1 : entry].at;
+  const bool poses = whole_pose_of(before) != whole_pose_of(document.scene());
+  if (at) timeline.time = *at;
+  if (at || poses) timeline.shows = at && (entry < from || !poses);
   // Numbers mean other points in another structure.
   const bool other_cage = before.rest.size() != scene().rest.size(),
              other_pins = before.pins.size() != scene().pins.size(),

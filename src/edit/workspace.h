@@ -157,6 +157,7 @@ struct Workspace {
  private:
   bool enter(Scene scene, From from, const std::function<void(Scene)>& put);
   Scene keyed(Scene scene);
+  bool leaves_a_pose() const;
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

@@ -21,7 +21,7 @@ using Owned = std::unique_ptr<T, Release<T, release>>;
 struct Quantized {
   std::vector<GifColorType> palette;
   std::vector<unsigned char> pixels;
-  int transparent = -1;  ///< a colour's number, or none
+  int transparent = -1;  ///< a colour's number
 };
 
 /// 255 colours and one for what is transparent, which is more than half.
@@ -37,6 +37,7 @@ Quantized quantized(const Image& frame) {
       throw Error(ErrorKind::failed, "the colours of a GIF frame could not be chosen");
   };
   const Owned<liq_attr, liq_attr_destroy> settings(liq_attr_create());
+  liq_set_max_colors(settings.get(), 255);  // and one for what is transparent
   liq_set_speed(settings.get(), 6);
   const Owned<liq_image, liq_image_destroy> image(
       liq_image_create_rgba(settings.get(), solid.pixels.data(), solid.width, solid.height, 0));
@@ -52,8 +53,12 @@ Quantized quantized(const Image& frame) {
   for (unsigned i = 0; i < palette->count; ++i) {
     const liq_color& color = palette->entries[i];
     quantized.palette.push_back({color.r, color.g, color.b});
-    if (color.a < 128) quantized.transparent = static_cast<int>(i);
   }
+  quantized.transparent = static_cast<int>(palette->count);
+  quantized.palette.push_back({0, 0, 0});
+  for (size_t i = 0; i < quantized.pixels.size(); ++i)
+    if (solid.pixels[4 * i + 3] == 0)
+      quantized.pixels[i] = static_cast<unsigned char>(palette->count);
   size_t size = 2;  // colour maps hold powers of two
   while (size < quantized.palette.size()) size *= 2;
   quantized.palette.resize(size, {0, 0, 0});

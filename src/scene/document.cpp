@@ -191,8 +191,8 @@ Sources Document::sources() const {
   return {path_, image_path_, scene().surface ? Path(scene().surface->file) : Path()};
 }
 
-bool Document::commit(const std::string& label, Scene scene) {
-  return history_.commit(label, std::move(scene));
+bool Document::commit(const std::string& label, Scene scene, std::optional<double> at) {
+  return history_.commit(label, std::move(scene), at);
 }
 
 Scene portable(Scene scene, const Path& image, const Path& folder) {

@@ -68,7 +68,7 @@ class Document {
   bool empty() const { return !image_ && !scene().has_cage() && history_.entries().size() == 1; }
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.
-  bool commit(const std::string& label, Scene scene);
+  bool commit(const std::string& label, Scene scene, std::optional<double> at = {});
   /// The current step, carried further: no step of its own. Not for the first entry.
   void amend(Scene scene) { history_.amend(std::move(scene)); }
   bool undo() { return history_.undo(); }

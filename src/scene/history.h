@@ -14,6 +14,7 @@ class History {
   struct Entry {
     std::string label;
     Scene scene;
+    std::optional<double> at = {};  ///< the time that was shown when it was made
   };
 
   explicit History(Scene scene, std::string label = "Open") {
@@ -22,10 +23,10 @@ class History {
 
   /// Adds a scene after the current one; what had been undone is forgotten. A scene equal to the
   /// current one is not added: returns false.
-  bool commit(std::string label, Scene scene) {
+  bool commit(std::string label, Scene scene, std::optional<double> at = {}) {
     if (scene == current()) return false;
     entries_.resize(index_ + 1);
-    entries_.push_back({std::move(label), std::move(scene)});
+    entries_.push_back({std::move(label), std::move(scene), at});
     if (entries_.size() > kMost) entries_.erase(entries_.begin());
     index_ = entries_.size() - 1;
     return true;

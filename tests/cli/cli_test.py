@@ -328,6 +328,13 @@ class CommandLine(unittest.TestCase):
             self.assertLess(numpy.abs(frame - exact)[shows].mean(), 3, kind)
             self.assertLess(numpy.abs(frame[:, :, 3] - exact[:, :, 3]).mean(), 2, kind)
         self.bad("export", path, "--format", "gif", "--out", self.path("film.webp"), says="must end in .gif")
+        # What is transparent is so in every frame, however many colours there are.
+        out = self.path("fern.gif")
+        self.good("export", os.path.join(SOURCE, "assets/fern.json"), "--format", "gif", "--scale", 0.1, "--out", out)
+        film = Image.open(out)
+        for i in range(film.n_frames):
+            film.seek(i)
+            self.assertEqual(film.convert("RGBA").getpixel((0, 0))[3], 0, i)
         # Rates that are no whole number of milliseconds a frame.
         scene = {**self.keyed_scene(), "animation": {"frames_per_second": 24}}
         self.good("export", self.write("fast.json", scene), "--format", "apng", "--out", self.path("fast.apng"))
@@ -381,6 +388,7 @@ class CommandLine(unittest.TestCase):
         path = self.write("s.json", scene)
         out = self.path("o.png")
         self.bad("render", path, "--frames", "2..9", "--out", out, says="frames 0..4")
+        self.bad("render", path, "--time", -1, "--out", out, says="--time")
         self.bad("render", path, "--frames", "few", "--out", out, says="no range of frames")
         self.bad("render", path, "--frames", "all", "--time", 1, "--out", out, says="excludes")
         still = self.write("still.json", {**scene, "keyframes": []})

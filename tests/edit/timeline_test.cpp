@@ -64,8 +64,12 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(400, 200)) < 1e-6);
   CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
   CHECK(desk.scene().keyframes.size() == 2);
-  CHECK(desk.steps() == steps + 2);  // the pose at that time, and the move
+  CHECK(desk.steps() == steps + 1);
+  go_to(desk, 0.9);
+  CHECK_FALSE(desk.workspace.toasts.empty());  // it has no key
   act(desk, "edit.undo");
+  CHECK(desk.workspace.timeline.time == 0.5);  // where it was made
+  CHECK(desk.workspace.timeline.shows);
   CHECK(desk.scene().pose.vertex(2).real() == Approx(320).margin(1e-3));
   act(desk, "edit.redo");
   act(desk, "time.key");  // now it is one
@@ -93,6 +97,20 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
 }
 
+TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
+  Desk desk(kBar);
+  set_two_keys(desk);
+  go_to(desk, 1);
+  CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
+  desk.workspace.timeline.chosen = true;  // as the panel does
+  act(desk, "edit.delete");
+  CHECK(desk.workspace.document.scene().keyframes.size() == 1);
+  CHECK(desk.workspace.document.scene().rest.size() == 4);
+  act(desk, "edit.undo");
+  go_to(desk, 0.5);  // another time: nothing is chosen
+  CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
+}
+
 TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
   for (const bool auto_key : {false, true}) {
     Desk desk(kBar);
@@ -108,7 +126,6 @@ TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
     CHECK(desk.workspace.timeline.shows == auto_key);
     if (auto_key) CHECK(desk.scene().keyframes[0].pose.cage.vertex(0) == Complex(40, 0));
     act(desk, "edit.undo");
-    if (!auto_key) act(desk, "edit.undo");
     go_to(desk, 0.5);
     act(desk, "edit.reset");
     CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
@@ -156,6 +173,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       CHECK(desk.workspace.document.scene().keyframes[1].ease == Ease::linear);
       INFO(turns << " turns, a key at " << time);
       CHECK(turned(time) == Approx(mid).margin(1e-6));
+      CHECK_FALSE(desk.workspace.map.injectivity().folds());
       CHECK(turned(0.9) == Approx(before).margin(1e-6));
       act(desk, "edit.undo");
     }

@@ -25,9 +25,19 @@ void select_all(Workspace& w) {
   w.selection = Selection(all.begin(), all.end());
 }
 
+bool has_chosen_key(const Workspace& w) {
+  const Scene& scene = w.document.scene();
+  return w.timeline.chosen && key_at(scene, w.timeline.time) < scene.keyframes.size();
+}
+bool can_erase(const Workspace& w) {
+  return has_selection(w) || has_chosen_key(w);
+}
 template <Refit refit>
 void erase_selection(Workspace& w) {
-  w.erase(Selection(w.selection), refit);
+  if (has_selection(w))
+    w.erase(Selection(w.selection), refit);
+  else
+    run(action_named("time.delete_key"), w);
 }
 
 void reset_selection(Workspace& w) {
@@ -103,7 +113,7 @@ std::vector<Action> edit_actions() {
        kTrash,
        "Edit",
        {Key::del, Key::backspace},
-       has_selection,
+       can_erase,
        erase_selection<Refit::curve>},
       {"edit.delete_plain",
        "Delete, keep the neighbours' tangents",

@@ -1,5 +1,6 @@
 // Menus View and Help.
 #include "edit/actions/groups.h"
+#include "edit/posed_corners.h"
 
 namespace holomorph {
 namespace {
@@ -18,13 +19,20 @@ void zoom_by(Workspace& w, double factor) {
       {w.viewport.left + w.viewport.width / 2, w.viewport.top + w.viewport.height / 2}, factor);
 }
 
+/// Corners with angles are where the picture is, not the cage.
+Complex shown_place(const Workspace& w, const Handle& handle) {
+  const bool corner = w.tool == ToolId::angle && w.layer == Layer::pose &&
+                      handle.kind == Handle::Kind::cage && handle.control == 0;
+  return corner ? posed_vertex(w, handle.index) : position_of(w.scene(), handle, w.layer);
+}
+
 void frame_selection(Workspace& w) {
   Box box;
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::stroke)
       for (const Complex& z : curve_of(w.scene(), handle.index, w.layer)) box.include(z);
     else
-      box.include(position_of(w.scene(), handle, w.layer));
+      box.include(shown_place(w, handle));
   const double least = 60;  // one point alone is shown with its surroundings
   if (!box.empty()) {
     const Complex center = box.center();
