@@ -74,6 +74,7 @@ class Editor {
       window_.wake();
     if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
     if (workspace_.timeline.recording) window_.wake();
+    show_whole_map();
     update_title();
     files_.autosave();
     draw_canvas();
@@ -105,6 +106,21 @@ class Editor {
         std::max(1.0, window_.height() - sizes.menu - sizes.status - (timed ? sizes.timeline : 0));
     workspace_.handle_px = 10 * window_.scale();
     if (std::exchange(fit_, false)) view.fit(workspace_.content_box());
+  }
+
+  /// How far the picture of an opened scene reaches is known with its map: unless the user has
+  /// begun, the view shows all of it.
+  void show_whole_map() {
+    if (!opened_ || !workspace_.map.has_map() || workspace_.map.busy()) return;
+    opened_ = false;
+    const Viewport& view = workspace_.viewport;
+    Box seen;
+    seen.include(view.plane_at_px({view.left, view.top}));
+    seen.include(view.plane_at_px({view.left + view.width, view.top + view.height}));
+    const Box all = workspace_.content_box();
+    if (seen.contains({all.left, all.bottom}) && seen.contains({all.right, all.top})) return;
+    fit_ = true;
+    window_.wake();
   }
 
   void take_events() {
@@ -171,6 +187,7 @@ class Editor {
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
       holomorph::run(action_named("time.play"), workspace_);
     if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
+    if (panning_ || input.wheel != 0 || input.pressed) opened_ = false;
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -222,7 +239,7 @@ class Editor {
   void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.replace_picture();
-    fit_ = true;
+    fit_ = opened_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
 
@@ -292,7 +309,8 @@ class Editor {
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_, palette_text_;
-  bool fit_ = false, halved_ = false, panning_ = false, was_active_ = false, restyle_ = false;
+  bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, was_active_ = false,
+       restyle_ = false;
   bool help_ = false, palette_ = false, palette_opening_ = false;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;

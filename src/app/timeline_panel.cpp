@@ -1,6 +1,7 @@
-// Keys are diamonds on a ruler; the line is the time that is shown.
+// Keys are marks on a ruler; the line is the time that is shown.
 #include "app/timeline_panel.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -79,6 +80,7 @@ void draw_key_numbers(Workspace& workspace, float s) {
   Scene scene = workspace.document.scene();
   const size_t key = key_at(scene, workspace.timeline.time);
   if (key >= scene.keyframes.size()) return;
+  if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // its menu has them, too
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
   int ease = static_cast<int>(scene.keyframes[key].ease);
@@ -96,12 +98,22 @@ void draw_key_numbers(Workspace& workspace, float s) {
   tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
 }
 
-void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 fill, bool plays) {
-  const ImVec2 a(at.x - r, at.y), b(at.x, at.y - r), c(at.x + r, at.y), d(at.x, at.y + r);
+/// Round ones go on smoothly, diamonds evenly, squares hold; hollow ones do not play.
+void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool plays) {
+  if (ease == Ease::smooth) {
+    r *= 0.85f;
+    return plays ? list.AddCircleFilled(at, r, color) : list.AddCircle(at, r, color, 0, 1.5f);
+  }
+  const float s = 0.75f * r;
+  const std::array<ImVec2, 4> corners =
+      ease == Ease::hold ? std::array{ImVec2(at.x - s, at.y - s), ImVec2(at.x + s, at.y - s),
+                                      ImVec2(at.x + s, at.y + s), ImVec2(at.x - s, at.y + s)}
+                         : std::array{ImVec2(at.x - r, at.y), ImVec2(at.x, at.y - r),
+                                      ImVec2(at.x + r, at.y), ImVec2(at.x, at.y + r)};
   if (plays)
-    list.AddQuadFilled(a, b, c, d, fill);
+    list.AddConvexPolyFilled(corners.data(), 4, color);
   else
-    list.AddQuad(a, b, c, d, fill, 1.5f);
+    list.AddPolyline(corners.data(), 4, color, ImDrawFlags_Closed, 1.5f);
 }
 
 /// To a frame, unless Alt is held.
@@ -167,7 +179,7 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
     const ImVec2 at(ruler.x(scene.keyframes[i].time), middle);
     const bool plays = fits(scene, scene.keyframes[i].pose);
     const ImU32 color = i == here || hovered == i ? accent : ImGui::GetColorU32(ImGuiCol_Text);
-    draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, plays);
+    draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, scene.keyframes[i].ease, plays);
   }
   const float x = ruler.x(std::min(workspace.timeline.time, ruler.length));
   const ImU32 head = workspace.timeline.shows ? accent : text;
