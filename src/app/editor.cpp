@@ -111,16 +111,16 @@ class Editor {
   /// How far the picture of an opened scene reaches is known with its map: unless the user has
   /// begun, the view shows all of it.
   void show_whole_map() {
+    if (workspace_.document.history().can_undo()) opened_ = false;
     if (!opened_ || !workspace_.map.has_map() || workspace_.map.busy()) return;
     opened_ = false;
-    const Viewport& view = workspace_.viewport;
+    Viewport& view = workspace_.viewport;
     Box seen;
     seen.include(view.plane_at_px({view.left, view.top}));
     seen.include(view.plane_at_px({view.left + view.width, view.top + view.height}));
     const Box all = workspace_.content_box();
-    if (seen.contains({all.left, all.bottom}) && seen.contains({all.right, all.top})) return;
-    fit_ = true;
-    window_.wake();
+    if (!seen.contains({all.left, all.bottom}) || !seen.contains({all.right, all.top}))
+      view.fit(all);
   }
 
   void take_events() {
