@@ -108,6 +108,32 @@ void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   list.AddCircleFilled(at, 2 * s, style.colors.outline);
 }
 
+/// The box around what is selected, its grips and its knob.
+void draw_box(ImDrawList& list, const BoxMark& mark, const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  const auto at = [](Complex z) {
+    return ImVec2(static_cast<float>(z.real()), static_cast<float>(z.imag()));
+  };
+  std::vector<ImVec2> line;
+  for (const Complex& corner : mark.corners) line.push_back(at(corner));
+  stroke(list, line, true, style.colors.accent, style);
+  list.AddLine(at(mark.grip(5)), at(mark.knob), style.colors.accent, 1.2f * s);
+  for (int grip = 0; grip <= 8; ++grip) {
+    const ImVec2 z = at(mark.grip(grip));
+    const bool hovered = mark.hovered == grip;
+    const float r = (hovered ? 5.5f : 4.5f) * s;
+    const ImU32 fill = hovered ? style.colors.hover : style.colors.accent;
+    if (grip == 8) {
+      list.AddCircleFilled(z, r + 1.2f * s, style.colors.outline);
+      list.AddCircleFilled(z, r, fill);
+    } else {
+      list.AddRectFilled({z.x - r - s, z.y - r - s}, {z.x + r + s, z.y + r + s},
+                         style.colors.outline);
+      list.AddRectFilled({z.x - r, z.y - r}, {z.x + r, z.y + r}, fill);
+    }
+  }
+}
+
 void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -128,6 +154,7 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     list.AddLine({at.x - 3 * s, at.y}, {at.x + 3 * s, at.y}, IM_COL32_BLACK, 1.5f * s);
     list.AddLine({at.x, at.y - 3 * s}, {at.x, at.y + 3 * s}, IM_COL32_BLACK, 1.5f * s);
   }
+  if (gesture.box) draw_box(list, *gesture.box, style);
   if (gesture.marquee) {
     const ImVec2 a(static_cast<float>(gesture.marquee->left),
                    static_cast<float>(gesture.marquee->bottom));
@@ -162,6 +189,30 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   list.AddCircleFilled(line.front(), 4 * s, color);
   list.AddCircle(line.back(), 4.5f * s, style.colors.outline, 0, 3.4f * s);
   list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
+}
+
+/// How far a drag reaches softly, and what goes along mirrored.
+void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+                    const OverlayStyle& style) {
+  Selection dragged = workspace.selection;
+  if (gesture.hover) dragged.insert(*gesture.hover);
+  const Scene& scene = workspace.scene();
+  const float s = static_cast<float>(style.scale);
+  for (const Handle& handle : dragged) {
+    if (!exists(scene, handle, workspace.layer)) continue;
+    if (workspace.influence.soft) {
+      const ImVec2 at = px(workspace, position_of(scene, handle, workspace.layer));
+      const float r = static_cast<float>(workspace.influence.reach * workspace.viewport.zoom);
+      list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
+      list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
+    }
+    const auto other = workspace.influence.symmetric ? counterpart_of(scene, handle) : std::nullopt;
+    if (other && exists(scene, *other, workspace.layer)) {
+      const ImVec2 at = px(workspace, position_of(scene, *other, workspace.layer));
+      list.AddCircle(at, 9 * s, style.colors.outline, 0, 3.4f * s);
+      list.AddCircle(at, 9 * s, style.colors.selected, 0, 1.8f * s);
+    }
+  }
 }
 
 /// The cages of the keys before and after the time, in the colours of their pictures.
@@ -258,6 +309,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         draw_smooth_mark(list, at, style);
     }
   }
+  if (workspace.show_cage) draw_influence(list, workspace, gesture, style);
   draw_gesture(list, workspace, gesture, style);
 }
 

@@ -20,7 +20,7 @@ constexpr Row kRows[] = {
     {"fish", "Fish", "A curved cage with few points: bend its tangents."},
     {"octopus", "Octopus", "Nothing folds, however you pull its pins: try to break it."},
     {"snake", "Snake", "One stroke along its body: move, bend or redraw the line."},
-    {"heart", "Heart", "The fish's shape goes onto a drawn line: draw your own with O."},
+    {"heart", "Heart", "The fish's shape goes onto a drawn line: draw your own with U."},
     {"tiger", "Tiger", "A painted face goes onto a mask in space: drag the mask to turn it."},
     {"fern", "Fern", "Corners turn its tip more than once around, and it unrolls: Space plays."},
     {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};

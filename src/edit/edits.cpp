@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/polyline.h"
 #include "edit/corner_edits.h"
+#include "edit/displacement.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -74,23 +75,19 @@ std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
   return handles;
 }
 
+void shift(Scene& scene, Handle handle, Complex by, Layer layer) {
+  if (handle.kind != Handle::Kind::stroke) {
+    place(scene, handle, layer) += by;
+    return;
+  }
+  for (Complex& z : curve(scene, handle.index, layer)) z += by;
+}
+
 Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer) {
-  Selection all = selection;
-  for (const Handle& handle : selection) {
-    if (handle.kind != Handle::Kind::cage || handle.control != 0) continue;
-    const Cage& cage = cage_of(scene, layer);
-    const Index before = (handle.index + cage.size() - 1) % cage.size();
-    if (cage.degree(handle.index) > 1) all.insert({Handle::Kind::cage, handle.index, 1});
-    if (cage.degree(before) > 1) all.insert({Handle::Kind::cage, before, cage.degree(before) - 1});
-  }
-  for (const Handle& handle : all) {
-    if (!exists(scene, handle, layer)) continue;
-    if (handle.kind == Handle::Kind::stroke)
-      for (Complex& z : curve(scene, handle.index, layer)) z += by;
-    else
-      place(scene, handle, layer) += by;
-  }
-  return scene;
+  Displacements all;
+  for (const Handle& handle : selection)
+    if (exists(scene, handle, layer)) all[handle] = by;
+  return displaced(std::move(scene), all, layer);
 }
 
 Scene placed(Scene scene, Handle handle, Complex at, Layer layer) {

@@ -30,8 +30,9 @@ bool exists(const Scene& scene, Handle handle, Layer layer);
 /// Every handle of a layer: cage control points, then pins and strokes where the method uses them.
 std::vector<Handle> handles_of(const Scene& scene, Layer layer);
 
-/// Moves handles, strokes as a whole; a moved rest point leaves the pose where it is. Moving a
-/// vertex takes the control points next to it along.
+/// Moves one handle alone, a stroke as a whole; a moved rest point leaves the pose where it is.
+void shift(Scene& scene, Handle handle, Complex by, Layer layer);
+/// Moves handles; moving a vertex takes the control points next to it along.
 Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer);
 
 /// Puts one handle at a place.

@@ -54,6 +54,7 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
   workspace.map.follow_keys();
   over_keys_ = !start_.keyframes.empty() && workspace.map.motion().plays();
   what_ = what;
+  influence_ = workspace.influence;
   std::erase_if(what_, [&](const Handle& handle) {
     return !exists(start_, handle, Layer::pose) ||
            (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
@@ -78,16 +79,17 @@ Scene Recording::base_at(const Workspace& workspace, double time) const {
 }
 
 Scene Recording::dragged(Scene scene, Complex by) const {
+  const Displacements ways = displacements(start_, what_, by, Layer::pose, influence_);
   // Vertices take their tangents along, so these come behind them.
   for (const bool tangents : {false, true})
-    for (const Handle& handle : what_) {
+    for (const auto& [handle, way] : ways) {
       if (is_tangent(handle) != tangents || !exists(scene, handle, Layer::pose)) continue;
       if (handle.kind == Handle::Kind::stroke) {
         Points& pose = scene.strokes[static_cast<size_t>(handle.index)].pose;
         pose = curve_of(start_, handle.index, Layer::pose);
-        for (Complex& z : pose) z += by;
+        for (Complex& z : pose) z += way;
       } else {
-        scene = placed(std::move(scene), handle, position_of(start_, handle, Layer::pose) + by,
+        scene = placed(std::move(scene), handle, position_of(start_, handle, Layer::pose) + way,
                        Layer::pose);
       }
     }

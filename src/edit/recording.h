@@ -35,6 +35,7 @@ class Recording {
   std::vector<double> needed(double tolerance) const;
 
   Selection what_;
+  Influence influence_;
   Scene start_;  ///< what was shown
   double start_time_ = 0, start_ms_ = 0;
   bool over_keys_ = false;

@@ -10,13 +10,17 @@ class SelectTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     if (ring_.active()) return ring_.follow(input, workspace);
+    if (box_.active()) return box_.follow(input, workspace);
     if (drag_.active()) return void(drag_.follow(input, workspace));
     if (marquee_start_) return follow_marquee(input, workspace);
     hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
     ring_.hover(input, workspace);
+    box_.hover(input, workspace);
     if (!input.inside || !input.pressed) return;
     if (ring_.hovered() && !hover_) {
       ring_.start(input, workspace);
+    } else if (box_.hovered() && !hover_) {
+      box_.start(input, workspace);
     } else if (hover_ && erases(input, *hover_, workspace)) {
       hover_.reset();
     } else if (hover_) {
@@ -32,11 +36,12 @@ class SelectTool final : public Tool {
   void cancel(Workspace& workspace) override {
     drag_.cancel(workspace);
     ring_.cancel(workspace);
+    box_.cancel(workspace);
     marquee_start_.reset();
     hover_.reset();
   }
   bool busy() const override {
-    return drag_.active() || ring_.active() || marquee_start_.has_value();
+    return drag_.active() || ring_.active() || box_.active() || marquee_start_.has_value();
   }
   bool scroll(const Input& input, Workspace& workspace) override {
     return ring_.scroll(input, workspace);
@@ -54,6 +59,7 @@ class SelectTool final : public Tool {
     overlay.hover = hover_;
     overlay.ring = ring_.pin();
     overlay.ring_hovered = ring_.hovered() || ring_.active();
+    if (!drag_.active()) overlay.box = box_.mark();
     if (marquee_start_ && std::abs(marquee_end_ - *marquee_start_) >= kDragThresholdPx) {
       Box box;
       box.include(*marquee_start_);
@@ -67,6 +73,7 @@ class SelectTool final : public Tool {
     if (!workspace.scene().has_cage())
       return "Draw a cage with P, or make one from the picture (Cage menu)";
     if (drag_.active()) return "Shift keeps the axis";
+    if (box_.active() || (box_.hovered() && !hover_)) return box_.hint();
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
@@ -115,6 +122,7 @@ class SelectTool final : public Tool {
   std::optional<Complex> marquee_start_;
   Complex marquee_end_;
   PinRing ring_;
+  TransformBox box_;
 };
 
 }  // namespace

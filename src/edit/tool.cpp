@@ -37,7 +37,8 @@ Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
   if (what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0)
     return tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
                          workspace.layer, input.mods.alt);
-  return moved(scene_, what_, by, workspace.layer);
+  return displaced(scene_, displacements(scene_, what_, by, workspace.layer, workspace.influence),
+                   workspace.layer);
 }
 
 void HandleDrag::finish(Workspace& workspace) {

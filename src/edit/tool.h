@@ -6,6 +6,7 @@
 #include "edit/input.h"
 #include "edit/posed_corners.h"
 #include "edit/recording.h"
+#include "edit/transform_box.h"
 
 namespace holomorph {
 
@@ -22,6 +23,7 @@ struct ToolOverlay {
   bool ring_hovered = false;
   std::optional<CornerMark> corner;  ///< the cage vertex that shows its ring and arms
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
+  std::optional<BoxMark> box;        ///< around what is selected
 };
 
 inline constexpr double kDragThresholdPx = 3;

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/heat.h"
-#include "edit/edits.h"
+#include "edit/displacement.h"
 #include "edit/timeline.h"
 #include "edit/viewport.h"
 #include "scene/document.h"
@@ -76,6 +76,7 @@ struct Workspace {
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
+  Influence influence;                                ///< of drags
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   Playback playback;
   Timeline timeline;

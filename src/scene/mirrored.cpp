@@ -4,41 +4,18 @@
 #include "core/error.h"
 #include "core/polyline.h"
 #include "scene/keyframes.h"
+#include "scene/mirror.h"
 
 namespace holomorph {
 namespace {
 
-/// Left to right through the middle of a scene's cage at rest.
-class Mirror {
- public:
-  explicit Mirror(const Scene& scene) {
-    const Box box = box_of(outline_of(scene.rest));
-    axis_ = box.center().real();
-    far_ = 0.02 * box.diagonal();
-  }
-
-  Complex operator()(Complex z) const { return {2 * axis_ - z.real(), z.imag()}; }
-  Points operator()(Points line) const {
-    for (Complex& z : line) z = (*this)(z);
-    return line;
-  }
-  /// Which of these places, z among them, lies where the mirror takes z, and is taken to z.
-  size_t counterpart(const Points& places, Complex z, const char* what) const {
-    const auto nearest_to = [&](Complex wanted) {
-      return std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });
-    };
-    const auto nearest = nearest_to((*this)(z));
-    if (std::abs(*nearest - (*this)(z)) > far_ || *nearest_to((*this)(*nearest)) != z)
-      throw Error(ErrorKind::bad_input,
-                  std::string("the pose cannot be mirrored: a ") + what +
-                      " has no counterpart on the other side of the cage's middle",
-                  z);
-    return static_cast<size_t>(nearest - places.begin());
-  }
-
- private:
-  double axis_ = 0, far_ = 0;
-};
+size_t counterpart(const Mirror& mirror, const Points& places, Complex z, const char* what) {
+  if (const auto found = mirror.counterpart(places, z)) return *found;
+  throw Error(ErrorKind::bad_input,
+              std::string("the pose cannot be mirrored: a ") + what +
+                  " has no counterpart on the other side of the cage's middle",
+              z);
+}
 
 Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   const Points vertices = vertices_of(rest);
@@ -46,8 +23,8 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   Cage result;
   for (size_t e = 0; e < n; ++e) {
     // The mirrored cage runs the other way: segment e's counterpart starts at its end's.
-    const size_t start = mirror.counterpart(vertices, vertices[e], "cage point"),
-                 end = mirror.counterpart(vertices, vertices[(e + 1) % n], "cage point");
+    const size_t start = counterpart(mirror, vertices, vertices[e], "cage point"),
+                 end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
     if ((end + 1) % n != start)
       throw Error(ErrorKind::bad_input,
                   "the pose cannot be mirrored: the cage's two sides have different points",
@@ -66,7 +43,7 @@ std::vector<PosePin> mirrored_pins(const Mirror& mirror, const std::vector<Pin>&
   for (const Pin& pin : pins) places.push_back(pin.rest);
   std::vector<PosePin> result;
   for (const Complex& z : places) {
-    const PosePin& other = posed[mirror.counterpart(places, z, "pin")];
+    const PosePin& other = posed[counterpart(mirror, places, z, "pin")];
     result.push_back({mirror(other.position), -other.angle, other.scale});
   }
   return result;
@@ -81,7 +58,7 @@ std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Str
   }
   std::vector<Points> result;
   for (size_t i = 0; i < strokes.size(); ++i) {
-    const size_t other = mirror.counterpart(middles, middles[i], "stroke");
+    const size_t other = counterpart(mirror, middles, middles[i], "stroke");
     result.push_back(mirror(posed[other]));
     // Drawn the other way round, its start is the other one's end.
     const Points &rest = strokes[i].rest, &theirs = strokes[other].rest;
@@ -99,7 +76,7 @@ std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Scene& scen
   std::vector<PoseCorner> result;
   for (size_t k = 0; k < count; ++k) {
     const Index vertex = static_cast<Index>(
-        mirror.counterpart(vertices, scene.rest.vertex(scene.corners[k].vertex), "cage point"));
+        counterpart(mirror, vertices, scene.rest.vertex(scene.corners[k].vertex), "cage point"));
     const auto other = std::ranges::find(scene.corners, vertex, &Corner::vertex);
     if (other == scene.corners.end())
       throw Error(ErrorKind::bad_input,

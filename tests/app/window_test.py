@@ -379,7 +379,7 @@ class WindowTest(unittest.TestCase):
     def test_a_drawn_outline_takes_the_picture_along(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             self.draw_square_cage(editor)
-            editor.key("o")
+            editor.key("u")
             around = [(400 + 330 * math.cos(t / 24 * 2 * math.pi), 400 + 220 * math.sin(t / 24 * 2 * math.pi))
                       for t in range(24)]
             editor.draw(around)
@@ -482,12 +482,12 @@ class WindowTest(unittest.TestCase):
             on_leaf = pane("surface-leaf")
             self.assertGreater((on_leaf.max(axis=2) - on_leaf.min(axis=2) > 60).mean(), 0.02)
             # A bent outline is no boundary any more; that is said and mended.
-            editor.key("o")
+            editor.key("u")
             outline = load(scene)["outline"]
             self.assertEqual(len(outline), 72)
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["on_surface"] and s["pins"] == 1, "the saved surface")
-            editor.key("o")
+            editor.key("u")
             x, y = outline[10]
             editor.drag((x, y), (x + 60, y + 40))
             editor.wait(lambda s: not s["on_surface"] and s["modified"], "the bent outline")

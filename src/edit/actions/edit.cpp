@@ -17,7 +17,15 @@ bool chosen(const Workspace& w) {
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
-  w.commit_or_amend("Nudge", moved(w.scene(), w.selection, by, w.layer));
+  w.commit_or_amend(
+      "Nudge", displaced(w.scene(), displacements(w.scene(), w.selection, by, w.layer, w.influence),
+                         w.layer));
+}
+
+template <int up, int down>
+void reach(Workspace& w) {
+  w.influence.soft = true;
+  w.influence.reach = std::clamp(w.influence.reach * up / down, kLeastReach, kMostReach);
 }
 
 void select_all(Workspace& w) {
@@ -90,9 +98,10 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
 }
 
 // Glyphs of Font Awesome 4.
-constexpr const char *kUndo = "\uf0e2", *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245",
-                     *kPen = "\uf040", *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf14e",
-                     *kStroke = "\uf1fc", *kReset = "\uf0e2";
+constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kUndo = "\uf0e2", *kRedo = "\uf01e",
+                     *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040", *kPin = "\uf08d",
+                     *kOutline = "\uf044", *kAngle = "\uf14e", *kStroke = "\uf1fc",
+                     *kReset = "\uf0e2";
 
 }  // namespace
 
@@ -122,6 +131,24 @@ std::vector<Action> edit_actions() {
        {{Key::del, kShift}},
        has_selection,
        erase_selection<Refit::tangents>},
+      {"edit.soft",
+       "Soft selection: drags take what is near along",
+       kSoft,
+       "Edit",
+       {'O'},
+       has_cage,
+       [](Workspace& w) { w.influence.soft = !w.influence.soft; },
+       [](const Workspace& w) { return w.influence.soft; }},
+      {"edit.soft_less", "Softness reaches less far", "", "Edit", {'['}, has_cage, reach<4, 5>},
+      {"edit.soft_more", "Softness reaches farther", "", "Edit", {']'}, has_cage, reach<5, 4>},
+      {"edit.symmetry",
+       "Symmetry: the other side goes along, mirrored",
+       kSymmetry,
+       "Edit",
+       {'X'},
+       has_cage,
+       [](Workspace& w) { w.influence.symmetric = !w.influence.symmetric; },
+       [](const Workspace& w) { return w.influence.symmetric; }},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.remove_outline",
        "Remove the outline",
@@ -166,7 +193,7 @@ std::vector<Action> edit_actions() {
        "Outline: draw the shape that the picture goes onto",
        kOutline,
        "Tools",
-       {'O'},
+       {'U'},
        always,
        choose<ToolId::outline>,
        chosen<ToolId::outline>},

@@ -1,0 +1,162 @@
+// Grips lie a little outside of the handles, so that both can be picked.
+#include "edit/transform_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "edit/tool.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kMargin = 1.8, kKnob = 2.6, kPick = 0.8;  // in picking distances
+constexpr int kKnobNumber = 8;
+constexpr double kLeastScale = 0.02;
+
+/// Where a grip is on a box from -1 to 1.
+Complex way_of(int grip) {
+  constexpr std::array<std::array<int, 2>, 8> kWays{
+      {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}};
+  const auto& way = kWays[static_cast<size_t>(grip)];
+  return {static_cast<double>(way[0]), static_cast<double>(way[1])};
+}
+
+double at_least(double scale) {
+  return std::abs(scale) < kLeastScale ? std::copysign(kLeastScale, scale) : scale;
+}
+
+Box box_around(const Scene& scene, const Selection& selection, Layer layer) {
+  Box box;
+  for (const Handle& handle : selection) {
+    if (handle.kind != Handle::Kind::stroke)
+      box.include(position_of(scene, handle, layer));
+    else
+      for (const Complex& z : curve_of(scene, handle.index, layer)) box.include(z);
+  }
+  return box;
+}
+
+}  // namespace
+
+Affine Affine::scaling(double x, double y, Complex about) {
+  Affine map{0.5 * (x + y), 0.5 * (x - y), 0};
+  map.c = about - map(about);
+  return map;
+}
+
+Affine Affine::turning(double angle, Complex about) {
+  Affine map{std::polar(1.0, angle), 0, 0};
+  map.c = about - map(about);
+  return map;
+}
+
+Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
+                  Layer layer) {
+  Selection all = selection;
+  const Cage& cage = cage_of(scene, layer);
+  for (const Handle& handle : selection) {
+    if (handle.kind != Handle::Kind::cage || handle.control != 0) continue;
+    const Index before = (handle.index + cage.size() - 1) % cage.size();
+    if (cage.degree(handle.index) > 1) all.insert({Handle::Kind::cage, handle.index, 1});
+    if (cage.degree(before) > 1) all.insert({Handle::Kind::cage, before, cage.degree(before) - 1});
+  }
+  const double size = std::sqrt(std::abs(std::norm(map.a) - std::norm(map.b)));
+  for (const Handle& handle : all) {
+    if (handle.kind == Handle::Kind::stroke) {
+      Stroke& stroke = scene.strokes[static_cast<size_t>(handle.index)];
+      for (Complex& z : layer == Layer::rest ? stroke.rest : stroke.pose) z = map(z);
+      continue;
+    }
+    const Complex z = position_of(scene, handle, layer);
+    shift(scene, handle, map(z) - z, layer);
+    if (handle.kind != Handle::Kind::pin || layer == Layer::rest) continue;
+    Pin& pin = scene.pins[static_cast<size_t>(handle.index)];
+    if (!pin.angle) continue;
+    *pin.angle += turn;
+    pin.scale = std::clamp(size * pin.scale, kLeastPinScale, kMostPinScale);
+  }
+  return scene;
+}
+
+BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) const {
+  const auto px = [&](Complex z) { return workspace.viewport.px_at_plane(map(z)); };
+  const Complex top(box_.center().real(), box_.top);
+  return {{px({box_.left, box_.bottom}), px({box_.right, box_.bottom}), px({box_.right, box_.top}),
+           px({box_.left, box_.top})},
+          px(top + Complex(0, knob_)),
+          {}};
+}
+
+void TransformBox::hover(const Input& input, const Workspace& workspace) {
+  mark_.reset();
+  if (workspace.selection.size() < 2 || !workspace.show_cage || workspace.hide_overlays) return;
+  const double unit = workspace.handle_px / workspace.viewport.zoom;
+  box_ = box_around(workspace.scene(), workspace.selection, workspace.layer);
+  const Complex margin(kMargin * unit, kMargin * unit);
+  box_ = {box_.left - margin.real(), box_.bottom - margin.imag(), box_.right + margin.real(),
+          box_.top + margin.imag()};
+  knob_ = kKnob * unit;
+  mark_ = mark_of(workspace, {});
+  if (!input.inside) return;
+  for (int grip = 0; grip <= kKnobNumber; ++grip)
+    if (std::abs(mark_->grip(grip) - input.px) < kPick * workspace.handle_px) mark_->hovered = grip;
+}
+
+std::string TransformBox::hint() const {
+  if (!mark_ || !mark_->hovered) return "";
+  if (*mark_->hovered == kKnobNumber) return "Drag to turn; Shift snaps to 15 degrees";
+  return *mark_->hovered % 2 == 0 ? "Drag to scale; Shift scales freely, Alt about the middle"
+                                  : "Drag to scale one way; Alt about the middle";
+}
+
+void TransformBox::start(const Input& input, const Workspace& workspace) {
+  active_ = true;
+  moving_ = false;
+  grip_ = *mark_->hovered;
+  start_px_ = input.px;
+  start_ = input.position;
+  turn_ = 0;
+  scene_ = workspace.scene();
+}
+
+Affine TransformBox::map(const Input& input) {
+  const Complex center = box_.center();
+  if (grip_ == kKnobNumber) {
+    const double angle = std::arg((input.position - center) * std::conj(start_ - center));
+    turn_ = angle + 2 * kPi * std::round((turn_ - angle) / (2 * kPi));
+    if (input.mods.shift) turn_ = std::round(turn_ / (kPi / 12)) * (kPi / 12);
+    return Affine::turning(turn_, center);
+  }
+  const Complex way = way_of(grip_),
+                half(0.5 * box_.width() * way.real(), 0.5 * box_.height() * way.imag());
+  const Complex about = input.mods.alt ? center : center - half, from = center + half - about,
+                to = from + input.position - start_;
+  if (way.real() != 0 && way.imag() != 0 && !input.mods.shift) {
+    const double scale = at_least((to * std::conj(from)).real() / std::norm(from));
+    return Affine::scaling(scale, scale, about);
+  }
+  return Affine::scaling(way.real() != 0 ? at_least(to.real() / from.real()) : 1,
+                         way.imag() != 0 ? at_least(to.imag() / from.imag()) : 1, about);
+}
+
+void TransformBox::follow(const Input& input, Workspace& workspace) {
+  moving_ = moving_ || std::abs(input.px - start_px_) >= kDragThresholdPx;
+  if (moving_) {
+    const Affine now = map(input);
+    workspace.preview = transformed(scene_, workspace.selection, now, turn_, workspace.layer);
+    mark_ = mark_of(workspace, now);
+    mark_->hovered = grip_;
+  }
+  if (input.down && !input.released) return;
+  active_ = false;
+  if (workspace.preview)
+    workspace.commit(grip_ == kKnobNumber ? "Turn" : "Scale", *workspace.preview);
+}
+
+void TransformBox::cancel(Workspace& workspace) {
+  if (active_) workspace.preview.reset();
+  active_ = false;
+  mark_.reset();
+}
+
+}  // namespace holomorph

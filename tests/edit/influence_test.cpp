@@ -1,0 +1,158 @@
+// Drags that take more along: softly, mirrored, and by the box around what is selected.
+#include <catch2/catch.hpp>
+
+#include "desk.h"
+#include "edit/actions.h"
+
+using namespace holomorph;
+
+namespace {
+
+const Points kSquare{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
+constexpr Modifiers kShift{false, true, false}, kAlt{false, false, true};
+
+Handle vertex(Index i) {
+  return {Handle::Kind::cage, i, 0};
+}
+
+}  // namespace
+
+TEST_CASE("Soft drags take less along the farther it is, and nothing beyond their reach") {
+  Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
+  run(action_named("edit.soft"), desk.workspace);
+  desk.workspace.influence.reach = 200;
+  desk.drag({0, 0}, {0, -60});
+  CHECK(desk.scene().pose.vertex(0) == Complex(0, -60));
+  const double near = 1 - 0.25;  // (1 - (100 / 200)^2)^2
+  CHECK(desk.scene().pose.vertex(1).imag() == Approx(-60 * near * near));
+  CHECK(desk.scene().pose.vertex(2) == Complex(200, 0));
+  CHECK(desk.scene().pose.vertex(4) == Complex(0, 200));
+  CHECK(desk.scene().rest.vertex(1) == Complex(100, 0));
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.scene().pose == desk.scene().rest);  // one step
+  run(action_named("edit.soft_less"), desk.workspace);
+  CHECK(desk.workspace.influence.reach == Approx(160));
+  for (int i = 0; i < 100; ++i) run(action_named("edit.soft_less"), desk.workspace);
+  CHECK(desk.workspace.influence.reach == kLeastReach);
+  run(action_named("edit.soft"), desk.workspace);
+  desk.drag({0, 0}, {0, -60});
+  CHECK(desk.scene().pose.vertex(1) == Complex(100, 0));
+}
+
+TEST_CASE("With symmetry the other side goes the mirrored way, what is on the line stays on it") {
+  Desk desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
+  Scene scene = desk.scene();
+  scene.method = "pins";
+  scene.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
+  desk.workspace.commit("Pins", scene);
+  desk.settle();
+  run(action_named("edit.symmetry"), desk.workspace);
+  desk.drag({200, 0}, {230, -20});
+  CHECK(desk.scene().pose.vertex(1) == Complex(230, -20));
+  CHECK(desk.scene().pose.vertex(0) == Complex(-30, -20));
+  desk.drag({40, 100}, {50, 120});
+  CHECK(std::abs(desk.scene().pins[1].pose - Complex(150, 120)) < 1e-9);
+  desk.drag({100, 240}, {130, 260});
+  CHECK(desk.scene().pose.vertex(3) == Complex(100, 260));
+  CHECK(counterpart_of(desk.scene(), vertex(2)) == vertex(4));
+  // Both together: soft on both sides.
+  desk.workspace.influence.soft = true;
+  desk.workspace.influence.reach = 150;
+  const Displacements ways = displacements(at_rest(desk.scene()), {vertex(0)}, {10, 0}, Layer::pose,
+                                           desk.workspace.influence);
+  CHECK(ways.at(vertex(0)) == Complex(10, 0));
+  CHECK(ways.at(vertex(1)) == Complex(-10, 0));
+  const Handle pin{Handle::Kind::pin, 0, 0}, other{Handle::Kind::pin, 1, 0};
+  CHECK(ways.at(pin).real() > 0);
+  CHECK(ways.at(other) == Complex(-ways.at(pin).real(), 0));
+}
+
+TEST_CASE("A drag without symmetry at rest moves one side") {
+  Desk desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
+  run(action_named("edit.symmetry"), desk.workspace);
+  desk.drag({230, 170}, {260, 200});
+  CHECK(desk.scene().pose.vertex(2) == Complex(260, 200));
+  CHECK(desk.scene().pose.vertex(3) == Complex(0, 200));
+}
+
+TEST_CASE("The box scales about the other side, by its corners evenly") {
+  Desk desk(kSquare);
+  desk.workspace.selection = {vertex(1), vertex(2), vertex(3), vertex(0)};
+  desk.hover({100, 100});
+  const auto mark = desk.tool().overlay().box;
+  REQUIRE(mark);
+  const auto plane = [&](int grip) {
+    return desk.workspace.viewport.plane_at_px(mark->grip(grip));
+  };
+  // The right side, to twice the width.
+  const Complex right = plane(3), left = plane(7);
+  desk.drag(right, right + Complex(right.real() - left.real(), 0));
+  CHECK(desk.scene().pose.vertex(1).imag() == Approx(0).margin(1e-9));
+  CHECK(desk.scene().pose.vertex(1).real() - desk.scene().pose.vertex(0).real() == Approx(400));
+  CHECK(desk.scene().pose.vertex(2).imag() == Approx(200));
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.scene().pose == desk.scene().rest);
+  // A corner evenly, about the opposite one; freely with Shift; about the middle with Alt.
+  const Complex corner = plane(4), opposite = plane(0), half = 0.5 * (corner - opposite);
+  desk.drag(corner, corner - half);
+  CHECK(desk.scene().pose.vertex(2).real() - desk.scene().pose.vertex(0).real() == Approx(100));
+  CHECK(desk.scene().pose.vertex(2).imag() - desk.scene().pose.vertex(0).imag() == Approx(100));
+  run(action_named("edit.undo"), desk.workspace);
+  desk.drag(corner, corner - Complex(half.real(), 0), kShift);
+  CHECK(desk.scene().pose.vertex(2).real() - desk.scene().pose.vertex(0).real() == Approx(100));
+  CHECK(desk.scene().pose.vertex(2).imag() - desk.scene().pose.vertex(0).imag() == Approx(200));
+  run(action_named("edit.undo"), desk.workspace);
+  desk.drag(corner, corner - 0.5 * half, kAlt);
+  CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(150, 150)) < 1e-9);
+  CHECK(std::abs(desk.scene().pose.vertex(0) - Complex(50, 50)) < 1e-9);
+}
+
+TEST_CASE("The box' knob turns, pins that turn included, as far around as it is dragged") {
+  Desk desk(kSquare);
+  Scene scene = desk.scene();
+  scene.method = "pins";
+  scene.pins = {{{50, 100}, {50, 100}, 0.25, {}}, {{150, 100}, {150, 100}, {}, {}}};
+  desk.workspace.commit("Pins", scene);
+  desk.settle();
+  desk.workspace.selection = {{Handle::Kind::pin, 0, 0}, {Handle::Kind::pin, 1, 0}};
+  desk.hover({100, 60});
+  const auto mark = desk.tool().overlay().box;
+  REQUIRE(mark);
+  const Complex knob = desk.workspace.viewport.plane_at_px(mark->knob), center(100, 100);
+  Points way;
+  for (int i = 0; i <= 18; ++i)
+    way.push_back(center + (knob - center) * std::polar(1.0, kPi / 12 * i));
+  desk.draw(way);
+  CHECK(std::abs(desk.scene().pins[0].pose - Complex(100, 150)) < 1e-6);  // 270 degrees
+  CHECK(std::abs(desk.scene().pins[1].pose - Complex(100, 50)) < 1e-6);
+  CHECK(desk.scene().pins[0].angle == Approx(0.25 + 1.5 * kPi));
+  CHECK_FALSE(desk.scene().pins[1].angle);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.scene() == scene);
+  // Escape drops it.
+  desk.hover({100, 60});
+  desk.press(knob);
+  desk.move(knob + Complex(60, -40));
+  CHECK(desk.tool().busy());
+  desk.tool().key(Key::escape, desk.workspace);
+  CHECK(desk.scene() == scene);
+}
+
+TEST_CASE("Tangents and strokes go with the box") {
+  Desk desk(kSquare);
+  Scene scene = desk.scene();
+  scene.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
+  const Affine twice = Affine::scaling(2, 2, 0);
+  const Scene after = transformed(scene, {vertex(0), vertex(1)}, twice, 0, Layer::pose);
+  CHECK(after.pose.segments[0][0] == Complex(0, 0));
+  CHECK(after.pose.segments[0][1] == Complex(120, -60));
+  CHECK(after.pose.segments[0][2] == Complex(280, -60));
+  CHECK(after.pose.vertex(1) == Complex(400, 0));
+  CHECK(after.pose.vertex(2) == Complex(200, 200));
+  scene.method = "strokes";
+  scene.strokes = {{{{20, 20}, {180, 20}}, {{20, 20}, {100, 40}, {180, 20}}, {}}};
+  const Scene turned = transformed(scene, {{Handle::Kind::stroke, 0, 0}},
+                                   Affine::turning(kPi / 2, 0), kPi / 2, Layer::pose);
+  CHECK(std::abs(turned.strokes[0].pose[1] - Complex(-40, 100)) < 1e-9);
+  CHECK(turned.strokes[0].rest == scene.strokes[0].rest);
+}
