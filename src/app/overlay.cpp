@@ -200,7 +200,7 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   const float s = static_cast<float>(style.scale);
   for (const Handle& handle : dragged) {
     if (!exists(scene, handle, workspace.layer)) continue;
-    if (workspace.influence.soft) {
+    if (workspace.influence.soft && (gesture.hover == handle || dragged.size() == 1)) {
       const ImVec2 at = px(workspace, position_of(scene, handle, workspace.layer));
       const float r = static_cast<float>(workspace.influence.reach * workspace.viewport.zoom);
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);

@@ -205,6 +205,9 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
         std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
     used = std::min(used, static_cast<int>(sizeof right) - 1);
   };
+  const Influence& influence = workspace.influence;
+  if (influence.soft) add("Soft, %.0f   ", influence.reach);
+  if (influence.symmetric) add("Symmetry   ");
   if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
   if (status.cursor_at_rest)
     add("from %.1f, %.1f   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());

@@ -564,6 +564,61 @@ class WindowTest(unittest.TestCase):
         turns = [corner["before"] for corner in saved["keyframes"][1]["pose"]["corners"]]
         self.assertEqual([turn > 1 for turn in turns], [False, True, True, False])
 
+    def test_the_box_turns_and_drags_reach_farther(self):
+        Image.effect_mandelbrot((320, 320), (-2, -2, 2, 2), 40).convert("RGBA").save(os.path.join(self.work, "square.png"))
+        cage = [[60, 60], [160, 60], [260, 60], [260, 260], [60, 260]]
+        scene = os.path.join(self.work, "square.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "square.png"},
+                       "cage": {"rest": [[p] for p in cage]}}, file)
+
+        def pose(editor, name):
+            path = os.path.join(self.work, name)
+            self.save_as(editor, path)
+            return [point[0] for point in load(path)["cage"]["pose"]]
+
+        with Editor(PROGRAM, [scene]) as editor:
+            state = editor.wait(lambda s: s["cage_points"] == 5, "the scene")
+            editor.key("ctrl+a")
+            editor.wait(lambda s: s["selected"] == 5, "all points")
+            margin = 18 / state["zoom"]
+            knob = (160, 260 + margin + 26 / state["zoom"])
+            middle, reach = (160, 160), knob[1] - 160
+            editor.move(*knob)
+            editor.xdotool("mousedown", 1)
+            for degrees in range(10, 91, 10):
+                angle = math.radians(90 - degrees)
+                editor.move(middle[0] + reach * math.cos(angle), middle[1] + reach * math.sin(angle))
+            self.screenshot(editor, "turned-box")
+            editor.xdotool("mouseup", 1)
+            editor.wait(lambda s: s["step"] == 1 and not s["gesture"], "turned points")
+            turned = pose(editor, "turned.json")
+            for (x, y), expected in zip(turned, [[60, 260], [60, 160], [60, 60], [260, 60], [260, 260]]):
+                self.assertAlmostEqual(x, expected[0], delta=2)
+                self.assertAlmostEqual(y, expected[1], delta=2)
+            editor.key("ctrl+z")
+            editor.key("ctrl+d")
+            # The other side goes along, mirrored.
+            editor.key("x")
+            editor.drag((260, 60), (280, 30))
+            editor.wait(lambda s: s["step"] == 1, "a symmetric drag")
+            symmetric = pose(editor, "symmetric.json")
+            self.assertAlmostEqual(symmetric[0][0] + symmetric[2][0], 320, delta=1e-6)
+            self.assertEqual(symmetric[0][1], symmetric[2][1])
+            self.assertLess(symmetric[0][0], 45)
+            editor.key("ctrl+z")
+            editor.key("x")
+            # Softly.
+            editor.key("o")
+            editor.key("bracketright")
+            editor.key("ctrl+d")
+            editor.drag((260, 60), (260, 30))
+            editor.wait(lambda s: s["step"] == 1, "a soft drag")
+            self.screenshot(editor, "soft")
+            soft = pose(editor, "soft.json")
+            self.assertTrue(31 < soft[1][1] < 59.5, soft)
+            self.assertEqual(soft[0][1], 60)
+
     def test_motion_is_recorded_and_its_keys_are_seen_around(self):
         Image.effect_mandelbrot((320, 120), (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "bar.png"))
         cage = [[10, 10], [310, 10], [310, 110], [10, 110]]
