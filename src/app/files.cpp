@@ -14,6 +14,16 @@
 #include "scene/svg_path.h"
 
 namespace holomorph {
+namespace {
+
+/// These and pictures.
+std::vector<std::string> kinds_of_file(std::vector<std::string> kinds) {
+  const std::vector<std::string>& pictures = picture_extensions();
+  kinds.insert(kinds.end(), pictures.begin(), pictures.end());
+  return kinds;
+}
+
+}  // namespace
 
 Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced)
     : workspace_(workspace),
@@ -350,8 +360,7 @@ void Files::answer(Request request) {
         dialog_.ask({FileQuestion::Mode::open,
                      "Open a picture or a scene",
                      "Open",
-                     {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd", ".json",
-                      ".holomorph", ".obj"},
+                     kinds_of_file({".json", ".holomorph", ".obj"}),
                      {},
                      false},
                     [this](const Path& path, double) { return open(path); });
@@ -382,7 +391,7 @@ void Files::answer(Request request) {
       dialog_.ask({FileQuestion::Mode::open,
                    "Outline from an SVG path, a picture's alpha or an OBJ surface",
                    "Open",
-                   {".svg", ".obj", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".psd"},
+                   kinds_of_file({".svg", ".obj"}),
                    {},
                    false},
                   [this](const Path& path, double) { return import_outline(path); });

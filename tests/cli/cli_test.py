@@ -595,6 +595,35 @@ class CommandLine(unittest.TestCase):
         self.bad("new", picture, "--cage", curved, "--pose", self.path("cage.svg"), "--out", again, says="must agree")
         self.bad("new", picture, "--cage", picture, "--out", again, says="no SVG")
 
+    def test_pictures_of_many_kinds_are_opened(self):
+        picture = Image.effect_mandelbrot((60, 40), (-2, -1.3, 1, 1.3), 40).convert("RGBA")
+        pixels = numpy.array(picture)
+        pixels[:20, :, 0] //= 3
+        pixels[5:15, 10:20, 3] = 0
+        pixels[pixels[:, :, 3] == 0] = 0
+        picture = Image.fromarray(pixels)
+        for name, options in (("a.png", {}), ("a.webp", {"lossless": True, "exact": True}), ("a.tif", {}),
+                              ("b.tiff", {"compression": "tiff_lzw"}), ("c.TIF", {"compression": "tiff_adobe_deflate"})):
+            picture.save(self.path(name), format="TIFF" if name.lower().find("tif") > 0 else None, **options)
+            self.good("new", self.path(name), "--out", self.path("s.json"))
+            self.good("render", self.path("s.json"), "--out", self.path("o.png"))
+            self.assertTrue((numpy.array(Image.open(self.path("o.png")).convert("RGBA")) == pixels).all(), name)
+        picture.convert("CMYK").save(self.path("cmyk.tif"))
+        self.good("new", self.path("cmyk.tif"), "--out", self.path("s.json"))
+        # Parts of files, and what cannot be.
+        for name in ("a.webp", "a.tif", "b.tiff"):
+            with open(self.path(name), "rb") as file:
+                whole = file.read()
+            for share in (0.02, 0.1, 0.4, 0.8):
+                with open(self.path("part" + os.path.splitext(name)[1]), "wb") as file:
+                    file.write(whole[:int(share * len(whole))])
+                result = run("new", file.name, "--out", self.path("s.json"))
+                self.assertIn(result.returncode, (0, 2), result.stderr)
+        picture.save(self.path("film.webp"), save_all=True, append_images=[picture.rotate(90, expand=False)])
+        self.bad("new", self.path("film.webp"), "--out", self.path("s.json"), says="animated")
+        Image.new("L", (16400, 2)).save(self.path("wide.tif"))
+        self.bad("new", self.path("wide.tif"), "--out", self.path("s.json"), says="16384")
+
     def test_no_points_are_no_lines(self):
         points = os.path.join(self.folder, "none.csv")
         for text in ("", "x,y\n"):

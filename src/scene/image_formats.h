@@ -1,0 +1,17 @@
+// Decoders beside the one for everyday formats; each is its library behind a function.
+#pragma once
+
+#include "scene/image.h"
+
+namespace holomorph {
+
+bool is_webp(const std::string& bytes);
+bool is_tiff(const std::string& bytes);
+/// Still pictures. Throw Error{bad_input}.
+Image decode_webp(const std::string& bytes, const std::string& name);
+Image decode_tiff(const std::string& bytes, const std::string& name);
+
+/// Throws Error{bad_input} for more than 16384 pixels a side.
+void check_image_size(int width, int height, const std::string& name);
+
+}  // namespace holomorph
