@@ -154,6 +154,12 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     list.AddLine({at.x - 3 * s, at.y}, {at.x + 3 * s, at.y}, IM_COL32_BLACK, 1.5f * s);
     list.AddLine({at.x, at.y - 3 * s}, {at.x, at.y + 3 * s}, IM_COL32_BLACK, 1.5f * s);
   }
+  for (const Guide& guide : gesture.guides) {
+    const ImVec2 from = px(workspace, guide.from), to = px(workspace, guide.to);
+    list.AddLine(from, to, style.colors.outline, 2.6f * s);
+    list.AddLine(from, to, style.colors.hover, 1.2f * s);
+    list.AddCircle(from, 4 * s, style.colors.hover, 0, 1.2f * s);
+  }
   if (gesture.box) draw_box(list, *gesture.box, style);
   if (gesture.marquee) {
     const ImVec2 a(static_cast<float>(gesture.marquee->left),

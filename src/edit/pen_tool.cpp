@@ -41,6 +41,7 @@ class PenTool final : public Tool {
 
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
+    overlay.guides = drag_.guides();
     path_.show(overlay);
     overlay.hover = hover_;
     overlay.insertion = insertion_;

@@ -65,6 +65,7 @@ class PinTool final : public Tool {
   bool busy() const override { return drag_.active() || ring_.active(); }
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
+    overlay.guides = drag_.guides();
     overlay.hover = hover_;
     overlay.ring = ring_.pin();
     overlay.ring_hovered = ring_.hovered() || ring_.active();

@@ -56,6 +56,7 @@ class SelectTool final : public Tool {
 
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
+    overlay.guides = drag_.guides();
     overlay.hover = hover_;
     overlay.ring = ring_.pin();
     overlay.ring_hovered = ring_.hovered() || ring_.active();

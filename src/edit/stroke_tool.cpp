@@ -54,6 +54,7 @@ class StrokeTool final : public Tool {
 
   ToolOverlay overlay() const override {
     ToolOverlay overlay;
+    overlay.guides = drag_.guides();
     overlay.line = drawing_.line();
     overlay.hover = hover_;
     return overlay;

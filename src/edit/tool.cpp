@@ -33,6 +33,15 @@ Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
   if (input.mods.shift)
     by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
   if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
+  guides_.clear();
+  if (workspace.snaps) {
+    constexpr double kReach = 0.7;  // picking distances
+    Snapping snapping{kReach * workspace.handle_px / workspace.viewport.zoom, {}};
+    if (const Image* image = workspace.document.image())
+      snapping.picture =
+          Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
+    by = snapped(scene_, what_, pressed_, by, workspace.layer, snapping, guides_);
+  }
   const Handle& first = *what_.begin();
   if (what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0)
     return tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
@@ -42,6 +51,7 @@ Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
 }
 
 void HandleDrag::finish(Workspace& workspace) {
+  guides_.clear();
   if (recording_.active()) return recording_.finish(workspace);
   if (!workspace.preview) return;
   if (amends_)

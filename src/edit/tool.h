@@ -6,6 +6,7 @@
 #include "edit/input.h"
 #include "edit/posed_corners.h"
 #include "edit/recording.h"
+#include "edit/snapping.h"
 #include "edit/transform_box.h"
 
 namespace holomorph {
@@ -24,6 +25,7 @@ struct ToolOverlay {
   std::optional<CornerMark> corner;  ///< the cage vertex that shows its ring and arms
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
   std::optional<BoxMark> box;        ///< around what is selected
+  std::vector<Guide> guides;         ///< what is lined up with
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -78,11 +80,14 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
+  /// What the drag lines up with now.
+  const std::vector<Guide>& guides() const { return guides_; }
   /// Follows the pointer; on release commits. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
     if (active_) workspace.preview.reset();
     if (recording_.active()) recording_.cancel(workspace);
+    guides_.clear();
     active_ = false;
   }
 
@@ -95,6 +100,7 @@ class HandleDrag {
   Selection what_;
   Scene scene_;
   Recording recording_;
+  std::vector<Guide> guides_;
   bool active_ = false, moving_ = false, amends_ = false, with_ctrl_ = false;
 };
 

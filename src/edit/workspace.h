@@ -77,6 +77,7 @@ struct Workspace {
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
   Influence influence;                                ///< of drags
+  bool snaps = false;                                 ///< drags stop where things line up
   double handle_px = 10;  ///< picking distance in window px, scaled with the display
   Playback playback;
   Timeline timeline;

@@ -75,6 +75,33 @@ TEST_CASE("A drag without symmetry at rest moves one side") {
   CHECK(desk.scene().pose.vertex(3) == Complex(0, 200));
 }
 
+TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
+  Desk desk({{0, 0}, {100, 0}, {203, 7}, {200, 200}, {0, 200}});
+  run(action_named("edit.snap"), desk.workspace);
+  desk.press({100, 0});
+  desk.move({197, -40});
+  desk.move({197, 205});  // the fourth point's column and row, 3 and 5 px away
+  CHECK(desk.scene().pose.vertex(1) == Complex(200, 200));
+  CHECK(desk.tool().overlay().guides.size() == 2);
+  desk.move({150, 90});
+  CHECK(desk.scene().pose.vertex(1) == Complex(150, 90));  // nothing is near
+  CHECK(desk.tool().overlay().guides.empty());
+  desk.move({150, 6});  // the third point's row, though rest's is near, too
+  CHECK(desk.scene().pose.vertex(1) == Complex(150, 7));
+  desk.release({97, 60});
+  CHECK(desk.scene().pose.vertex(1) == Complex(100, 60));  // its own column at rest
+  CHECK(desk.tool().overlay().guides.empty());
+  run(action_named("edit.snap"), desk.workspace);
+  desk.drag({100, 60}, {197, 205});
+  CHECK(desk.scene().pose.vertex(1) == Complex(197, 205));
+  // The picture's edges and middle.
+  std::vector<Guide> guides;
+  const Complex by = snapped(desk.scene(), {vertex(0)}, vertex(0), {497, 303}, Layer::pose,
+                             {6, Box{0, 0, 1000, 600}}, guides);
+  CHECK(by == Complex(500, 300));
+  CHECK(guides.size() == 2);
+}
+
 TEST_CASE("The box scales about the other side, by its corners evenly") {
   Desk desk(kSquare);
   desk.workspace.selection = {vertex(1), vertex(2), vertex(3), vertex(0)};

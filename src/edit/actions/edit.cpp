@@ -98,10 +98,10 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
 }
 
 // Glyphs of Font Awesome 4.
-constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kUndo = "\uf0e2", *kRedo = "\uf01e",
-                     *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040", *kPin = "\uf08d",
-                     *kOutline = "\uf044", *kAngle = "\uf14e", *kStroke = "\uf1fc",
-                     *kReset = "\uf0e2";
+constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kSnap = "\uf076", *kUndo = "\uf0e2",
+                     *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040",
+                     *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf14e",
+                     *kStroke = "\uf1fc", *kReset = "\uf0e2";
 
 }  // namespace
 
@@ -149,6 +149,14 @@ std::vector<Action> edit_actions() {
        has_cage,
        [](Workspace& w) { w.influence.symmetric = !w.influence.symmetric; },
        [](const Workspace& w) { return w.influence.symmetric; }},
+      {"edit.snap",
+       "Snap: drags stop where things line up",
+       kSnap,
+       "Edit",
+       {'G'},
+       has_cage,
+       [](Workspace& w) { w.snaps = !w.snaps; },
+       [](const Workspace& w) { return w.snaps; }},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.remove_outline",
        "Remove the outline",
