@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "scene/motion.h"
@@ -133,9 +132,10 @@ std::vector<double> Recording::needed(double tolerance) const {
       }
     }
     // In-betweens turn parts instead of moving them straight: over short ways that is the same.
-    const auto moves = [&](size_t h) { return std::abs(b.places[h] - a.places[h]) > tolerance; };
-    if (worst == first && last > first + 1 && b.time - a.time > kLongestStep &&
-        std::ranges::any_of(std::views::iota(size_t{0}, a.places.size()), moves))
+    double way = 0;
+    for (size_t h = 0; h < a.places.size(); ++h)
+      way = std::max(way, std::abs(b.places[h] - a.places[h]));
+    if (worst == first && last > first + 1 && b.time - a.time > kLongestStep && way > tolerance)
       worst = (first + last) / 2;
     if (worst > first) {
       self(self, first, worst);
