@@ -188,7 +188,7 @@ std::string Files::import_svg(const Path& path, bool pose) {
     const Image* image = workspace_.document.image();
     Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0,
                             pose ? PathUse::pose : PathUse::rest);
-    Scene scene = workspace_.document.scene();
+    Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
     if (pose && cage.size() != scene.rest.size())
       return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
              std::to_string(scene.rest.size()) + "; they must agree.";
@@ -197,7 +197,7 @@ std::string Files::import_svg(const Path& path, bool pose) {
     else
       scene = with_cage(std::move(scene), std::move(cage));
     if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
-                           From::document))
+                           pose ? From::shown : From::document))
       return "";
     workspace_.layer = Layer::pose;
     workspace_.tool = ToolId::select;

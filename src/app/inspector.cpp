@@ -100,12 +100,12 @@ void method_section(Workspace& workspace) {
       ImGui::BeginDisabled(!is_used(method, scene.parameters, spec));
       double number = value;
       if (number_slider(spec, number)) {
-        Scene after = workspace.document.scene();
+        Scene after = workspace.unedited();
         after.parameters[spec.key] = number;
         workspace.preview = after;
       }
       if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
-        workspace.commit(spec.label, *workspace.preview, From::document);
+        workspace.commit(spec.label, *workspace.preview);
       ImGui::EndDisabled();
     }
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))

@@ -21,7 +21,7 @@ using Owned = std::unique_ptr<T, Release<T, release>>;
 struct Quantized {
   std::vector<GifColorType> palette;
   std::vector<unsigned char> pixels;
-  int transparent = -1;  ///< a colour's number
+  int transparent = 0;  ///< a colour's number
 };
 
 /// 255 colours and one for what is transparent, which is more than half.
@@ -97,6 +97,7 @@ class GifWriter final : public FilmWriter {
     must(EGifPutExtensionBlock(file_.get(), 3, forever.data()));
     must(EGifPutExtensionTrailer(file_.get()));
   }
+
   void add(const Image& frame) override {
     palettes_.add([frame] { return quantized(frame); });
   }

@@ -1,6 +1,7 @@
 // Work on all processor cores whose results are wanted in order.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <future>
