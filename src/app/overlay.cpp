@@ -204,6 +204,8 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   if (gesture.hover) dragged.insert(*gesture.hover);
   const Scene& scene = workspace.scene();
   const float s = static_cast<float>(style.scale);
+  std::map<Handle, Handle> counterparts;
+  if (workspace.influence.symmetric && !dragged.empty()) counterparts = counterparts_of(scene);
   for (const Handle& handle : dragged) {
     if (!exists(scene, handle, workspace.layer)) continue;
     if (workspace.influence.soft && (gesture.hover == handle || dragged.size() == 1)) {
@@ -212,9 +214,9 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
       list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
     }
-    const auto other = workspace.influence.symmetric ? counterpart_of(scene, handle) : std::nullopt;
-    if (other && exists(scene, *other, workspace.layer)) {
-      const ImVec2 at = px(workspace, position_of(scene, *other, workspace.layer));
+    const auto other = counterparts.find(handle);
+    if (other != counterparts.end() && exists(scene, other->second, workspace.layer)) {
+      const ImVec2 at = px(workspace, position_of(scene, other->second, workspace.layer));
       list.AddCircle(at, 9 * s, style.colors.outline, 0, 3.4f * s);
       list.AddCircle(at, 9 * s, style.colors.selected, 0, 1.8f * s);
     }

@@ -6,10 +6,6 @@
 namespace holomorph {
 namespace {
 
-bool is_tangent(const Handle& handle) {
-  return handle.kind == Handle::Kind::cage && handle.control > 0;
-}
-
 /// 1 at 0, flat there and at 1, 0 from there on.
 double falloff(double share) {
   return share >= 1 ? 0 : (1 - share * share) * (1 - share * share);
@@ -35,17 +31,20 @@ Complex mirrored_way(Complex by) {
 
 }  // namespace
 
-std::optional<Handle> counterpart_of(const Scene& scene, Handle handle) {
-  if (is_tangent(handle) || !exists(scene, handle, Layer::rest)) return {};
-  std::vector<Handle> same;
-  Points places;
-  for (const Handle& other : handles_of(scene, Layer::rest))
-    if (other.kind == handle.kind && !is_tangent(other)) {
-      same.push_back(other);
-      places.push_back(position_of(scene, other, Layer::rest));
-    }
-  const auto found = Mirror(scene).counterpart(places, position_of(scene, handle, Layer::rest));
-  return found ? std::optional(same[*found]) : std::nullopt;
+std::map<Handle, Handle> counterparts_of(const Scene& scene) {
+  const Mirror mirror(scene);
+  std::map<Handle::Kind, std::vector<Handle>> kinds;
+  for (const Handle& handle : handles_of(scene, Layer::rest))
+    if (!is_tangent(handle)) kinds[handle.kind].push_back(handle);
+  std::map<Handle, Handle> counterparts;
+  for (const auto& [kind, handles] : kinds) {
+    Points places;
+    for (const Handle& handle : handles) places.push_back(position_of(scene, handle, Layer::rest));
+    for (size_t i = 0; i < handles.size(); ++i)
+      if (const auto found = mirror.counterpart(places, places[i]))
+        counterparts[handles[i]] = handles[*found];
+  }
+  return counterparts;
 }
 
 Displacements displacements(const Scene& scene, const Selection& dragged, Complex by, Layer layer,
@@ -55,28 +54,22 @@ Displacements displacements(const Scene& scene, const Selection& dragged, Comple
   for (const Handle& handle : dragged) all[handle] = by;
   if (!influence.symmetric) return all;
   Displacements both = all;
-  for (const auto& [handle, way] : all) {
-    const auto other = counterpart_of(scene, handle);
-    if (!other) continue;
-    if (*other == handle)
-      both[handle] = 0.5 * (way + mirrored_way(way));
-    else if (const auto own = all.find(*other);
-             own == all.end() || std::abs(own->second) < std::abs(way))
-      both[*other] = mirrored_way(way);
+  for (const auto& [handle, other] : counterparts_of(scene)) {
+    const auto way = all.find(handle), own = all.find(other);
+    if (way == all.end()) continue;
+    if (other == handle)
+      both[handle] = 0.5 * (way->second + mirrored_way(way->second));
+    else if (own == all.end() || std::abs(own->second) < std::abs(way->second))
+      both[other] = mirrored_way(way->second);
   }
   return both;
 }
 
 Scene displaced(Scene scene, const Displacements& by, Layer layer) {
   Displacements all = by;
-  const Cage cage = cage_of(scene, layer);
-  for (const auto& [handle, way] : by) {
-    if (handle.kind != Handle::Kind::cage || handle.control != 0) continue;
-    const Index before = (handle.index + cage.size() - 1) % cage.size();
-    if (cage.degree(handle.index) > 1) all.try_emplace({Handle::Kind::cage, handle.index, 1}, way);
-    if (cage.degree(before) > 1)
-      all.try_emplace({Handle::Kind::cage, before, cage.degree(before) - 1}, way);
-  }
+  for (const auto& [handle, way] : by)
+    for (const Handle& tangent : tangents_beside(cage_of(scene, layer), handle))
+      all.try_emplace(tangent, way);
   for (const auto& [handle, way] : all)
     if (exists(scene, handle, layer)) shift(scene, handle, way, layer);
   return scene;

@@ -25,7 +25,8 @@ Displacements displacements(const Scene& scene, const Selection& dragged, Comple
 /// Moves handles; control points beside a vertex go along unless they have a way of their own.
 Scene displaced(Scene scene, const Displacements& by, Layer layer);
 
-/// The handle that lies where the mirror takes this one at rest; a vertex, pin or stroke.
-std::optional<Handle> counterpart_of(const Scene& scene, Handle handle);
+/// For each vertex, pin and stroke the one that lies where the mirror takes it at rest, where there
+/// is one. Cost: the square of their number.
+std::map<Handle, Handle> counterparts_of(const Scene& scene);
 
 }  // namespace holomorph

@@ -75,6 +75,16 @@ std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
   return handles;
 }
 
+std::vector<Handle> tangents_beside(const Cage& cage, Handle handle) {
+  if (handle.kind != Handle::Kind::cage || handle.control != 0) return {};
+  const Index before = (handle.index + cage.size() - 1) % cage.size();
+  std::vector<Handle> tangents;
+  if (cage.degree(handle.index) > 1) tangents.push_back({Handle::Kind::cage, handle.index, 1});
+  if (cage.degree(before) > 1)
+    tangents.push_back({Handle::Kind::cage, before, cage.degree(before) - 1});
+  return tangents;
+}
+
 void shift(Scene& scene, Handle handle, Complex by, Layer layer) {
   if (handle.kind != Handle::Kind::stroke) {
     place(scene, handle, layer) += by;

@@ -19,6 +19,11 @@ struct Handle {
 };
 using Selection = std::set<Handle>;
 
+/// A control point that is no vertex.
+inline bool is_tangent(const Handle& handle) {
+  return handle.kind == Handle::Kind::cage && handle.control > 0;
+}
+
 /// Which of the two shapes an edit or a picture is about.
 enum class Layer { pose, rest };
 
@@ -30,6 +35,8 @@ bool exists(const Scene& scene, Handle handle, Layer layer);
 /// Every handle of a layer: cage control points, then pins and strokes where the method uses them.
 std::vector<Handle> handles_of(const Scene& scene, Layer layer);
 
+/// The control points next to a vertex, which go with it; none for other handles.
+std::vector<Handle> tangents_beside(const Cage& cage, Handle handle);
 /// Moves one handle alone, a stroke as a whole; a moved rest point leaves the pose where it is.
 void shift(Scene& scene, Handle handle, Complex by, Layer layer);
 /// Moves handles; moving a vertex takes the control points next to it along.

@@ -35,10 +35,6 @@ Pose between(Pose a, const Pose& b, double share) {
 
 constexpr double kLongestStep = 0.4;  ///< seconds between keys while something moves
 
-bool is_tangent(const Handle& handle) {
-  return handle.kind == Handle::Kind::cage && handle.control > 0;
-}
-
 /// Whether a segment has the same degree in all keyframes that play.
 bool keeps_degree(const Scene& scene, Index segment) {
   return std::ranges::all_of(scene.keyframes, [&](const Keyframe& key) {
@@ -49,6 +45,7 @@ bool keeps_degree(const Scene& scene, Index segment) {
 }  // namespace
 
 bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
+  if (!workspace.require_pose()) return false;
   start_ = workspace.unedited();
   workspace.map.follow_keys();
   over_keys_ = !start_.keyframes.empty() && workspace.map.motion().plays();
@@ -151,8 +148,9 @@ std::vector<double> Recording::needed(double tolerance) const {
 void Recording::finish(Workspace& workspace) {
   constexpr double kTolerancePx = 3;
   const Scene before = workspace.document.scene();
-  const double frame = 1 / before.animation.frames_per_second, end = samples_.back().time;
-  if (end - start_time_ < frame / 2) return cancel(workspace);
+  const auto at_frame = [&](double time) { return time_of_frame(before, frame_at(before, time)); };
+  const double end = samples_.back().time;
+  if (at_frame(end) <= start_time_) return cancel(workspace);
   double tolerance = kTolerancePx / workspace.viewport.zoom;
   std::vector<double> times = needed(tolerance);
   while (times.size() + before.keyframes.size() > kMostKeyframes && times.size() > 2)
@@ -164,8 +162,7 @@ void Recording::finish(Workspace& workspace) {
     scene = with_key(posed_as(std::move(scene), pose), time);
   };
   for (const double time : times) {
-    const double at =
-        time == start_time_ ? time : std::min(kLongestTime, frame * std::round(time / frame));
+    const double at = time == start_time_ ? time : at_frame(time);
     if (key_at(before, at) == before.keyframes.size()) set(at, sample_at(at).pose);
   }
   for (const Keyframe& key : before.keyframes)
@@ -174,7 +171,7 @@ void Recording::finish(Workspace& workspace) {
   // Even between keys, and behind the last one as it was.
   const auto behind = std::ranges::upper_bound(before.keyframes, end, {}, &Keyframe::time);
   const Ease last = behind == before.keyframes.begin() ? Ease::smooth : std::prev(behind)->ease;
-  const double last_time = std::min(kLongestTime, frame * std::round(end / frame));
+  const double last_time = at_frame(end);
   for (Keyframe& key : scene.keyframes)
     if (key.time >= start_time_ && key.time <= last_time && fits(scene, key.pose))
       key.ease = key.time < last_time ? Ease::linear : last;

@@ -10,11 +10,11 @@ namespace holomorph {
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
     moving_ = true;
-    if (with_ctrl_ && !amends_ && workspace.layer == Layer::pose)
-      if (!recording_.start(workspace, what_, input.now_ms)) {
-        active_ = false;
-        return true;
-      }
+    const bool records = with_ctrl_ && !amends_ && workspace.layer == Layer::pose;
+    if (records && !recording_.start(workspace, what_, input.now_ms)) {
+      active_ = false;
+      return true;
+    }
   }
   if (moving_) workspace.preview = dragged(input, workspace);
   if (!input.released && input.down) return false;
@@ -43,7 +43,7 @@ Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
     by = snapped(scene_, what_, pressed_, by, workspace.layer, snapping, guides_);
   }
   const Handle& first = *what_.begin();
-  if (what_.size() == 1 && first.kind == Handle::Kind::cage && first.control > 0)
+  if (what_.size() == 1 && is_tangent(first))
     return tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
                          workspace.layer, input.mods.alt);
   return displaced(scene_, displacements(scene_, what_, by, workspace.layer, workspace.influence),
@@ -73,8 +73,7 @@ void toggle_corners(Workspace& workspace) {
 }
 
 bool erases(const Input& input, Handle handle, Workspace& workspace) {
-  const bool tangent = handle.kind == Handle::Kind::cage && handle.control > 0;
-  if (!input.mods.alt || tangent) return false;
+  if (!input.mods.alt || is_tangent(handle)) return false;
   workspace.erase({handle});
   return true;
 }

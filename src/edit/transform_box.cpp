@@ -53,13 +53,9 @@ Affine Affine::turning(double angle, Complex about) {
 Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
                   Layer layer) {
   Selection all = selection;
-  const Cage& cage = cage_of(scene, layer);
-  for (const Handle& handle : selection) {
-    if (handle.kind != Handle::Kind::cage || handle.control != 0) continue;
-    const Index before = (handle.index + cage.size() - 1) % cage.size();
-    if (cage.degree(handle.index) > 1) all.insert({Handle::Kind::cage, handle.index, 1});
-    if (cage.degree(before) > 1) all.insert({Handle::Kind::cage, before, cage.degree(before) - 1});
-  }
+  for (const Handle& handle : selection)
+    for (const Handle& tangent : tangents_beside(cage_of(scene, layer), handle))
+      all.insert(tangent);
   const double size = std::sqrt(std::abs(std::norm(map.a) - std::norm(map.b)));
   for (const Handle& handle : all) {
     if (handle.kind == Handle::Kind::stroke) {

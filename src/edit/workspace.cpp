@@ -10,10 +10,8 @@ namespace holomorph {
 namespace {
 
 constexpr const char* kLeft =
-    "The pose has no key: it stays the scene's own, and Ctrl+Z leads back. I sets a key, with K "
-    "every "
-    "edit does.";
-constexpr const char* kNotKnown = "One moment, the picture at this time is being prepared.";
+    "The pose has no key: it stays the scene's own, and Ctrl+Z leads back. I sets a key, and with "
+    "K every edit does.";
 
 }  // namespace
 
@@ -68,10 +66,7 @@ bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& 
   const Pose shown = from == From::shown ? whole_pose_of(scene) : before;
   const bool moves = from == From::shown && fits(scene, before) && shown != before,
              sets_key = moves && timeline.auto_key;
-  if (sets_key && !knows_pose()) {
-    say(kNotKnown);
-    return false;
-  }
+  if (sets_key && !require_pose()) return false;
   if (sets_key)
     scene = keyed(std::move(scene));
   else if (from == From::shown && !moves && fits(scene, own))
@@ -103,6 +98,11 @@ Scene Workspace::keyed(Scene scene) {
   return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
 }
 
+bool Workspace::require_pose() {
+  if (!knows_pose()) say("One moment, the picture at this time is being prepared.");
+  return knows_pose();
+}
+
 bool Workspace::knows_pose() const {
   return !shown_time() || timed || playing_keys(document.scene()).empty();
 }
@@ -123,7 +123,7 @@ bool Workspace::leaves_a_pose() const {
 }
 
 void Workspace::set_key() {
-  if (!knows_pose()) return say(kNotKnown);
+  if (!require_pose()) return;
   char label[32];
   std::snprintf(label, sizeof label, "Key at %.2f s", timeline.time);
   const Scene shown = scene();
@@ -173,6 +173,7 @@ void Workspace::commit_or_amend(const std::string& label, Scene scene, From from
 }
 
 void Workspace::go_to(size_t entry) {
+  if (entry == document.history().index()) return;
   preview.reset();
   const Scene before = document.scene();
   const size_t from = document.history().index();

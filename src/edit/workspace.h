@@ -107,6 +107,8 @@ struct Workspace {
   std::vector<Points> in_keyframes(std::span<const Complex> rest);
   /// Whether unedited() is what is shown: not while the map of another time is on its way.
   bool knows_pose() const;
+  /// The same; says that it is on its way otherwise.
+  bool require_pose();
   /// What the onion skin shows: the keys before and after the time, where it is on and there is a
   /// pose to compare with.
   std::vector<OnionSkin> onion_skins() const;

@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kTie = 1e-3;
 
+/// How much of the way to the next key is behind.
+double eased(Ease ease, double u) {
+  return ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+}
+
 /// How much the picture is meant to turn from one pose to another, whole turns included: as a pin
 /// that turns does, or as corners do on average.
 ExpectedTurn expected_turn(const Scene& scene, const Pose& from, const Pose& to, int turns) {
@@ -78,6 +83,15 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   }
   std::vector<Key> keys;
   const std::vector<size_t> playing = playing_keys(scene);
+  const auto is_known = [&](size_t i, const Key& key) {
+    const Keyframe& frame = scene.keyframes[i];
+    return frame.time == key.time && frame.ease == key.ease && frame.turns == key.turns &&
+           frame.pose == key.pose;
+  };
+  if (!changed && std::ranges::equal(playing, keys_, is_known)) {
+    error_.reset();
+    return;
+  }
   std::optional<Error> wrong;
   for (const size_t i : playing) {
     const Keyframe& frame = scene.keyframes[i];
@@ -147,7 +161,7 @@ double Motion::turned_at(double time) const {
   const auto [i, u] = place_of(time);
   const double from = keys_[i].shape.logarithm.imag().mean();
   if (u == 0) return from;
-  const double s = keys_[i].ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  const double s = eased(keys_[i].ease, u);
   return from + s * (keys_[i + 1].shape.logarithm.imag().mean() - from);
 }
 
@@ -180,7 +194,7 @@ VectorXc Motion::map_at(double time) const {
   const bool smooth = from.ease == Ease::smooth;
   VectorXc f;
   if (straight_) {
-    const double share = smooth ? u * u * (3 - 2 * u) : u;
+    const double share = eased(from.ease, u);
     f = (1 - share) * from.shape.f + share * to.shape.f;
   } else {
     between_->blend({from.shape, to.shape, to.time - from.time, smooth ? &from.slopes : nullptr,
@@ -214,7 +228,7 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
   const Key& a = keys_[i];
   if (u == 0) return posed_as(scene, a.pose);
   const Key& b = keys_[i + 1];
-  const double s = a.ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  const double s = eased(a.ease, u);
   // What stays where it is stays there on the way; other handles go with the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
     if (at_a == at_b && b.turns == 0) return at_a;

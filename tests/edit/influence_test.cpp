@@ -54,7 +54,7 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
   CHECK(std::abs(desk.scene().pins[1].pose - Complex(150, 120)) < 1e-9);
   desk.drag({100, 240}, {130, 260});
   CHECK(desk.scene().pose.vertex(3) == Complex(100, 260));
-  CHECK(counterpart_of(desk.scene(), vertex(2)) == vertex(4));
+  CHECK(counterparts_of(desk.scene()).at(vertex(2)) == vertex(4));
   // Both together: soft on both sides.
   desk.workspace.influence.soft = true;
   desk.workspace.influence.reach = 150;

@@ -109,6 +109,7 @@ std::vector<Action> time_actions() {
        {{'C', kCtrl}},
        has_cage,
        [](Workspace& w) {
+         if (!w.require_pose()) return;
          w.copied = whole_pose_of(w.scene());
          w.say("The pose is copied.");
        }},
