@@ -39,6 +39,15 @@ class WindowTest(unittest.TestCase):
         editor.screenshot(path)
         return numpy.asarray(Image.open(path).convert("RGB")).astype(int)
 
+    def caged(self, size, cage):
+        """A scene file of a picture of this size with a cage."""
+        Image.effect_mandelbrot(size, (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "caged.png"))
+        path = os.path.join(self.work, "caged.json")
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "caged.png"},
+                       "cage": {"rest": [[p] for p in cage]}}, file)
+        return path
+
     def save_as(self, editor, path):
         editor.key("ctrl+shift+s")
         time.sleep(0.4)
@@ -496,12 +505,7 @@ class WindowTest(unittest.TestCase):
             editor.wait(lambda s: s["on_surface"], "the surface again")
 
     def test_corners_turn_and_keyframes_become_a_film(self):
-        Image.effect_mandelbrot((320, 120), (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "bar.png"))
-        cage = [[10, 10], [310, 10], [310, 110], [10, 110]]
-        scene = os.path.join(self.work, "bar.json")
-        with open(scene, "w") as file:
-            json.dump({"format": "holomorph", "version": 1, "image": {"file": "bar.png"},
-                       "cage": {"rest": [[p] for p in cage]}}, file)
+        scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             editor.key("i")
@@ -565,12 +569,7 @@ class WindowTest(unittest.TestCase):
         self.assertEqual([turn > 1 for turn in turns], [False, True, True, False])
 
     def test_the_box_turns_and_drags_reach_farther(self):
-        Image.effect_mandelbrot((320, 320), (-2, -2, 2, 2), 40).convert("RGBA").save(os.path.join(self.work, "square.png"))
-        cage = [[60, 60], [160, 60], [260, 60], [260, 260], [60, 260]]
-        scene = os.path.join(self.work, "square.json")
-        with open(scene, "w") as file:
-            json.dump({"format": "holomorph", "version": 1, "image": {"file": "square.png"},
-                       "cage": {"rest": [[p] for p in cage]}}, file)
+        scene = self.caged((320, 320), [[60, 60], [160, 60], [260, 60], [260, 260], [60, 260]])
 
         def pose(editor, name):
             path = os.path.join(self.work, name)
@@ -620,12 +619,7 @@ class WindowTest(unittest.TestCase):
             self.assertEqual(soft[0][1], 60)
 
     def test_motion_is_recorded_and_its_keys_are_seen_around(self):
-        Image.effect_mandelbrot((320, 120), (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "bar.png"))
-        cage = [[10, 10], [310, 10], [310, 110], [10, 110]]
-        scene = os.path.join(self.work, "bar.json")
-        with open(scene, "w") as file:
-            json.dump({"format": "holomorph", "version": 1, "image": {"file": "bar.png"},
-                       "cage": {"rest": [[p] for p in cage]}}, file)
+        scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             # A corner goes up and back while Ctrl is held, by the clock.
