@@ -207,8 +207,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   };
   const Influence& influence = workspace.influence;
   if (influence.soft) add("Soft, %.0f   ", influence.reach);
-  if (influence.symmetric) add("Symmetry   ");
-  if (workspace.snaps) add("Snap   ");
+  if (influence.symmetric) add("%s   ", "Symmetry");
+  if (workspace.snaps) add("%s   ", "Snap");
   if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
   if (status.cursor_at_rest)
     add("from %.1f, %.1f   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
