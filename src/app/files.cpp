@@ -199,7 +199,7 @@ std::string Files::import_svg(const Path& path, bool pose) {
     if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
                            pose ? From::shown : From::document))
       return "";
-    workspace_.layer = Layer::pose;
+    workspace_.posture = Posture::pose;
     workspace_.tool = ToolId::select;
   } catch (const Error& error) {
     return error.what();

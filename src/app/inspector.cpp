@@ -118,7 +118,7 @@ void method_section(Workspace& workspace) {
 /// A corner's own angles, and the tension of the edge behind it.
 void corner_angles(Workspace& workspace, Index vertex) {
   const Scene scene = workspace.scene();
-  if (!follows(scene, "angles") || workspace.layer == Layer::rest) return;
+  if (!follows(scene, "angles") || workspace.posture == Posture::rest) return;
   if (!is_corner(scene, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
   const PoseCorner pose = corner_at(scene, vertex);
   const double turn = (pose.before + pose.after) / 2, opening = corner_opening(scene, vertex);
@@ -141,28 +141,28 @@ void corner_angles(Workspace& workspace, Index vertex) {
 
 void one_handle(Workspace& workspace, Handle handle) {
   const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
-  const Layer layer = workspace.layer;
-  const Complex z = position_of(scene, handle, layer);
+  const Posture posture = workspace.posture;
+  const Complex z = position_of(scene, handle, posture);
   const bool pin = handle.kind == Handle::Kind::pin;
   ImGui::Text("%s %d, %s",
-              pin                                     ? "Pin"
-              : handle.kind == Handle::Kind::stroke   ? "Stroke"
-              : handle.control > 0                    ? "Curve point of segment"
-              : is_smooth(scene, handle.index, layer) ? "Smooth cage point"
-                                                      : "Cage point",
-              static_cast<int>(handle.index) + 1, layer == Layer::rest ? "at rest" : "posed");
+              pin                                       ? "Pin"
+              : handle.kind == Handle::Kind::stroke     ? "Stroke"
+              : handle.control > 0                      ? "Curve point of segment"
+              : is_smooth(scene, handle.index, posture) ? "Smooth cage point"
+                                                        : "Cage point",
+              static_cast<int>(handle.index) + 1, posture == Posture::rest ? "at rest" : "posed");
   const float speed = static_cast<float>(1 / workspace.viewport.zoom);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
-    return placed(s, handle, {x, position_of(s, handle, layer).imag()}, layer);
+    return placed(s, handle, {x, position_of(s, handle, posture).imag()}, posture);
   });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
-    return placed(s, handle, {position_of(s, handle, layer).real(), y}, layer);
+    return placed(s, handle, {position_of(s, handle, posture).real(), y}, posture);
   });
   if (handle.kind == Handle::Kind::stroke) return;
   if (!pin) {
-    ImGui::Text("Segment of degree %d", cage_of(scene, layer).degree(handle.index));
+    ImGui::Text("Segment of degree %d", cage_of(scene, posture).degree(handle.index));
     for (const char* id : {"cage.raise", "cage.lower"}) {
       ImGui::SameLine();
       if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
@@ -171,7 +171,7 @@ void one_handle(Workspace& workspace, Handle handle) {
     if (handle.control == 0) corner_angles(workspace, handle.index);
     return;
   }
-  if (layer == Layer::rest) return;
+  if (posture == Posture::rest) return;
   if (const auto place = workspace.map.pin_place(scene, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
       ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
@@ -196,20 +196,20 @@ void one_handle(Workspace& workspace, Handle handle) {
 
 void many_handles(Workspace& workspace) {
   const Selection selection = workspace.selection;
-  const Layer layer = workspace.layer;
+  const Posture posture = workspace.posture;
   ImGui::Text("%d handles, around", static_cast<int>(selection.size()));
-  const Complex center = center_of(workspace.scene(), selection, layer);
+  const Complex center = center_of(workspace.scene(), selection, posture);
   const float speed = static_cast<float>(1 / workspace.viewport.zoom);
   const auto moved_to = [&](const Scene& scene, Complex to) {
-    return moved(scene, selection, to - center_of(scene, selection, layer), layer);
+    return moved(scene, selection, to - center_of(scene, selection, posture), posture);
   };
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number("x", center.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
-    return moved_to(s, {x, center_of(s, selection, layer).imag()});
+    return moved_to(s, {x, center_of(s, selection, posture).imag()});
   });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number("y", center.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
-    return moved_to(s, {center_of(s, selection, layer).real(), y});
+    return moved_to(s, {center_of(s, selection, posture).real(), y});
   });
 }
 

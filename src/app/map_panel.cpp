@@ -81,7 +81,7 @@ void injectivity_section(Workspace& workspace, bool light) {
     if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     ImGui::PushID(text);
     if (ImGui::SmallButton("Show me")) {
-      workspace.layer = Layer::pose;
+      workspace.posture = Posture::pose;
       workspace.viewport.center = where;
       workspace.toasts.push_back({text, true, where});
     }

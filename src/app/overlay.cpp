@@ -181,14 +181,15 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
 /// A stroke with its start as a dot and its end as a ring.
 void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
-  const Layer layer = workspace.layer;
+  const Posture posture = workspace.posture;
   const Scene& scene = workspace.scene();
   const bool selected = workspace.selection.contains(handle);
-  const ImU32 color = selected  ? style.colors.selected
-                      : hovered ? style.colors.hover
-                                : (layer == Layer::rest ? style.colors.rest : style.colors.pose);
+  const ImU32 color = selected ? style.colors.selected
+                      : hovered
+                          ? style.colors.hover
+                          : (posture == Posture::rest ? style.colors.rest : style.colors.pose);
   std::vector<ImVec2> line;
-  for (const Complex& z : curve_of(scene, handle.index, layer)) line.push_back(px(workspace, z));
+  for (const Complex& z : curve_of(scene, handle.index, posture)) line.push_back(px(workspace, z));
   stroke(list, line, false, color, style);
   const float s = static_cast<float>(style.scale);
   list.AddCircleFilled(line.front(), 5.5f * s, style.colors.outline);
@@ -207,16 +208,16 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   std::map<Handle, Handle> counterparts;
   if (workspace.influence.symmetric && !dragged.empty()) counterparts = counterparts_of(scene);
   for (const Handle& handle : dragged) {
-    if (!exists(scene, handle, workspace.layer)) continue;
+    if (!exists(scene, handle, workspace.posture)) continue;
     if (workspace.influence.soft && (gesture.hover == handle || dragged.size() == 1)) {
-      const ImVec2 at = px(workspace, position_of(scene, handle, workspace.layer));
+      const ImVec2 at = px(workspace, position_of(scene, handle, workspace.posture));
       const float r = static_cast<float>(workspace.influence.reach * workspace.viewport.zoom);
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
       list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
     }
     const auto other = counterparts.find(handle);
-    if (other != counterparts.end() && exists(scene, other->second, workspace.layer)) {
-      const ImVec2 at = px(workspace, position_of(scene, other->second, workspace.layer));
+    if (other != counterparts.end() && exists(scene, other->second, workspace.posture)) {
+      const ImVec2 at = px(workspace, position_of(scene, other->second, workspace.posture));
       list.AddCircle(at, 9 * s, style.colors.outline, 0, 3.4f * s);
       list.AddCircle(at, 9 * s, style.colors.selected, 0, 1.8f * s);
     }
@@ -245,19 +246,20 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Scene& scene = workspace.scene();
   if (workspace.hide_overlays || workspace.show_original) return;
-  const Layer layer = workspace.layer;
+  const Posture posture = workspace.posture;
   draw_onion(list, workspace, style);
   if (workspace.show_cage && gesture.line.empty()) {
-    const ImU32 color = layer == Layer::rest ? style.colors.rest : style.colors.pose;
+    const ImU32 color = posture == Posture::rest ? style.colors.rest : style.colors.pose;
     // With pins or strokes the posed cage is only the start of the map: it steps back behind the
     // picture.
     const Pose used = pose_of(scene);
     const bool turned = std::ranges::any_of(used.corners, [](const PoseCorner& corner) {
       return corner.before != 0 || corner.after != 0;
     });
-    const bool by_angles = layer == Layer::pose && workspace.tool == ToolId::angle;
-    const bool faint = layer == Layer::pose && (!used.pins.empty() || !used.strokes.empty() ||
-                                                workspace.shows_outline() || turned || by_angles);
+    const bool by_angles = posture == Posture::pose && workspace.tool == ToolId::angle;
+    const bool faint =
+        posture == Posture::pose && (!used.pins.empty() || !used.strokes.empty() ||
+                                     workspace.shows_outline() || turned || by_angles);
     if (scene.has_cage() && faint) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
@@ -267,7 +269,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       list.AddPolyline(line.data(), static_cast<int>(line.size()),
                        (color & 0x00ffffff) | 0xb0000000, ImDrawFlags_Closed, 1.3f * width);
     } else if (scene.has_cage())
-      draw_cage(list, workspace, cage_of(scene, layer), color, style);
+      draw_cage(list, workspace, cage_of(scene, posture), color, style);
     if (const auto solved = faint ? workspace.solved_cage() : std::nullopt) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(*solved, 24)) line.push_back(px(workspace, z));
@@ -276,7 +278,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale),
                              style.colors.pin);
     }
-    if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, layer), color, style);
+    if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, posture), color, style);
     if (workspace.shows_outline()) {
       std::vector<ImVec2> line;
       for (const Complex& z : scene.outline) line.push_back(px(workspace, z));
@@ -284,7 +286,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
     }
     const auto& posed = workspace.map.posed();
     if (posed && same_rest(*posed, scene)) {
-      const bool at_rest = layer == Layer::rest;
+      const bool at_rest = posture == Posture::rest;
       for (size_t i = 0; i < scene.pins.size() && !at_rest; ++i)
         if (const auto place = workspace.map.pin_place(scene, i))
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
@@ -293,12 +295,12 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }
     if (by_angles && scene.has_cage()) draw_corners(list, workspace, gesture, style);
-    for (const Handle& handle : handles_of(scene, layer)) {
+    for (const Handle& handle : handles_of(scene, posture)) {
       if (handle.kind == Handle::Kind::stroke) {
         draw_stroke(list, workspace, handle, gesture.hover == handle, style);
         continue;
       }
-      const ImVec2 at = px(workspace, position_of(scene, handle, layer));
+      const ImVec2 at = px(workspace, position_of(scene, handle, posture));
       if (by_angles && handle.kind == Handle::Kind::cage) continue;
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;
       if (faint && handle.kind == Handle::Kind::cage && !selected && !hovered) {
@@ -313,7 +315,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       else
         draw_cage_handle(list, at, handle.control == 0, selected, hovered, color, style);
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-          is_smooth(scene, handle.index, layer))
+          is_smooth(scene, handle.index, posture))
         draw_smooth_mark(list, at, style);
     }
   }

@@ -11,7 +11,7 @@ struct OverlayStyle {
   double scale = 1;  ///< of the display
 };
 
-/// Draws the shown layer's cage and pins and the tool's gesture into ImGui's background.
+/// Draws the shown posture's cage and pins and the tool's gesture into ImGui's background.
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
 

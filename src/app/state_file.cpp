@@ -14,7 +14,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       text, sizeof text,
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
       " \"center\": [%.17g, %.17g], \"zoom\": %.17g,\n"
-      " \"tool\": \"%s\", \"layer\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
+      " \"tool\": \"%s\", \"posture\": \"%s\", \"view\": \"%s\", \"method\": \"%s\",\n"
       " \"cage_points\": %d, \"pins\": %d, \"strokes\": %d, \"outline_points\": %d, \"selected\": "
       "%d, \"history\": "
       "%d, \"step\": %d,\n"
@@ -27,7 +27,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       "\"runs\": %s}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
-      workspace.layer == Layer::rest ? "rest" : "pose",
+      workspace.posture == Posture::rest ? "rest" : "pose",
       kViewNames[static_cast<size_t>(workspace.view)], workspace.scene().method.c_str(),
       static_cast<int>(workspace.scene().rest.size()),
       static_cast<int>(workspace.scene().pins.size()),

@@ -21,7 +21,7 @@ class AngleTool final : public Tool {
     edge_.reset();
     hover_.reset();
     const Scene& scene = workspace.scene();
-    if (!scene.has_cage() || workspace.layer == Layer::rest) return;
+    if (!scene.has_cage() || workspace.posture == Posture::rest) return;
     if (const auto shown = shown_corner(workspace)) {
       mark_ = corner_mark(workspace, *shown);
       if (input.inside) mark_->hovered = part_at(*mark_, input.px, workspace.handle_px);
@@ -56,7 +56,8 @@ class AngleTool final : public Tool {
       cancel(workspace);
       return true;
     }
-    if (key != Key::del || workspace.layer == Layer::rest || !shown_corner(workspace)) return false;
+    if (key != Key::del || workspace.posture == Posture::rest || !shown_corner(workspace))
+      return false;
     remove(corners_of(workspace), workspace);
     return true;
   }
@@ -77,7 +78,7 @@ class AngleTool final : public Tool {
   std::string hint(const Workspace& workspace) const override {
     const Scene& scene = workspace.scene();
     if (!scene.has_cage()) return "Angles are those of a cage: draw one with P first";
-    if (workspace.layer == Layer::rest) return "Tab shows the pose, where corners turn";
+    if (workspace.posture == Posture::rest) return "Tab shows the pose, where corners turn";
     if (dragging_ && edge_)
       return "Tension " + text_of_number(corner_at(scene, corner_before(scene, *edge_)).tension) +
              ": drag down to let the edge bend";

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kInLine = 0.02;  ///< sine of the angle between opposite tangents
 
-Cage& cage_of(Scene& scene, Layer layer) {
-  return layer == Layer::rest ? scene.rest : scene.pose;
+Cage& cage_of(Scene& scene, Posture posture) {
+  return posture == Posture::rest ? scene.rest : scene.pose;
 }
 
 Index wrapped(const Cage& cage, Index i) {
@@ -28,8 +28,8 @@ void raise_to(Cage& cage, Index segment, int degree) {
 
 }  // namespace
 
-Tangents tangents_of(const Scene& scene, Index vertex, Layer layer) {
-  const Cage& cage = cage_of(scene, layer);
+Tangents tangents_of(const Scene& scene, Index vertex, Posture posture) {
+  const Cage& cage = cage_of(scene, posture);
   const Index before = wrapped(cage, vertex - 1);
   Tangents tangents;
   if (cage.degree(before) > 1)
@@ -38,25 +38,25 @@ Tangents tangents_of(const Scene& scene, Index vertex, Layer layer) {
   return tangents;
 }
 
-bool is_smooth(const Scene& scene, Index vertex, Layer layer) {
-  const auto [before, after] = tangents_of(scene, vertex, layer);
+bool is_smooth(const Scene& scene, Index vertex, Posture posture) {
+  const auto [before, after] = tangents_of(scene, vertex, posture);
   if (!before || !after) return false;
-  const Complex z = cage_of(scene, layer).vertex(vertex);
-  const Complex in = position_of(scene, *before, layer) - z,
-                out = position_of(scene, *after, layer) - z;
+  const Complex z = cage_of(scene, posture).vertex(vertex);
+  const Complex in = position_of(scene, *before, posture) - z,
+                out = position_of(scene, *after, posture) - z;
   return dot(in, out) < 0 && std::abs(cross(in, out)) <= kInLine * std::abs(in) * std::abs(out);
 }
 
-Scene tangent_moved(Scene scene, Handle tangent, Complex to, Layer layer, bool breaks) {
-  const Cage& cage = cage_of(scene, layer);
+Scene tangent_moved(Scene scene, Handle tangent, Complex to, Posture posture, bool breaks) {
+  const Cage& cage = cage_of(scene, posture);
   std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its other tangent
   for (const Index vertex : {tangent.index, wrapped(cage, tangent.index + 1)}) {
-    if (breaks || !is_smooth(scene, vertex, layer)) continue;
-    const auto [before, after] = tangents_of(scene, vertex, layer);
+    if (breaks || !is_smooth(scene, vertex, posture)) continue;
+    const auto [before, after] = tangents_of(scene, vertex, posture);
     if (*before == tangent) opposite.push_back({vertex, *after});
     if (*after == tangent) opposite.push_back({vertex, *before});
   }
-  Cage& moved = cage_of(scene, layer);
+  Cage& moved = cage_of(scene, posture);
   moved.segments[tangent.index][tangent.control] = to;
   for (const auto& [vertex, other] : opposite) {
     const Complex z = moved.vertex(vertex), arm = to - z;
@@ -66,8 +66,8 @@ Scene tangent_moved(Scene scene, Handle tangent, Complex to, Layer layer, bool b
   return scene;
 }
 
-Scene smoothed(Scene scene, Index vertex, Layer layer) {
-  Cage& cage = cage_of(scene, layer);
+Scene smoothed(Scene scene, Index vertex, Posture posture) {
+  Cage& cage = cage_of(scene, posture);
   const Index before = wrapped(cage, vertex - 1);
   raise_to(cage, before, 3);
   raise_to(cage, vertex, 3);
@@ -80,8 +80,8 @@ Scene smoothed(Scene scene, Index vertex, Layer layer) {
   return scene;
 }
 
-Scene cornered(Scene scene, Index vertex, Layer layer) {
-  Cage& cage = cage_of(scene, layer);
+Scene cornered(Scene scene, Index vertex, Posture posture) {
+  Cage& cage = cage_of(scene, posture);
   const Index before = wrapped(cage, vertex - 1);
   const Complex z = cage.vertex(vertex);
   for (const Index e : {before, vertex})  // a quadratic's one tangent belongs to the other end, too
@@ -92,38 +92,38 @@ Scene cornered(Scene scene, Index vertex, Layer layer) {
   return scene;
 }
 
-Scene toggled_corners(Scene scene, const Selection& selection, Layer layer) {
+Scene toggled_corners(Scene scene, const Selection& selection, Posture posture) {
   std::vector<Index> vertices;
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) vertices.push_back(handle.index);
   const bool all_smooth = std::all_of(vertices.begin(), vertices.end(),
-                                      [&](Index v) { return is_smooth(scene, v, layer); });
+                                      [&](Index v) { return is_smooth(scene, v, posture); });
   for (const Index v : vertices)
-    scene =
-        all_smooth ? cornered(std::move(scene), v, layer) : smoothed(std::move(scene), v, layer);
+    scene = all_smooth ? cornered(std::move(scene), v, posture)
+                       : smoothed(std::move(scene), v, posture);
   return scene;
 }
 
-std::set<Index> segments_of(const Scene& scene, const Selection& selection, Layer layer) {
+std::set<Index> segments_of(const Scene& scene, const Selection& selection, Posture posture) {
   std::set<Index> segments;
   for (const Handle& handle : selection)
-    if (handle.kind == Handle::Kind::cage && exists(scene, handle, layer))
+    if (handle.kind == Handle::Kind::cage && exists(scene, handle, posture))
       segments.insert(handle.index);
   if (segments.empty())
-    for (Index e = 0; e < cage_of(scene, layer).size(); ++e) segments.insert(e);
+    for (Index e = 0; e < cage_of(scene, posture).size(); ++e) segments.insert(e);
   return segments;
 }
 
-Scene raised(Scene scene, const Selection& selection, Layer layer) {
-  const std::set<Index> segments = segments_of(scene, selection, layer);
-  Cage& cage = cage_of(scene, layer);
+Scene raised(Scene scene, const Selection& selection, Posture posture) {
+  const std::set<Index> segments = segments_of(scene, selection, posture);
+  Cage& cage = cage_of(scene, posture);
   for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
   return scene;
 }
 
-Scene lowered(Scene scene, const Selection& selection, Layer layer) {
-  const std::set<Index> segments = segments_of(scene, selection, layer);
-  Cage& cage = cage_of(scene, layer);
+Scene lowered(Scene scene, const Selection& selection, Posture posture) {
+  const std::set<Index> segments = segments_of(scene, selection, posture);
+  Cage& cage = cage_of(scene, posture);
   for (const Index e : segments) {
     if (cage.degree(e) == 1) continue;
     const Points controls = cage.controls(e);

@@ -19,11 +19,11 @@ using Displacements = std::map<Handle, Complex>;
 
 /// How far each handle goes when these are dragged by so much. Vertices, pins and strokes take
 /// part, tangents where they are dragged themselves; what lies on the mirror's line stays on it.
-Displacements displacements(const Scene& scene, const Selection& dragged, Complex by, Layer layer,
-                            const Influence& influence);
+Displacements displacements(const Scene& scene, const Selection& dragged, Complex by,
+                            Posture posture, const Influence& influence);
 
 /// Moves handles; control points beside a vertex go along unless they have a way of their own.
-Scene displaced(Scene scene, const Displacements& by, Layer layer);
+Scene displaced(Scene scene, const Displacements& by, Posture posture);
 
 /// For each vertex, pin and stroke the one that lies where the mirror takes it at rest, where there
 /// is one. Cost: the square of their number.

@@ -11,59 +11,59 @@
 
 namespace holomorph {
 
-const Cage& cage_of(const Scene& scene, Layer layer) {
-  return layer == Layer::rest ? scene.rest : scene.pose;
+const Cage& cage_of(const Scene& scene, Posture posture) {
+  return posture == Posture::rest ? scene.rest : scene.pose;
 }
 
 namespace {
 
-Cage& cage_of(Scene& scene, Layer layer) {
-  return layer == Layer::rest ? scene.rest : scene.pose;
+Cage& cage_of(Scene& scene, Posture posture) {
+  return posture == Posture::rest ? scene.rest : scene.pose;
 }
 
 /// A stroke's points, to read in a const scene and to change in another.
 template <class AnyScene>
-auto& curve(AnyScene& scene, Index stroke, Layer layer) {
+auto& curve(AnyScene& scene, Index stroke, Posture posture) {
   auto& found = scene.strokes[static_cast<size_t>(stroke)];
-  return layer == Layer::rest ? found.rest : found.pose;
+  return posture == Posture::rest ? found.rest : found.pose;
 }
 
 /// The place of a pin or control point, to read in a const scene and to change in another.
 template <class AnyScene>
-auto& place(AnyScene& scene, Handle handle, Layer layer) {
+auto& place(AnyScene& scene, Handle handle, Posture posture) {
   if (handle.kind == Handle::Kind::pin)
-    return layer == Layer::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
-  return cage_of(scene, layer).segments[handle.index][handle.control];
+    return posture == Posture::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
+  return cage_of(scene, posture).segments[handle.index][handle.control];
 }
 
 }  // namespace
 
-const Points& curve_of(const Scene& scene, Index stroke, Layer layer) {
-  return curve(scene, stroke, layer);
+const Points& curve_of(const Scene& scene, Index stroke, Posture posture) {
+  return curve(scene, stroke, posture);
 }
 
-Complex position_of(const Scene& scene, Handle handle, Layer layer) {
+Complex position_of(const Scene& scene, Handle handle, Posture posture) {
   if (handle.kind == Handle::Kind::stroke) {
-    const Polyline line(without_repeats(curve_of(scene, handle.index, layer)), false);
+    const Polyline line(without_repeats(curve_of(scene, handle.index, posture)), false);
     return line.at(0.5 * line.length());
   }
-  return place(scene, handle, layer);
+  return place(scene, handle, posture);
 }
 
-bool exists(const Scene& scene, Handle handle, Layer layer) {
+bool exists(const Scene& scene, Handle handle, Posture posture) {
   if (handle.kind == Handle::Kind::pin)
     return method_named(scene.method).uses_pins &&
            handle.index < static_cast<Index>(scene.pins.size());
   if (handle.kind == Handle::Kind::stroke)
     return method_named(scene.method).uses_strokes &&
            handle.index < static_cast<Index>(scene.strokes.size());
-  const Cage& cage = cage_of(scene, layer);
+  const Cage& cage = cage_of(scene, posture);
   return handle.index < cage.size() && handle.control < cage.degree(handle.index);
 }
 
-std::vector<Handle> handles_of(const Scene& scene, Layer layer) {
+std::vector<Handle> handles_of(const Scene& scene, Posture posture) {
   std::vector<Handle> handles;
-  const Cage& cage = cage_of(scene, layer);
+  const Cage& cage = cage_of(scene, posture);
   for (Index i = 0; i < cage.size(); ++i)
     for (int m = 0; m < cage.degree(i); ++m) handles.push_back({Handle::Kind::cage, i, m});
   if (method_named(scene.method).uses_pins)
@@ -85,29 +85,29 @@ std::vector<Handle> tangents_beside(const Cage& cage, Handle handle) {
   return tangents;
 }
 
-void shift(Scene& scene, Handle handle, Complex by, Layer layer) {
+void shift(Scene& scene, Handle handle, Complex by, Posture posture) {
   if (handle.kind != Handle::Kind::stroke) {
-    place(scene, handle, layer) += by;
+    place(scene, handle, posture) += by;
     return;
   }
-  for (Complex& z : curve(scene, handle.index, layer)) z += by;
+  for (Complex& z : curve(scene, handle.index, posture)) z += by;
 }
 
-Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer) {
+Scene moved(Scene scene, const Selection& selection, Complex by, Posture posture) {
   Displacements all;
   for (const Handle& handle : selection)
-    if (exists(scene, handle, layer)) all[handle] = by;
-  return displaced(std::move(scene), all, layer);
+    if (exists(scene, handle, posture)) all[handle] = by;
+  return displaced(std::move(scene), all, posture);
 }
 
-Scene placed(Scene scene, Handle handle, Complex at, Layer layer) {
-  const Complex by = at - position_of(scene, handle, layer);
-  return moved(std::move(scene), {handle}, by, layer);
+Scene placed(Scene scene, Handle handle, Complex at, Posture posture) {
+  const Complex by = at - position_of(scene, handle, posture);
+  return moved(std::move(scene), {handle}, by, posture);
 }
 
-Complex center_of(const Scene& scene, const Selection& selection, Layer layer) {
+Complex center_of(const Scene& scene, const Selection& selection, Posture posture) {
   Box box;
-  for (const Handle& handle : selection) box.include(position_of(scene, handle, layer));
+  for (const Handle& handle : selection) box.include(position_of(scene, handle, posture));
   return box.center();
 }
 
@@ -177,8 +177,8 @@ Scene with_stroke(Scene scene, Points rest, Points pose, const std::vector<Point
   return scene;
 }
 
-Scene redrawn(Scene scene, Index stroke, Points drawn, Layer layer) {
-  Points& points = curve(scene, stroke, layer);
+Scene redrawn(Scene scene, Index stroke, Points drawn, Posture posture) {
+  Points& points = curve(scene, stroke, posture);
   const double kept = std::abs(drawn.front() - points.front()) +
                       std::abs(drawn.back() - points.back()),
                turned = std::abs(drawn.front() - points.back()) +
@@ -208,8 +208,8 @@ Points pulled(const Points& curve, bool closed, size_t point, Complex by, double
   return points;
 }
 
-Scene with_curve(Scene scene, Index stroke, Points drawn, Layer layer) {
-  curve(scene, stroke, layer) = std::move(drawn);
+Scene with_curve(Scene scene, Index stroke, Points drawn, Posture posture) {
+  curve(scene, stroke, posture) = std::move(drawn);
   return scene;
 }
 
@@ -249,7 +249,7 @@ Scene reset(Scene scene, const Selection& selection) {
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) {
       const Complex rest = scene.rest.vertex(handle.index);
-      scene = placed(std::move(scene), handle, rest, Layer::pose);
+      scene = placed(std::move(scene), handle, rest, Posture::pose);
       for (Corner& corner : scene.corners)
         if (corner.vertex == handle.index) corner.pose = {};
     }
@@ -260,9 +260,9 @@ Scene reset(Scene scene, const Selection& selection) {
       if (pin.angle) pin.angle = 0.0;
       pin.scale = 1;
     } else if (handle.kind == Handle::Kind::stroke) {
-      curve(scene, handle.index, Layer::pose) = curve_of(scene, handle.index, Layer::rest);
-    } else if (handle.control > 0 && exists(scene, handle, Layer::pose)) {
-      place(scene, handle, Layer::pose) = rest_control(scene, handle);
+      curve(scene, handle.index, Posture::pose) = curve_of(scene, handle.index, Posture::rest);
+    } else if (handle.control > 0 && exists(scene, handle, Posture::pose)) {
+      place(scene, handle, Posture::pose) = rest_control(scene, handle);
     }
   }
   return scene;

@@ -25,28 +25,29 @@ inline bool is_tangent(const Handle& handle) {
 }
 
 /// Which of the two shapes an edit or a picture is about.
-enum class Layer { pose, rest };
+enum class Posture { pose, rest };
 
-/// The cage of a layer.
-const Cage& cage_of(const Scene& scene, Layer layer);
-/// A handle's place in a layer; a stroke's is its middle.
-Complex position_of(const Scene& scene, Handle handle, Layer layer);
-bool exists(const Scene& scene, Handle handle, Layer layer);
-/// Every handle of a layer: cage control points, then pins and strokes where the method uses them.
-std::vector<Handle> handles_of(const Scene& scene, Layer layer);
+/// The cage of a posture.
+const Cage& cage_of(const Scene& scene, Posture posture);
+/// A handle's place in a posture; a stroke's is its middle.
+Complex position_of(const Scene& scene, Handle handle, Posture posture);
+bool exists(const Scene& scene, Handle handle, Posture posture);
+/// Every handle of a posture: cage control points, then pins and strokes where the method uses
+/// them.
+std::vector<Handle> handles_of(const Scene& scene, Posture posture);
 
 /// The control points next to a vertex, which go with it; none for other handles.
 std::vector<Handle> tangents_beside(const Cage& cage, Handle handle);
 /// Moves one handle alone, a stroke as a whole; a moved rest point leaves the pose where it is.
-void shift(Scene& scene, Handle handle, Complex by, Layer layer);
+void shift(Scene& scene, Handle handle, Complex by, Posture posture);
 /// Moves handles; moving a vertex takes the control points next to it along.
-Scene moved(Scene scene, const Selection& selection, Complex by, Layer layer);
+Scene moved(Scene scene, const Selection& selection, Complex by, Posture posture);
 
 /// Puts one handle at a place.
-Scene placed(Scene scene, Handle handle, Complex at, Layer layer);
+Scene placed(Scene scene, Handle handle, Complex at, Posture posture);
 
 /// The middle of the handles' box.
-Complex center_of(const Scene& scene, const Selection& selection, Layer layer);
+Complex center_of(const Scene& scene, const Selection& selection, Posture posture);
 
 /// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
 Scene inserted(Scene scene, Index segment, double t);
@@ -68,14 +69,14 @@ Scene with_pin(Scene scene, Complex rest, Complex pose,
 Scene with_stroke(Scene scene, Points rest, Points pose,
                   const std::vector<Points>& in_keyframes = {});
 /// The points of a stroke.
-const Points& curve_of(const Scene& scene, Index stroke, Layer layer);
-/// A stroke's layer redrawn, run through from the end that is nearer to its old start.
-Scene redrawn(Scene scene, Index stroke, Points curve, Layer layer);
+const Points& curve_of(const Scene& scene, Index stroke, Posture posture);
+/// A stroke's posture redrawn, run through from the end that is nearer to its old start.
+Scene redrawn(Scene scene, Index stroke, Points curve, Posture posture);
 /// A curve pulled at one of its points: what is within `reach` of arc length, less than half of a
 /// closed curve's, follows the less the farther it is.
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
 /// With another curve in place of a stroke's.
-Scene with_curve(Scene scene, Index stroke, Points curve, Layer layer);
+Scene with_curve(Scene scene, Index stroke, Points curve, Posture posture);
 /// With an outline, and the method that takes the cage's shape onto it or follows that; the surface
 /// is the one whose boundary it is.
 Scene with_outline(Scene scene, Points outline, std::optional<SurfaceReference> surface = {});
@@ -101,7 +102,7 @@ Scene fold_free(Scene scene);
 /// With another method, and the parameters that it had when it was left.
 Scene with_method(Scene scene, const std::string& id);
 
-/// The place on a layer's cage that is nearest to z.
+/// The place on a posture's cage that is nearest to z.
 struct CageHit {
   Index segment = 0;
   double t = 0;

@@ -151,7 +151,7 @@ bool take_outline(Workspace& workspace, const std::string& label, Points outline
           label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface)),
           From::document))
     return false;
-  workspace.layer = Layer::pose;
+  workspace.posture = Posture::pose;
   workspace.show_surface = true;
   workspace.playback = {0, true};
   return true;

@@ -83,11 +83,11 @@ class PenTool final : public Tool {
     if (!input.pressed) return;
     // A cage is drawn around the picture as it rests.
     if (scene.has_cage() && scene != at_rest(scene)) {
-      if (workspace.layer == Layer::pose)
+      if (workspace.posture == Posture::pose)
         workspace.say(
             "Drawing another cage on the picture at rest. Closing it replaces the cage; Ctrl+Z "
             "brings it back.");
-      workspace.layer = Layer::rest;
+      workspace.posture = Posture::rest;
     }
     workspace.selection.clear();
     path_.set_point(input.position);
@@ -99,7 +99,7 @@ class PenTool final : public Tool {
                           From::document))
       return;
     path_.cancel();
-    workspace.layer = Layer::pose;
+    workspace.posture = Posture::pose;
     workspace.tool = ToolId::select;
   }
 

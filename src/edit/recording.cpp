@@ -52,7 +52,7 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
   what_ = what;
   influence_ = workspace.influence;
   std::erase_if(what_, [&](const Handle& handle) {
-    return !exists(start_, handle, Layer::pose) ||
+    return !exists(start_, handle, Posture::pose) ||
            (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
   });
   start_time_ = workspace.timeline.time;
@@ -75,18 +75,18 @@ Scene Recording::base_at(const Workspace& workspace, double time) const {
 }
 
 Scene Recording::dragged(Scene scene, Complex by) const {
-  const Displacements ways = displacements(start_, what_, by, Layer::pose, influence_);
+  const Displacements ways = displacements(start_, what_, by, Posture::pose, influence_);
   // Vertices take their tangents along, so these come behind them.
   for (const bool tangents : {false, true})
     for (const auto& [handle, way] : ways) {
-      if (is_tangent(handle) != tangents || !exists(scene, handle, Layer::pose)) continue;
+      if (is_tangent(handle) != tangents || !exists(scene, handle, Posture::pose)) continue;
       if (handle.kind == Handle::Kind::stroke) {
         Points& pose = scene.strokes[static_cast<size_t>(handle.index)].pose;
-        pose = curve_of(start_, handle.index, Layer::pose);
+        pose = curve_of(start_, handle.index, Posture::pose);
         for (Complex& z : pose) z += way;
       } else {
-        scene = placed(std::move(scene), handle, position_of(start_, handle, Layer::pose) + way,
-                       Layer::pose);
+        scene = placed(std::move(scene), handle, position_of(start_, handle, Posture::pose) + way,
+                       Posture::pose);
       }
     }
   return scene;

@@ -84,10 +84,11 @@ class SelectTool final : public Tool {
     if (hover_)
       return "Drag to move, with Ctrl to record motion; Shift-click adds; Alt-click deletes; "
              "Ctrl-click: smooth or corner";
-    return workspace.layer == Layer::rest ? "Rest: drag points, the pose stays; double-click an "
-                                            "edge inserts; Tab returns to the pose"
-                                          : "Drag points or pins; drag a box to select; "
-                                            "double-click an edge inserts; Tab shows the rest";
+    return workspace.posture == Posture::rest
+               ? "Rest: drag points, the pose stays; double-click an "
+                 "edge inserts; Tab returns to the pose"
+               : "Drag points or pins; drag a box to select; "
+                 "double-click an edge inserts; Tab shows the rest";
   }
 
  private:
@@ -113,8 +114,9 @@ class SelectTool final : public Tool {
     if (!input.mods.shift) workspace.selection.clear();
     if (!dragged) return;
     const Scene& scene = workspace.scene();
-    for (const Handle& handle : handles_of(scene, workspace.layer))
-      if (box.contains(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer))))
+    for (const Handle& handle : handles_of(scene, workspace.posture))
+      if (box.contains(
+              workspace.viewport.px_at_plane(position_of(scene, handle, workspace.posture))))
         workspace.selection.insert(handle);
   }
 

@@ -4,16 +4,16 @@
 namespace holomorph {
 
 Complex snapped(const Scene& scene, const Selection& dragged, Handle pressed, Complex by,
-                Layer layer, const Snapping& snapping, std::vector<Guide>& guides) {
-  Points places{position_of(scene, pressed, Layer::rest)};
-  for (const Handle& handle : handles_of(scene, layer))
+                Posture posture, const Snapping& snapping, std::vector<Guide>& guides) {
+  Points places{position_of(scene, pressed, Posture::rest)};
+  for (const Handle& handle : handles_of(scene, posture))
     if (!dragged.contains(handle) && handle.control == 0)
-      places.push_back(position_of(scene, handle, layer));
+      places.push_back(position_of(scene, handle, posture));
   if (snapping.picture) {
     const Box& box = *snapping.picture;
     places.insert(places.end(), {{box.left, box.bottom}, {box.right, box.top}, box.center()});
   }
-  const Complex start = position_of(scene, pressed, layer), free = start + by;
+  const Complex start = position_of(scene, pressed, posture), free = start + by;
   const auto nearest = [&](auto coordinate) {
     const Complex* found = nullptr;
     double least = snapping.distance;

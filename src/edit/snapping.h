@@ -19,6 +19,6 @@ struct Snapping {
 
 /// A drag of handles, changed so that the pressed one lines up; appends what it lines up with.
 Complex snapped(const Scene& scene, const Selection& dragged, Handle pressed, Complex by,
-                Layer layer, const Snapping& snapping, std::vector<Guide>& guides);
+                Posture posture, const Snapping& snapping, std::vector<Guide>& guides);
 
 }  // namespace holomorph

@@ -105,7 +105,7 @@ class StrokeTool final : public Tool {
     }
     if (redrawn_stroke) {
       workspace.commit("Redraw stroke",
-                       redrawn(workspace.scene(), *redrawn_stroke, drawn, workspace.layer));
+                       redrawn(workspace.scene(), *redrawn_stroke, drawn, workspace.posture));
       return;
     }
     Points rest, pose;
@@ -130,7 +130,7 @@ class StrokeTool final : public Tool {
 
   /// At an end, or anywhere with Ctrl, a stroke is bent instead of moved.
   bool start_pull(const Input& input, Workspace& workspace) {
-    const Points& curve = curve_of(workspace.scene(), hover_->index, workspace.layer);
+    const Points& curve = curve_of(workspace.scene(), hover_->index, workspace.posture);
     const auto off = [&](Complex z) {
       return std::abs(workspace.viewport.px_at_plane(z) - input.px);
     };
@@ -149,9 +149,9 @@ class StrokeTool final : public Tool {
     if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx)
       workspace.preview =
           with_curve(pull_->scene, pull_->stroke,
-                     pulled(curve_of(pull_->scene, pull_->stroke, workspace.layer), false,
+                     pulled(curve_of(pull_->scene, pull_->stroke, workspace.posture), false,
                             pull_->point, input.position - pull_->start, pull_->reach),
-                     workspace.layer);
+                     workspace.posture);
     if (input.down && !input.released) return;
     pull_.reset();
     if (workspace.preview) workspace.commit("Bend stroke", *workspace.preview);

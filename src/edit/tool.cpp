@@ -10,7 +10,7 @@ namespace holomorph {
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
     moving_ = true;
-    const bool records = with_ctrl_ && !amends_ && workspace.layer == Layer::pose;
+    const bool records = with_ctrl_ && !amends_ && workspace.posture == Posture::pose;
     if (records && !recording_.start(workspace, what_, input.now_ms)) {
       active_ = false;
       return true;
@@ -40,14 +40,14 @@ Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
     if (const Image* image = workspace.document.image())
       snapping.picture =
           Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
-    by = snapped(scene_, what_, pressed_, by, workspace.layer, snapping, guides_);
+    by = snapped(scene_, what_, pressed_, by, workspace.posture, snapping, guides_);
   }
   const Handle& first = *what_.begin();
   if (what_.size() == 1 && is_tangent(first))
-    return tangent_moved(scene_, first, position_of(scene_, first, workspace.layer) + by,
-                         workspace.layer, input.mods.alt);
-  return displaced(scene_, displacements(scene_, what_, by, workspace.layer, workspace.influence),
-                   workspace.layer);
+    return tangent_moved(scene_, first, position_of(scene_, first, workspace.posture) + by,
+                         workspace.posture, input.mods.alt);
+  return displaced(scene_, displacements(scene_, what_, by, workspace.posture, workspace.influence),
+                   workspace.posture);
 }
 
 void HandleDrag::finish(Workspace& workspace) {
@@ -57,18 +57,18 @@ void HandleDrag::finish(Workspace& workspace) {
   if (amends_)
     workspace.amend(*workspace.preview);
   else
-    workspace.commit(workspace.layer == Layer::rest ? "Move at rest"
-                     : kind_of(what_) == "point"    ? "Move"
-                                                    : "Move " + kind_of(what_),
+    workspace.commit(workspace.posture == Posture::rest ? "Move at rest"
+                     : kind_of(what_) == "point"        ? "Move"
+                                                        : "Move " + kind_of(what_),
                      *workspace.preview);
 }
 
 void toggle_corners(Workspace& workspace) {
-  const Scene after = toggled_corners(workspace.scene(), workspace.selection, workspace.layer);
+  const Scene after = toggled_corners(workspace.scene(), workspace.selection, workspace.posture);
   bool smooth = false;
   for (const Handle& handle : workspace.selection)
     smooth = smooth || (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-                        is_smooth(after, handle.index, workspace.layer));
+                        is_smooth(after, handle.index, workspace.posture));
   workspace.commit(smooth ? "Smooth point" : "Corner", after);
 }
 
@@ -89,9 +89,9 @@ Complex center_px(const Workspace& workspace, Index pin) {
 void PinRing::hover(const Input& input, const Workspace& workspace) {
   pin_.reset();
   hovered_ = false;
-  if (workspace.layer != Layer::pose || workspace.selection.size() != 1) return;
+  if (workspace.posture != Posture::pose || workspace.selection.size() != 1) return;
   const Handle handle = *workspace.selection.begin();
-  if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Layer::pose)) return;
+  if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Posture::pose)) return;
   pin_ = handle.index;
   const double off =
       std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.handle_px;

@@ -25,13 +25,13 @@ double at_least(double scale) {
   return std::abs(scale) < kLeastScale ? std::copysign(kLeastScale, scale) : scale;
 }
 
-Box box_around(const Scene& scene, const Selection& selection, Layer layer) {
+Box box_around(const Scene& scene, const Selection& selection, Posture posture) {
   Box box;
   for (const Handle& handle : selection) {
     if (handle.kind != Handle::Kind::stroke)
-      box.include(position_of(scene, handle, layer));
+      box.include(position_of(scene, handle, posture));
     else
-      for (const Complex& z : curve_of(scene, handle.index, layer)) box.include(z);
+      for (const Complex& z : curve_of(scene, handle.index, posture)) box.include(z);
   }
   return box;
 }
@@ -51,21 +51,21 @@ Affine Affine::turning(double angle, Complex about) {
 }
 
 Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
-                  Layer layer) {
+                  Posture posture) {
   Selection all = selection;
   for (const Handle& handle : selection)
-    for (const Handle& tangent : tangents_beside(cage_of(scene, layer), handle))
+    for (const Handle& tangent : tangents_beside(cage_of(scene, posture), handle))
       all.insert(tangent);
   const double size = std::sqrt(std::abs(std::norm(map.a) - std::norm(map.b)));
   for (const Handle& handle : all) {
     if (handle.kind == Handle::Kind::stroke) {
       Stroke& stroke = scene.strokes[static_cast<size_t>(handle.index)];
-      for (Complex& z : layer == Layer::rest ? stroke.rest : stroke.pose) z = map(z);
+      for (Complex& z : posture == Posture::rest ? stroke.rest : stroke.pose) z = map(z);
       continue;
     }
-    const Complex z = position_of(scene, handle, layer);
-    shift(scene, handle, map(z) - z, layer);
-    if (handle.kind != Handle::Kind::pin || layer == Layer::rest) continue;
+    const Complex z = position_of(scene, handle, posture);
+    shift(scene, handle, map(z) - z, posture);
+    if (handle.kind != Handle::Kind::pin || posture == Posture::rest) continue;
     Pin& pin = scene.pins[static_cast<size_t>(handle.index)];
     if (!pin.angle) continue;
     *pin.angle += turn;
@@ -87,7 +87,7 @@ void TransformBox::hover(const Input& input, const Workspace& workspace) {
   mark_.reset();
   if (workspace.selection.size() < 2 || !workspace.show_cage || workspace.hide_overlays) return;
   const double unit = workspace.handle_px / workspace.viewport.zoom;
-  box_ = box_around(workspace.scene(), workspace.selection, workspace.layer);
+  box_ = box_around(workspace.scene(), workspace.selection, workspace.posture);
   const Complex margin(kMargin * unit, kMargin * unit);
   box_ = {box_.left - margin.real(), box_.bottom - margin.imag(), box_.right + margin.real(),
           box_.top + margin.imag()};
@@ -139,7 +139,7 @@ void TransformBox::follow(const Input& input, Workspace& workspace) {
   moving_ = moving_ || std::abs(input.px - start_px_) >= kDragThresholdPx;
   if (moving_) {
     const Affine now = map(input);
-    workspace.preview = transformed(scene_, workspace.selection, now, turn_, workspace.layer);
+    workspace.preview = transformed(scene_, workspace.selection, now, turn_, workspace.posture);
     mark_ = mark_of(workspace, now);
     mark_->hovered = grip_;
   }

@@ -21,7 +21,7 @@ struct Affine {
 /// Handles taken along; tangents beside vertices go with these, pins that turn are turned and
 /// scaled by `turn` radians and what the map does to lengths.
 Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
-                  Layer layer);
+                  Posture posture);
 
 /// What is drawn of the box, in window px: corners from the lower left, counter-clockwise.
 struct BoxMark {

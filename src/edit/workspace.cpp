@@ -165,7 +165,7 @@ bool Workspace::update_map(Wanted wanted) {
 
 void Workspace::commit_or_amend(const std::string& label, Scene scene, From from) {
   const History& history = document.history();
-  if (carried_on == selection && layer == Layer::pose && history.can_undo() &&
+  if (carried_on == selection && posture == Posture::pose && history.can_undo() &&
       history.entries()[history.index()].label == label)
     amend(std::move(scene), from);
   else if (commit(label, std::move(scene), from))
@@ -220,7 +220,7 @@ void Workspace::complain(const Error& error) {
 }
 
 void Workspace::prune_selection() {
-  std::erase_if(selection, [&](const Handle& handle) { return !exists(scene(), handle, layer); });
+  std::erase_if(selection, [&](const Handle& handle) { return !exists(scene(), handle, posture); });
 }
 
 std::optional<Complex> Workspace::rest_at(Complex z) const {
@@ -257,12 +257,12 @@ Box Workspace::content_box() const {
     box.include({0, 0});
     box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
   }
-  for (const Complex& z : outline_of(cage_of(scene(), layer))) box.include(z);
+  for (const Complex& z : outline_of(cage_of(scene(), posture))) box.include(z);
   if (!at_rest())
     for (const Complex& z : scene().outline) box.include(z);
   if (method_named(scene().method).uses_strokes)
     for (size_t i = 0; i < scene().strokes.size(); ++i)
-      for (const Complex& z : curve_of(scene(), static_cast<Index>(i), layer)) box.include(z);
+      for (const Complex& z : curve_of(scene(), static_cast<Index>(i), posture)) box.include(z);
   if (!at_rest() && map.has_map())
     for (const Complex& z : map.map().f)
       if (is_finite(z)) box.include(z);
@@ -279,7 +279,7 @@ void Workspace::open(Document opened) {
   timeline = {};
   timed.reset();
   timeline.visible = timeline.shows = !document.scene().keyframes.empty();
-  layer = Layer::pose;
+  posture = Posture::pose;
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
   if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});
@@ -287,7 +287,7 @@ void Workspace::open(Document opened) {
 
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
-  const CageHit hit = nearest_on_cage(cage_of(workspace.scene(), workspace.layer),
+  const CageHit hit = nearest_on_cage(cage_of(workspace.scene(), workspace.posture),
                                       workspace.viewport.plane_at_px(px));
   if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < kAtVertex ||
       hit.t > 1 - kAtVertex)
@@ -314,10 +314,10 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   if (!workspace.show_cage || workspace.hide_overlays) return best;
   double distance = workspace.handle_px;
   const Scene& scene = workspace.scene();
-  for (const Handle& handle : handles_of(scene, workspace.layer)) {
+  for (const Handle& handle : handles_of(scene, workspace.posture)) {
     if (handle.kind == Handle::Kind::stroke) continue;
-    const double here =
-        std::abs(workspace.viewport.px_at_plane(position_of(scene, handle, workspace.layer)) - px);
+    const double here = std::abs(
+        workspace.viewport.px_at_plane(position_of(scene, handle, workspace.posture)) - px);
     // A pin on a cage point's spot is picked first: it lies on top.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;
@@ -326,11 +326,11 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   }
   if (best) return best;
   // Points lie on top of strokes.
-  for (const Handle& handle : handles_of(scene, workspace.layer)) {
+  for (const Handle& handle : handles_of(scene, workspace.posture)) {
     if (handle.kind != Handle::Kind::stroke) continue;
     const double here =
         workspace.viewport.zoom *
-        Polyline(without_repeats(curve_of(scene, handle.index, workspace.layer)), false)
+        Polyline(without_repeats(curve_of(scene, handle.index, workspace.posture)), false)
             .nearest(workspace.viewport.plane_at_px(px))
             .distance;
     if (here >= distance) continue;

@@ -71,7 +71,7 @@ struct Workspace {
   std::optional<Scene> preview;  ///< what a drag shows before it is committed
   Selection selection;
   Viewport viewport;
-  Layer layer = Layer::pose;
+  Posture posture = Posture::pose;
   ToolId tool = ToolId::select;
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
@@ -117,11 +117,11 @@ struct Workspace {
   /// The shown pose as the key at the time.
   void set_key();
   /// Whether the canvas shows the picture at rest.
-  bool at_rest() const { return layer == Layer::rest || show_original; }
+  bool at_rest() const { return posture == Posture::rest || show_original; }
 
   /// Whether there is an outline that the method uses, and it is drawn.
   bool shows_outline() const {
-    return layer == Layer::pose && show_cage && !hide_overlays && !scene().outline.empty() &&
+    return posture == Posture::pose && show_cage && !hide_overlays && !scene().outline.empty() &&
            method_named(scene().method).uses_outline;
   }
 
@@ -155,7 +155,7 @@ struct Workspace {
   std::optional<Cage> solved_cage() const;
   /// The box of picture and cage as shown.
   Box content_box() const;
-  /// Replaces the document; selection, preview, layer and view start afresh.
+  /// Replaces the document; selection, preview, posture and view start afresh.
   void open(Document opened);
 
  private:
@@ -169,11 +169,11 @@ struct Workspace {
 /// "pin", "stroke" or "point": what these are, in the words of the history.
 std::string kind_of(const Selection& handles);
 
-/// The nearest handle of the shown layer within picking distance.
+/// The nearest handle of the shown posture within picking distance.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
 
-/// The place on the shown layer's cage within picking distance, not at a vertex: where a click can
-/// insert one.
+/// The place on the shown posture's cage within picking distance, not at a vertex: where a click
+/// can insert one.
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
 /// Inserts a vertex there as one step and selects it; false when that is refused.
 bool insert_at(Workspace& workspace, const CageHit& hit);

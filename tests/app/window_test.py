@@ -130,9 +130,9 @@ class WindowTest(unittest.TestCase):
             self.assertLess(state["selected"], points)
 
             editor.key("Tab")
-            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            editor.wait(lambda s: s["posture"] == "rest", "the rest")
             editor.key("Tab")
-            editor.wait(lambda s: s["layer"] == "pose", "the pose")
+            editor.wait(lambda s: s["posture"] == "pose", "the pose")
             editor.key("Delete")
             editor.wait(lambda s: s["cage_points"] < points, "deleted points")
             editor.key("ctrl+z")
@@ -166,7 +166,7 @@ class WindowTest(unittest.TestCase):
             self.assertEqual(load(path)["image"]["sha256"], before["image"]["sha256"])
 
             editor.key("Tab")
-            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            editor.wait(lambda s: s["posture"] == "rest", "the rest")
             x, y = after["rest"][5][0]
             editor.drag((x, y), (x + 6, y + 6))
             editor.wait(lambda s: s["modified"], "a moved rest point")
@@ -184,7 +184,7 @@ class WindowTest(unittest.TestCase):
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the square")
             editor.key("Tab")
-            editor.wait(lambda s: s["layer"] == "rest", "the rest")
+            editor.wait(lambda s: s["posture"] == "rest", "the rest")
             editor.drag((1100, 900), (-120, 300))
             editor.wait(lambda s: s["selected"] == 1, "the grabbed corner")
             state = editor.wait(lambda s: not s["gesture"], "the end of the drag")

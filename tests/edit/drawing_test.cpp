@@ -103,7 +103,7 @@ TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape le
   CHECK(desk.scene().strokes[0].rest.back().real() <= 200);
   CHECK_THAT(desk.workspace.toasts[1].text, Catch::Contains("left out"));
   // At rest it is drawn where the picture rests, and nothing moves by it.
-  desk.workspace.layer = Layer::rest;
+  desk.workspace.posture = Posture::rest;
   desk.settle();
   desk.draw({{30, 30}, {100, 30}});
   REQUIRE(desk.scene().strokes.size() == 2);

@@ -58,8 +58,8 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
   // Both together: soft on both sides.
   desk.workspace.influence.soft = true;
   desk.workspace.influence.reach = 150;
-  const Displacements ways = displacements(at_rest(desk.scene()), {vertex(0)}, {10, 0}, Layer::pose,
-                                           desk.workspace.influence);
+  const Displacements ways = displacements(at_rest(desk.scene()), {vertex(0)}, {10, 0},
+                                           Posture::pose, desk.workspace.influence);
   CHECK(ways.at(vertex(0)) == Complex(10, 0));
   CHECK(ways.at(vertex(1)) == Complex(-10, 0));
   const Handle pin{Handle::Kind::pin, 0, 0}, other{Handle::Kind::pin, 1, 0};
@@ -96,7 +96,7 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   CHECK(desk.scene().pose.vertex(1) == Complex(197, 205));
   // The picture's edges and middle.
   std::vector<Guide> guides;
-  const Complex by = snapped(desk.scene(), {vertex(0)}, vertex(0), {497, 303}, Layer::pose,
+  const Complex by = snapped(desk.scene(), {vertex(0)}, vertex(0), {497, 303}, Posture::pose,
                              {6, Box{0, 0, 1000, 600}}, guides);
   CHECK(by == Complex(500, 300));
   CHECK(guides.size() == 2);
@@ -170,7 +170,7 @@ TEST_CASE("Tangents and strokes go with the box") {
   Scene scene = desk.scene();
   scene.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
   const Affine twice = Affine::scaling(2, 2, 0);
-  const Scene after = transformed(scene, {vertex(0), vertex(1)}, twice, 0, Layer::pose);
+  const Scene after = transformed(scene, {vertex(0), vertex(1)}, twice, 0, Posture::pose);
   CHECK(after.pose.segments[0][0] == Complex(0, 0));
   CHECK(after.pose.segments[0][1] == Complex(120, -60));
   CHECK(after.pose.segments[0][2] == Complex(280, -60));
@@ -179,7 +179,7 @@ TEST_CASE("Tangents and strokes go with the box") {
   scene.method = "strokes";
   scene.strokes = {{{{20, 20}, {180, 20}}, {{20, 20}, {100, 40}, {180, 20}}, {}}};
   const Scene turned = transformed(scene, {{Handle::Kind::stroke, 0, 0}},
-                                   Affine::turning(kPi / 2, 0), kPi / 2, Layer::pose);
+                                   Affine::turning(kPi / 2, 0), kPi / 2, Posture::pose);
   CHECK(std::abs(turned.strokes[0].pose[1] - Complex(-40, 100)) < 1e-9);
   CHECK(turned.strokes[0].rest == scene.strokes[0].rest);
 }

@@ -408,8 +408,8 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
   desk.settle();
   go_to(desk, 1);
   const Handle tangent{Handle::Kind::cage, 0, 1};
-  REQUIRE(exists(desk.scene(), tangent, Layer::pose));
-  const Complex at = position_of(desk.scene(), tangent, Layer::pose);
+  REQUIRE(exists(desk.scene(), tangent, Posture::pose));
+  const Complex at = position_of(desk.scene(), tangent, Posture::pose);
   const size_t steps = desk.steps();
   constexpr Modifiers kCtrl{true, false, false};
   desk.press(at, kCtrl);
@@ -485,7 +485,7 @@ TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing
   CHECK(desk.steps() == steps);
   desk.click({300, 100}, kCtrl);
   CHECK(desk.scene().keyframes.empty());
-  CHECK(is_smooth(desk.scene(), 2, Layer::pose));
+  CHECK(is_smooth(desk.scene(), 2, Posture::pose));
 }
 
 TEST_CASE("Timeline: time goes on, loops, and stops at the end") {

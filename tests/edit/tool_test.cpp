@@ -135,7 +135,7 @@ TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing st
   desk.workspace.tool = ToolId::pen;
   desk.click({-300, -300});
   desk.click({-200, -300});
-  CHECK(desk.workspace.layer == Layer::rest);
+  CHECK(desk.workspace.posture == Posture::rest);
   CHECK(desk.tool().key(Key::escape, desk.workspace));
   CHECK(desk.scene() == before);
   for (const Complex z :
@@ -248,7 +248,7 @@ TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
   desk.settle();
   desk.workspace.tool = ToolId::pen;
   desk.click({400, 400});
-  CHECK(desk.workspace.layer == Layer::rest);
+  CHECK(desk.workspace.posture == Posture::rest);
 }
 
 TEST_CASE("Nudges merge while they go on, and never into another's step") {
@@ -296,8 +296,9 @@ TEST_CASE("Hidden handles cannot be grabbed") {
 TEST_CASE("Several handles move together around their middle") {
   const Scene scene = with_cage(Scene{}, shapes::l_shape());
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 2, 0}};
-  CHECK(center_of(scene, two, Layer::pose) == Complex(100, 50));
-  CHECK(center_of(moved(scene, two, {5, -3}, Layer::pose), two, Layer::pose) == Complex(105, 47));
+  CHECK(center_of(scene, two, Posture::pose) == Complex(100, 50));
+  CHECK(center_of(moved(scene, two, {5, -3}, Posture::pose), two, Posture::pose) ==
+        Complex(105, 47));
 }
 
 TEST_CASE("Nudging, resetting and methods act on the scene as named") {

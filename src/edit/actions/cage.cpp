@@ -22,14 +22,14 @@ void make_cage(Workspace& w) {
                         {w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved});
   if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)),
                From::document)) {
-    w.layer = Layer::pose;
+    w.posture = Posture::pose;
     w.tool = ToolId::select;
     w.selection.clear();
   }
 }
 
-void switch_layer(Workspace& w) {
-  w.layer = w.layer == Layer::pose ? Layer::rest : Layer::pose;
+void switch_posture(Workspace& w) {
+  w.posture = w.posture == Posture::pose ? Posture::rest : Posture::pose;
   w.prune_selection();
 }
 
@@ -51,8 +51,8 @@ std::vector<Action> cage_actions() {
        "Cage",
        {Key::tab},
        has_cage,
-       switch_layer,
-       [](const Workspace& w) { return w.layer == Layer::rest; }},
+       switch_posture,
+       [](const Workspace& w) { return w.posture == Posture::rest; }},
       {"cage.corner",
        "Smooth point or corner",
        "",
@@ -83,14 +83,14 @@ std::vector<Action> cage_actions() {
        "Cage",
        {},
        has_cage,
-       [](Workspace& w) { w.commit("Raise degree", raised(w.scene(), w.selection, w.layer)); }},
+       [](Workspace& w) { w.commit("Raise degree", raised(w.scene(), w.selection, w.posture)); }},
       {"cage.lower",
        "Lower the curves' degree",
        "",
        "Cage",
        {},
        has_cage,
-       [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.layer)); }},
+       [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.posture)); }},
       {"map.fold_free",
        "Make it fold-free",
        "",

@@ -18,8 +18,9 @@ template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
   w.commit_or_amend(
-      "Nudge", displaced(w.scene(), displacements(w.scene(), w.selection, by, w.layer, w.influence),
-                         w.layer));
+      "Nudge",
+      displaced(w.scene(), displacements(w.scene(), w.selection, by, w.posture, w.influence),
+                w.posture));
 }
 
 template <int up, int down>
@@ -29,7 +30,7 @@ void reach(Workspace& w) {
 }
 
 void select_all(Workspace& w) {
-  const auto all = handles_of(w.scene(), w.layer);
+  const auto all = handles_of(w.scene(), w.posture);
   w.selection = Selection(all.begin(), all.end());
 }
 
@@ -61,7 +62,7 @@ void free_pin_angles(Workspace& w) {
 
 bool has_turned_pin(const Workspace& w) {
   for (const Handle& handle : w.selection)
-    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.layer) &&
+    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.posture) &&
         w.scene().pins[handle.index].angle)
       return true;
   return false;

@@ -21,16 +21,16 @@ void zoom_by(Workspace& w, double factor) {
 
 /// Corners with angles are where the picture is, not the cage.
 Complex shown_place(const Workspace& w, const Handle& handle) {
-  const bool corner = w.tool == ToolId::angle && w.layer == Layer::pose &&
+  const bool corner = w.tool == ToolId::angle && w.posture == Posture::pose &&
                       handle.kind == Handle::Kind::cage && handle.control == 0;
-  return corner ? posed_vertex(w, handle.index) : position_of(w.scene(), handle, w.layer);
+  return corner ? posed_vertex(w, handle.index) : position_of(w.scene(), handle, w.posture);
 }
 
 void frame_selection(Workspace& w) {
   Box box;
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::stroke)
-      for (const Complex& z : curve_of(w.scene(), handle.index, w.layer)) box.include(z);
+      for (const Complex& z : curve_of(w.scene(), handle.index, w.posture)) box.include(z);
     else
       box.include(shown_place(w, handle));
   const double least = 60;  // one point alone is shown with its surroundings
