@@ -1,4 +1,4 @@
-// Values are compared with what the renderer has: a preparation's number, a flag for the picture.
+// From the bottom to the top; the first one drawn clears the canvas.
 #include "app/canvas.h"
 
 #include <utility>
@@ -12,18 +12,8 @@ double texture_zoom(const Box& box) {
   return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
 }
 
-}  // namespace
-
-Color onion_color(bool later) {
-  return later ? Color{0.35f, 0.67f, 1} : Color{1, 0.55f, 0.31f};
-}
-
-void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
-  update_heat(workspace);
-  upload_picture(workspace);
-  upload_map(workspace.map);
-  const Viewport& view = workspace.viewport;
-  Frame frame = frame_of(workspace);
+Frame frame_at(const Viewport& view, const CanvasFrame& at) {
+  Frame frame;
   frame.window_width = at.window_width;
   frame.window_height = at.window_height;
   frame.canvas_left = view.left * at.ratio;
@@ -32,25 +22,86 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   frame.canvas_height = view.height * at.ratio;
   frame.center = view.center;
   frame.zoom = view.zoom * at.ratio;
-  frame.wireframe = workspace.show_mesh;
-  if (workspace.at_rest()) frame.placement = Placement::at_rest;
   frame.background = at.background;
   frame.backdrop = at.backdrop;
-  const std::vector<OnionSkin> skins = workspace.onion_skins();
-  for (const OnionSkin& skin : skins)
-    frame.ghosts.push_back(
-        {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
-  renderer_.draw(frame);
+  return frame;
 }
 
-Frame Canvas::frame_of(const Workspace& workspace) const {
-  Frame frame;
-  const bool shows_picture =
-      !workspace.map.has_map() || (is_heat(workspace.view) && heat_values_.size() == 0);
-  frame.view = shows_picture ? View::image : workspace.view;
-  frame.diverging = heat_scale_.diverging;
-  frame.placement = by_operator_ ? Placement::by_operator : Placement::positions;
-  return frame;
+/// What a background of one colour puts in place of the theme's.
+Color color_of(const Background& background) {
+  Color color;
+  for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;
+  return color;
+}
+
+}  // namespace
+
+Color onion_color(bool later) {
+  return later ? Color{0.35f, 0.67f, 1} : Color{1, 0.55f, 0.31f};
+}
+
+LayerPainter& Canvas::painter_of(const Scene& layer) {
+  std::unique_ptr<LayerPainter>& painter = painters_[layer.layer.id];
+  if (!painter) painter = std::make_unique<LayerPainter>();
+  return *painter;
+}
+
+void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
+  const int factor = painter_of(layer).take_picture(workspace.document.pictures().shared(layer));
+  if (factor > 1)
+    workspace.say(
+        "The picture is larger than this driver's textures: the canvas shows it reduced " +
+        std::to_string(factor) + " times. Export uses all pixels.");
+}
+
+void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
+  const Scene& scene = workspace.document.scene();
+  // The views of a map are about the edited layer's, and so is its rest.
+  const bool alone = workspace.view != View::image || workspace.posture == Posture::rest;
+  Frame frame = frame_at(workspace.viewport, at);
+  if (scene.background.kind == Background::Kind::color) frame.backdrop = color_of(scene.background);
+  edited_ = &painter_of(scene);
+  std::vector<const Scene*> drawn;
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    if (&layer != &scene && (alone || !layer.layer.visible)) continue;
+    take_picture(workspace, layer);
+    if (&layer == &scene && !alone && !layer.layer.visible) continue;
+    painter_of(layer).take_map(workspace.maps.of(layer.layer.id),
+                               &layer == &scene ? workspace.view : View::image,
+                               workspace.automatic_range);
+    drawn.push_back(&layer);
+  }
+  const auto draw = [&](const Scene& layer, Frame drawing) {
+    painter_of(layer).draw(workspace.maps.of(layer.layer.id),
+                           &layer == &scene ? workspace.view : View::image, std::move(drawing));
+    frame.over = true;
+  };
+  if (drawn.empty()) {
+    frame.shows = Shows::nothing;
+    return draw(scene, frame);
+  }
+  if (scene.background.kind == Background::Kind::original && !alone) {
+    Frame original = frame;
+    original.shows = Shows::original;
+    for (const Scene* layer : drawn) {
+      draw(*layer, original);
+      original.over = true;
+    }
+  }
+  const std::vector<OnionSkin> skins = workspace.onion_skins();
+  for (const Scene* layer : drawn) {
+    Frame drawing = frame;
+    if (workspace.show_original || (layer == &scene && workspace.at_rest()))
+      drawing.placement = Placement::at_rest;
+    if (layer == &scene) {
+      drawing.wireframe = workspace.show_mesh;
+      for (const OnionSkin& skin : skins)
+        drawing.ghosts.push_back(
+            {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
+    }
+    draw(*layer, std::move(drawing));
+  }
 }
 
 Box Canvas::whole_pixels(const Box& box) {
@@ -63,7 +114,7 @@ Box Canvas::whole_pixels(const Box& box) {
 }
 
 void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay) {
-  Frame frame = frame_of(workspace);
+  Frame frame;
   frame.zoom = texture_zoom(box);
   frame.window_width = static_cast<int>(std::lround(frame.zoom * box.width()));
   frame.window_height = static_cast<int>(std::lround(frame.zoom * box.height()));
@@ -74,55 +125,8 @@ void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& i
   frame.background = {0, 0, 0};
   frame.backdrop = clay;
   into.bind(frame.window_width, frame.window_height);
-  renderer_.draw(frame);
+  painter_of(workspace.document.scene()).draw(workspace.map(), workspace.view, frame);
   into.release();
-}
-
-void Canvas::update_heat(const Workspace& workspace) {
-  const LiveMap& map = workspace.map;
-  if (!is_heat(workspace.view) || !map.has_map() || map.map().fz.size() == 0) {
-    heat_values_.resize(0);
-    return;
-  }
-  heat_values_ = holomorph::heat_values(workspace.view, distortion_of(map.map()));
-  heat_scale_ = holomorph::heat_scale(workspace.view, heat_values_, workspace.automatic_range);
-}
-
-void Canvas::upload_picture(Workspace& workspace) {
-  if (!std::exchange(picture_changed_, false)) return;
-  const Image* image = workspace.document.image();
-  const int factor = image
-                         ? renderer_.set_picture(image->width, image->height, image->pixels.data())
-                         : renderer_.set_picture(0, 0, nullptr);
-  if (factor > 1)
-    workspace.say(
-        "The picture is larger than this driver's textures: the canvas shows it reduced " +
-        std::to_string(factor) + " times. Export uses all pixels.");
-}
-
-void Canvas::upload_map(const LiveMap& map) {
-  if (!map.has_map()) {
-    renderer_.set_mesh(nullptr);
-    uploaded_ = 0;
-    return;
-  }
-  const bool timed = map.timed().has_value();
-  if (uploaded_ != map.preparation() || timed_ != timed) {
-    if (uploaded_ != map.preparation()) renderer_.set_mesh(map.prepared()->mesh.get());
-    // On a processor-driven OpenGL the shader's sum is the slower one; in-betweens are no sum.
-    by_operator_ = renderer_.set_operator(
-        is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
-    uploaded_ = map.preparation();
-    timed_ = timed;
-  }
-  if (by_operator_ && map.posed())
-    renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
-  renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
-  if (heat_values_.size() != map.map().f.size()) return;
-  Eigen::VectorXf shades(heat_values_.size());
-  for (Index i = 0; i < shades.size(); ++i)
-    shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
-  renderer_.set_heat(shades);
 }
 
 }  // namespace holomorph

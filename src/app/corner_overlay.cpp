@@ -72,7 +72,7 @@ void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverla
 
 void draw_limited_corners(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = 11 * s;
-  for (const Index v : workspace.map.map().limited_corners) {
+  for (const Index v : workspace.map().map().limited_corners) {
     if (v >= workspace.scene().rest.size()) continue;
     const ImVec2 at = vec(workspace.viewport.px_at_plane(posed_vertex(workspace, v)));
     const ImVec2 a(at.x, at.y - r), b(at.x - 0.9f * r, at.y + 0.6f * r),

@@ -32,7 +32,7 @@ class Editor {
     tools_.push_back(stroke_tool());
     tools_.push_back(outline_tool());
     tools_.push_back(angle_tool());
-    workspace_.map.on_ready([this] { window_.wake(); });
+    workspace_.maps.on_ready([this] { window_.wake(); });
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);
     if (!options.file.empty() && !files_.recoverable().empty())
@@ -72,7 +72,7 @@ class Editor {
     if (workspace_.update_map({is_heat(workspace_.view), workspace_.preview.has_value(),
                                workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
-    if (advance(workspace_.playback, workspace_.map, now_ms())) window_.wake();
+    if (advance(workspace_.playback, workspace_.map(), now_ms())) window_.wake();
     if (workspace_.timeline.recording) window_.wake();
     show_whole_map();
     update_title();
@@ -112,7 +112,7 @@ class Editor {
   /// begun, the view shows all of it.
   void show_whole_map() {
     if (workspace_.document.history().can_undo()) opened_ = false;
-    if (!opened_ || !workspace_.map.has_map() || workspace_.map.busy()) return;
+    if (!opened_ || !workspace_.map().has_map() || workspace_.map().busy()) return;
     opened_ = false;
     Viewport& view = workspace_.viewport;
     Box seen;
@@ -198,11 +198,17 @@ class Editor {
     return *tools_[0];
   }
 
-  void use_tool(const Input& input) {
+  void use_tool(Input input) {
     if (last_tool_ != workspace_.tool) {
       for (const auto& tool : tools_)
         if (tool->id() == last_tool_) tool->cancel(workspace_);
       last_tool_ = workspace_.tool;
+    }
+    const LayerState& layer = workspace_.document.scene().layer;
+    if (input.pressed && (layer.locked || !layer.visible)) {
+      workspace_.say(layer.locked ? "The layer is locked. Ctrl+L unlocks it."
+                                  : "The layer is hidden. Ctrl+H shows it.");
+      input.pressed = input.double_clicked = input.inside = false;
     }
     current_tool().input(input, workspace_);
   }
@@ -238,7 +244,7 @@ class Editor {
 
   void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
-    canvas_.replace_picture();
+    canvas_.forget();
     fit_ = opened_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
@@ -269,11 +275,12 @@ class Editor {
       answer(draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
-      if (canvas_.heat_values().size() > 0)
-        draw_legend(workspace_, canvas_.heat_scale(), canvas_.heat_values(), style);
+      if (canvas_.edited().heat_values().size() > 0)
+        draw_legend(workspace_, canvas_.edited().heat_scale(), canvas_.edited().heat_values(),
+                    style);
       draw_toolbar(workspace_, scale);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
-      draw_inspector(workspace_, canvas_.heat_scale(), scale, window_.light());
+      draw_inspector(workspace_, canvas_.edited().heat_scale(), scale, window_.light());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       if (workspace_.timeline.visible) timeline_.draw(workspace_, scale);
       draw_context_menu(workspace_);
@@ -284,14 +291,14 @@ class Editor {
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
         status.cursor_at_rest = workspace_.rest_at(input.position);
-      status.draft = workspace_.preview.has_value() || workspace_.map.busy() ||
-                     workspace_.map.error().has_value();
-      status.by_operator = canvas_.by_operator();
+      status.draft = workspace_.preview.has_value() || workspace_.map().busy() ||
+                     workspace_.map().error().has_value();
+      status.by_operator = canvas_.edited().by_operator();
     }
     draw_status_bar(workspace_, status, scale);
     toasts_.draw(workspace_, style);
-    if (workspace_.map.error() && workspace_.map.error()->where())
-      draw_marker(workspace_, *workspace_.map.error()->where(), style);
+    if (workspace_.map().error() && workspace_.map().error()->where())
+      draw_marker(workspace_, *workspace_.map().error()->where(), style);
     files_.draw(scale);
     if (help_) help_ = draw_help(scale);
     if (palette_)

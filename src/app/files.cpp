@@ -77,8 +77,48 @@ void Files::drop(const Path& path) {
     complain(path.filename().string() +
              ": the picture needs a cage before it can go onto a surface. Make one and drop the "
              "surface again");
-  else
+  else if (document.empty() || document.path() == path)
     ask_open(path);
+  else
+    dropped_ = path;
+}
+
+std::string Files::add_layer(const Path& path) {
+  try {
+    LoadedScene added = is_scene_name(path) ? load_scene(path) : scene_of_image(path);
+    Document& document = workspace_.document;
+    Scene scene = document.scene();
+    for (Scene& layer : layers_of(added.scene)) {
+      if (layer.image)
+        document.put_picture(layer.image->file, *added.pictures.find(layer.image->file));
+      scene = with_layer_added(std::move(scene), std::move(layer));
+    }
+    if (workspace_.commit_layers("Add " + path.stem().string(), std::move(scene)))
+      workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
+    remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+    keep_preferences();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string Files::replace_picture(const Path& path) {
+  try {
+    Picture picture = read_picture(path);
+    Scene scene = workspace_.document.scene();
+    const std::optional<ImageReference> before = scene.image;
+    scene.image = reference_to(path, picture);
+    if (before &&
+        (before->width != picture.image->width || before->height != picture.image->height))
+      workspace_.say(
+          "The new picture has another size; cage, pins and strokes stay where they are.");
+    workspace_.document.put_picture(scene.image->file, std::move(picture));
+    workspace_.commit("Replace picture", std::move(scene), From::document);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 Path Files::beside_document(const std::string& name) const {
@@ -149,9 +189,10 @@ std::string Files::export_to(const Path& path, double scale) {
     options.scale = scale;
     options.view = workspace_.scene().has_cage() ? workspace_.view : View::image;
     options.automatic_range = workspace_.automatic_range;
-    options.time = workspace_.shown_time();
+    options.time = workspace_.time_of_layers();
+    const Document& document = workspace_.document;
     const RasterResult result =
-        picture_of(workspace_.document.scene(), workspace_.document.image(), options);
+        picture_of(document.scene(), document.image(), options, document.pictures());
     write_file(path, encode_png(result.image));
     export_path_ = path;
     export_scale_ = scale;
@@ -290,8 +331,10 @@ std::string Files::export_film(const Path& path, double scale) {
     FilmOptions options;
     options.scale = scale;
     options.view = workspace_.view;
-    film_ = std::make_unique<FilmJob>(path, workspace_.document.scene(),
-                                      workspace_.document.shared_image(), options);
+    film_ = std::make_unique<FilmJob>(
+        path, workspace_.document.scene(),
+        workspace_.document.pictures().shared(workspace_.document.scene()), options,
+        workspace_.document.pictures());
     film_path_ = path;
   } catch (const Error& error) {
     return error.what();
@@ -396,6 +439,24 @@ void Files::answer(Request request) {
                    false},
                   [this](const Path& path, double) { return import_outline(path); });
       break;
+    case Request::add_layer:
+      dialog_.ask({FileQuestion::Mode::open,
+                   "Add a picture, or the layers of a scene",
+                   "Add",
+                   kinds_of_file({".json", ".holomorph"}),
+                   {},
+                   false},
+                  [this](const Path& path, double) { return add_layer(path); });
+      break;
+    case Request::replace_picture:
+      dialog_.ask({FileQuestion::Mode::open,
+                   "The picture in place of the present one",
+                   "Replace",
+                   kinds_of_file({}),
+                   {},
+                   false},
+                  [this](const Path& path, double) { return replace_picture(path); });
+      break;
     case Request::export_svg:
       ask_export_svg();
       break;
@@ -422,7 +483,38 @@ void Files::answer(Request request) {
 void Files::draw(double scale) {
   dialog_.draw(scale);
   draw_question(scale);
+  draw_drop_question(scale);
   draw_film(scale);
+}
+
+void Files::draw_drop_question(double scale) {
+  if (!dropped_) return;
+  ImGui::OpenPopup("A dropped picture");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal("A dropped picture", nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  const Path path = *dropped_;
+  ImGui::TextUnformatted(path.filename().c_str());
+  ImGui::Dummy({0, 6});
+  const ImVec2 size(330 * static_cast<float>(scale), 0);
+  bool decided = false;
+  const auto choice = [&](const char* label, auto act) {
+    if (!ImGui::Button(label, size)) return;
+    decided = true;
+    act();
+  };
+  choice("Add it as a layer", [&] { complain(add_layer(path)); });
+  if (!is_scene_name(path))
+    choice("Put it in place of this layer's picture", [&] { complain(replace_picture(path)); });
+  choice("Open it instead", [&] { ask_open(path); });
+  choice("Cancel", [] {});
+  if (decided || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    dropped_.reset();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
 }
 
 void Files::draw_question(double scale) {

@@ -21,7 +21,7 @@ class Files {
   std::string open(const Path& path);
   void ask_open(const Path& path);
   /// The same for a dropped file, but surfaces and SVG paths become the outline where there is a
-  /// cage, and a path the cage where there is none.
+  /// cage, and a path the cage where there is none; where a picture should go is asked.
   void drop(const Path& path);
   /// Opens a copy of a scene, which has no file of its own yet.
   void ask_sample(const Path& scene);
@@ -37,7 +37,7 @@ class Files {
   void keep_preferences();
   /// Draws the dialog or question that is open.
   void draw(double scale);
-  bool asking() const { return dialog_.open() || question_ || film_; }
+  bool asking() const { return dialog_.open() || question_ || film_ || dropped_; }
   /// Whether something goes on that is to be seen though nothing happens.
   bool busy() const { return film_ != nullptr; }
   bool has_quit() const { return quit_; }
@@ -58,6 +58,9 @@ class Files {
   void ask_svg(bool pose);
   std::string import_svg(const Path& path, bool pose);
   std::string import_outline(const Path& path);
+  std::string add_layer(const Path& path);
+  std::string replace_picture(const Path& path);
+  void draw_drop_question(double scale);
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
@@ -75,6 +78,7 @@ class Files {
   Then after_question_;
   std::unique_ptr<FilmJob> film_;
   Path film_path_;
+  std::optional<Path> dropped_;  ///< a picture of which it is not decided yet where it goes
   Path export_path_;
   double export_scale_ = 1;
   bool question_ = false, quit_ = false, autosave_failed_ = false;

@@ -1,6 +1,7 @@
 // The panel on the right: method, selection, cage, heat map, history.
 #include <utility>
 
+#include "app/layer_panel.h"
 #include "app/map_panel.h"
 #include "app/panels.h"
 #include "edit/corner_edits.h"
@@ -111,8 +112,8 @@ void method_section(Workspace& workspace) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
       ImGui::SetTooltip("%s", spec.hint.c_str());
   }
-  if (workspace.map.has_map() && !workspace.map.map().note.empty())
-    wrapped_text(workspace.map.map().note);
+  if (workspace.map().has_map() && !workspace.map().map().note.empty())
+    wrapped_text(workspace.map().map().note);
 }
 
 /// A corner's own angles, and the tension of the edge behind it.
@@ -172,7 +173,7 @@ void one_handle(Workspace& workspace, Handle handle) {
     return;
   }
   if (posture == Posture::rest) return;
-  if (const auto place = workspace.map.pin_place(scene, static_cast<size_t>(handle.index)))
+  if (const auto place = workspace.map().pin_place(scene, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
       ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
   bool turns = scene.pins[handle.index].angle.has_value();
@@ -321,25 +322,25 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, b
   ImGui::Begin("Inspector", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-  const auto section = [&](const char* title, auto draw) {
-    ImGui::TextDisabled("%s", title);
+  const auto section = [&](const char* title, bool opens, auto draw) {
+    ImGui::SetNextItemOpen(opens, ImGuiCond_Appearing);
+    if (!ImGui::CollapsingHeader(title)) return;
     ImGui::PushID(title);
     draw();
     ImGui::PopID();
     ImGui::Spacing();
-    ImGui::Separator();
-    ImGui::Spacing();
   };
-  section("METHOD", [&] {
+  section("Method", true, [&] {
     method_section(workspace);
     convergence_section(workspace, scale);
   });
-  if (workspace.map.has_map()) section("FOLDS", [&] { injectivity_section(workspace, light); });
-  section("SELECTION", [&] { selection_section(workspace); });
-  section("CAGE", [&] { cage_section(workspace); });
-  section("VIEW", [&] { heat_section(workspace, heat); });
-  ImGui::TextDisabled("HISTORY");
-  history_section(workspace);
+  if (workspace.map().has_map())
+    section("Folds", true, [&] { injectivity_section(workspace, light); });
+  section("Selection", true, [&] { selection_section(workspace); });
+  section("Layers", true, [&] { layer_section(workspace, scale); });
+  section("Cage", false, [&] { cage_section(workspace); });
+  section("View", true, [&] { heat_section(workspace, heat); });
+  section("History", true, [&] { history_section(workspace); });
   ImGui::End();
 }
 

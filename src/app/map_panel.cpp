@@ -55,7 +55,7 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
 }  // namespace
 
 void convergence_section(Workspace& workspace, double scale) {
-  const SampledMap& map = workspace.map.map();
+  const SampledMap& map = workspace.map().map();
   if (map.energies.size() < 2) return;
   const int last = static_cast<int>(map.energies.size()) - 1,
             shown = std::min(map.iterations, last);
@@ -71,8 +71,8 @@ void convergence_section(Workspace& workspace, double scale) {
 }
 
 void injectivity_section(Workspace& workspace, bool light) {
-  if (!workspace.map.has_map()) return;
-  const Injectivity& found = workspace.map.injectivity();
+  if (!workspace.map().has_map()) return;
+  const Injectivity& found = workspace.map().injectivity();
   const ImVec4 warning = ImGui::ColorConvertU32ToFloat4(canvas_colors(light).warning);
   const auto show = [&](Complex where, const char* text) {
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -111,7 +111,7 @@ void injectivity_section(Workspace& workspace, bool light) {
     ImGui::TextDisabled("Parts lie over each other");
     show(*found.crossing, "The picture's boundary crosses itself here.");
   }
-  if (const Points& marked = workspace.map.map().zeros; !marked.empty())
+  if (const Points& marked = workspace.map().map().zeros; !marked.empty())
     ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(marked.size()),
                         marked.size() == 1 ? "place" : "places");
   const Action& fold_free = action_named("map.fold_free");

@@ -229,7 +229,7 @@ void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle
   const float s = static_cast<float>(style.scale);
   for (const OnionSkin& skin : workspace.onion_skins()) {
     std::vector<ImVec2> line;
-    for (const int v : workspace.map.prepared()->mesh->boundary)
+    for (const int v : workspace.map().prepared()->mesh->boundary)
       line.push_back(px(workspace, skin.f[v]));
     const int count = static_cast<int>(line.size());
     const Color tint = onion_color(skin.later);
@@ -245,7 +245,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Scene& scene = workspace.scene();
-  if (workspace.hide_overlays || workspace.show_original) return;
+  if (workspace.hide_overlays || workspace.show_original || !scene.layer.visible) return;
   const Posture posture = workspace.posture;
   draw_onion(list, workspace, style);
   if (workspace.show_cage && gesture.line.empty()) {
@@ -284,13 +284,14 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       for (const Complex& z : scene.outline) line.push_back(px(workspace, z));
       stroke(list, line, true, style.colors.accent, style);
     }
-    const auto& posed = workspace.map.posed();
+    const auto& posed = workspace.map().posed();
     if (posed && same_rest(*posed, scene)) {
       const bool at_rest = posture == Posture::rest;
       for (size_t i = 0; i < scene.pins.size() && !at_rest; ++i)
-        if (const auto place = workspace.map.pin_place(scene, i))
+        if (const auto place = workspace.map().pin_place(scene, i))
           draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
-      for (const Complex& zero : at_rest ? workspace.map.map().zeros : workspace.map.zero_places())
+      for (const Complex& zero :
+           at_rest ? workspace.map().map().zeros : workspace.map().zero_places())
         draw_zero(list, px(workspace, zero), style);
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }
@@ -362,7 +363,7 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
     list.AddText({left + static_cast<float>(t) * (width - size), y + bar + 2 * s},
                  style.colors.text, text);
   }
-  if (!workspace.map.has_map() || values.size() != workspace.map.map().f.size() ||
+  if (!workspace.map().has_map() || values.size() != workspace.map().map().f.size() ||
       values.size() == 0)
     return;
   Index worst = 0;
@@ -370,8 +371,8 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
   for (Index i = 0; i < values.size(); ++i)
     if (const double here = std::abs(values[i]); here > most) most = here, worst = i;
   if (most < 1e-6) return;
-  const Complex at = workspace.at_rest() ? workspace.map.prepared()->mesh->vertices[worst]
-                                         : workspace.map.map().f[worst];
+  const Complex at = workspace.at_rest() ? workspace.map().prepared()->mesh->vertices[worst]
+                                         : workspace.map().map().f[worst];
   const ImVec2 p = px(workspace, at);
   char text[48];
   if (std::isfinite(values[worst]))

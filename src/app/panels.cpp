@@ -44,7 +44,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
   const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  for (const char* name : {"File", "Edit", "Tools", "Cage", "Time", "View", "Help"}) {
+  for (const char* name : {"File", "Edit", "Tools", "Cage", "Layer", "Time", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;
     if (std::string_view(name) == "File" &&
         ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
@@ -170,7 +170,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
   ImGui::Begin("Status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
-  const LiveMap& map = workspace.map;
+  const LiveMap& map = workspace.map();
   std::string hint, note;
   ImVec4 note_color;
   if (map.error()) {

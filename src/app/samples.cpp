@@ -45,8 +45,8 @@ std::vector<Sample> load_samples() {
     try {
       const LoadedScene loaded = load_scene(sample.scene);
       PictureOptions options;
-      options.scale = kThumbnail / std::max({loaded.image->width, loaded.image->height, 1});
-      const Image image = picture_of(loaded.scene, loaded.image.get(), options).image;
+      options.scale = kThumbnail / std::max({loaded.image()->width, loaded.image()->height, 1});
+      const Image image = picture_of(loaded.scene, loaded.image(), options, loaded.pictures).image;
       sample.thumbnail = Texture(image.width, image.height, image.pixels.data());
     } catch (const Error&) {
       // The tile stays without a picture.

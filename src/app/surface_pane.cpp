@@ -149,7 +149,7 @@ void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
   const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
   drawing_->space.bind(width, height);
   drawing_->renderer.draw({width, height, camera_.to_view(), camera_.to_clip(aspect),
-                           laid_ && workspace.map.has_map() ? drawing_->flat.texture() : 0,
+                           laid_ && workspace.map().has_map() ? drawing_->flat.texture() : 0,
                            style.colors.canvas, clay});
   drawing_->space.release();
   const ImVec2 corner = ImGui::GetCursorScreenPos();

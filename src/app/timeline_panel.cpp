@@ -63,12 +63,12 @@ void draw_time(Workspace& workspace, float s) {
 }
 
 void draw_blend(Workspace& workspace, float s) {
-  Scene scene = workspace.document.scene();
-  int blend = scene.animation.straight ? 1 : 0;
+  AnimationSettings settings = workspace.document.scene().animation;
+  int blend = settings.straight ? 1 : 0;
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
-    scene.animation.straight = blend == 1;
-    workspace.commit("In-betweens", scene, From::document);
+    settings.straight = blend == 1;
+    workspace.commit_layers("In-betweens", with_animation(workspace.document.scene(), settings));
   }
   tell_of_item(workspace,
                "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to "
@@ -191,8 +191,8 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
 }  // namespace
 
 void TimelinePanel::draw_rate(Workspace& workspace, float s) {
-  Scene scene = workspace.document.scene();
-  double rate = rate_.value_or(scene.animation.frames_per_second);
+  AnimationSettings settings = workspace.document.scene().animation;
+  double rate = rate_.value_or(settings.frames_per_second);
   ImGui::SetNextItemWidth(76 * s);
   if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps")) rate_ = rate;
   const bool typed = ImGui::IsItemDeactivatedAfterEdit();
@@ -200,8 +200,8 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
   if (!typed || !rate_) return;
   rate = *std::exchange(rate_, std::nullopt);
   if (!std::isfinite(rate)) return;
-  scene.animation.frames_per_second = std::clamp(rate, kFewestFrames, kMostFrames);
-  workspace.commit("Frame rate", scene, From::document);
+  settings.frames_per_second = std::clamp(rate, kFewestFrames, kMostFrames);
+  workspace.commit_layers("Frame rate", with_animation(workspace.document.scene(), settings));
 }
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {

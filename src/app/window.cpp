@@ -46,13 +46,23 @@ int printed_key(int key, int scancode) {
       return static_cast<int>(Key::up);
     case GLFW_KEY_DOWN:
       return static_cast<int>(Key::down);
-    case GLFW_KEY_F1:
-      return static_cast<int>(Key::f1);
+    case GLFW_KEY_PAGE_UP:
+      return static_cast<int>(Key::page_up);
+    case GLFW_KEY_PAGE_DOWN:
+      return static_cast<int>(Key::page_down);
+    case GLFW_KEY_HOME:
+      return static_cast<int>(Key::home);
+    case GLFW_KEY_END:
+      return static_cast<int>(Key::end);
+    case GLFW_KEY_INSERT:
+      return static_cast<int>(Key::insert);
     case GLFW_KEY_SPACE:
       return static_cast<int>(Key::space);
     default:
       break;
   }
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
+    return static_cast<int>(Key::f1) + key - GLFW_KEY_F1;
   // The number row is digits whatever it prints without Shift (French layouts), and letters of
   // other alphabets are the keys of GLFW's own.
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;

@@ -181,7 +181,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
   const Scene& scene = loaded.scene;
   const FrameRange range = frames_named(command.frames, scene);
   const double rate = scene.animation.frames_per_second;
-  PictureMaker maker(scene, loaded.image.get());
+  PictureMaker maker(scene, loaded.image(), loaded.pictures);
   if (!command.crop) {
     std::vector<double> times;
     for (int i = 0; i <= last_frame_of(scene); ++i) times.push_back(i / rate);
@@ -209,7 +209,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
 
 /// Throws Error unless a scene has keyframes, for what is about their times.
 void require_keyframes(const Scene& scene, const Path& path) {
-  if (scene.keyframes.empty())
+  if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input,
                 path.string() + ": the scene has no keyframes, so there are no times in it");
 }
@@ -226,7 +226,7 @@ void run(const RenderCommand& command) {
   options.crop = command.crop;
   options.time = command.time;
   if (!command.frames.empty()) return render_frames(command, loaded, options);
-  const RasterResult result = picture_of(loaded.scene, loaded.image.get(), options);
+  const RasterResult result = picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
   write_file(command.out, encode_png(result.image));
   std::fprintf(stderr, "%s: %d x %d pixels, lower left corner at %s\n", command.out.c_str(),
                result.image.width, result.image.height, point_text(result.corner).c_str());
@@ -257,12 +257,13 @@ Cage cage_of_file(const Path& path, const Image& picture) {
 }  // namespace
 
 void run(const NewCommand& command) {
-  LoadedScene loaded = scene_of_image(command.image);
-  const double height = loaded.image->height;
+  const LoadedScene loaded = scene_of_image(command.image);
+  const Image& picture = *loaded.image();
+  const double height = picture.height;
   Scene scene = with_cage(
-      std::move(loaded.scene),
-      command.cage ? cage_of_file(*command.cage, *loaded.image)
-                   : auto_cage(*loaded.image, {command.vertices, command.margin, command.curved}));
+      loaded.scene, command.cage
+                        ? cage_of_file(*command.cage, picture)
+                        : auto_cage(picture, {command.vertices, command.margin, command.curved}));
   check_rest_cage(scene.rest);
   if (command.pose)
     scene.pose =
@@ -282,8 +283,7 @@ void run(const NewCommand& command) {
   const auto absolute = [](const Path& path) {
     return std::filesystem::absolute(path).lexically_normal();
   };
-  const std::string text =
-      json_of(portable(scene, absolute(command.image), absolute(command.out).parent_path()));
+  const std::string text = json_of(portable(scene, absolute(command.out).parent_path()));
   scene_from_json(text, command.out.string());  // what could not be read again is not written
   write_file(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(),
@@ -301,10 +301,9 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
                                           "svg, npy, png, stmap, unwarp, textured, webp, gif, "
                                           "apng, mp4, webm");
   require_cage(loaded.scene, command.scene);
-  if (format == "unwarp")
-    return encode_png(unwarped(loaded.scene, loaded.image.get(), command.scale));
+  if (format == "unwarp") return encode_png(unwarped(loaded.scene, loaded.image(), command.scale));
   if (format == "stmap") {
-    const Image none, &picture = loaded.image ? *loaded.image : none;
+    const Image none, &picture = loaded.image() ? *loaded.image() : none;
     const StMap map = st_map_of(loaded.scene, picture.width, picture.height, command.scale);
     return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
   }
@@ -322,7 +321,7 @@ void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
   require_cage(loaded.scene, command.scene);
   const LaidSurface surface = laid_surface_of(loaded.scene);
   for (const Path& file : files_of_textured(command.out)) check_out(file, command.scene, loaded);
-  const TexturedSurface on = textured(surface, loaded.scene, loaded.image.get(), command.scale);
+  const TexturedSurface on = textured(surface, loaded.scene, loaded.image(), command.scale);
   write_textured(command.out, surface, on);
   std::fprintf(stderr, "%s, with material and a picture of %d x %d pixels\n", command.out.c_str(),
                on.texture.width, on.texture.height);
@@ -346,12 +345,14 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   const bool shows_progress = ::isatty(STDERR_FILENO);
   int frames = 0;
   heed_interrupts();
-  write_film(command.out, loaded.scene, loaded.image.get(), {command.scale},
-             [&](int done, int all) {
-               if (shows_progress) std::fprintf(stderr, "\rframe %d of %d ", done, all);
-               frames = all;
-               return !interrupted;
-             });
+  write_film(
+      command.out, loaded.scene, loaded.image(), {command.scale},
+      [&](int done, int all) {
+        if (shows_progress) std::fprintf(stderr, "\rframe %d of %d ", done, all);
+        frames = all;
+        return !interrupted;
+      },
+      loaded.pictures);
   stop_if_interrupted();
   std::fprintf(stderr, "%s%s: %d frames\n", shows_progress ? "\r" : "", command.out.c_str(),
                frames);

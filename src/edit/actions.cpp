@@ -10,7 +10,8 @@ namespace holomorph {
 const std::vector<Action>& actions() {
   static const std::vector<Action> all = [] {
     std::vector<Action> rows;
-    for (const auto group : {file_actions, edit_actions, cage_actions, time_actions, view_actions})
+    for (const auto group :
+         {file_actions, edit_actions, cage_actions, layer_actions, time_actions, view_actions})
       for (Action& action : group()) rows.push_back(std::move(action));
     return rows;
   }();

@@ -1,6 +1,7 @@
 // What the pointer does in one frame, as tools see it; and keys as the action table names them.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/types.h"
@@ -23,7 +24,25 @@ struct Input {
 };
 
 /// A key by what is printed on it in the user's layout ('A', ',', ...) or by name.
-enum class Key : int { tab = 256, escape, enter, backspace, del, left, right, up, down, f1, space };
+enum class Key : int {
+  tab = 256,
+  escape,
+  enter,
+  backspace,
+  del,
+  left,
+  right,
+  up,
+  down,
+  space,
+  page_up,
+  page_down,
+  home,
+  end,
+  insert,
+  f1,  ///< and so on to f12
+  f12 = f1 + 11
+};
 
 struct Shortcut {
   int key = 0;
@@ -37,5 +56,7 @@ struct Shortcut {
 
 /// "Ctrl+Shift+Z".
 std::string text_of(const Shortcut& shortcut);
+/// The other way; none when there is no such key.
+std::optional<Shortcut> shortcut_named(const std::string& text);
 
 }  // namespace holomorph

@@ -31,8 +31,8 @@ class PinTool final : public Tool {
     }
     const auto rest = workspace.rest_at(input.position);
     if (!rest) {
-      workspace.say(workspace.map.busy() ? "One moment, the map is being prepared."
-                                         : "A pin goes on the picture, inside the cage.");
+      workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
+                                           : "A pin goes on the picture, inside the cage.");
       return;
     }
     const bool switches = !method_named(workspace.scene().method).uses_pins;

@@ -9,16 +9,17 @@ namespace {
 constexpr double kRing = 2.8, kArm = 4.6;  ///< in picking distances
 
 bool has_images(const Workspace& w) {
-  return w.map.has_map() &&
-         static_cast<Index>(w.map.prepared()->mesh->cage_vertices.size()) == w.scene().rest.size();
+  return w.map().has_map() && static_cast<Index>(w.map().prepared()->mesh->cage_vertices.size()) ==
+                                  w.scene().rest.size();
 }
 
 }  // namespace
 
 Complex posed_vertex(const Workspace& workspace, Index vertex) {
   if (!has_images(workspace)) return workspace.scene().pose.vertex(vertex);
-  return workspace.map.map()
-      .f[workspace.map.prepared()->mesh->cage_vertices[static_cast<size_t>(vertex)]];
+  return workspace.map()
+      .map()
+      .f[workspace.map().prepared()->mesh->cage_vertices[static_cast<size_t>(vertex)]];
 }
 
 Points posed_segment(const Workspace& workspace, Index segment) {
@@ -29,7 +30,7 @@ Points posed_segment(const Workspace& workspace, Index segment) {
     for (int k = 0; k <= 24; ++k) line.push_back(bezier_point(controls, k / 24.0));
     return line;
   }
-  const Mesh& mesh = *workspace.map.prepared()->mesh;
+  const Mesh& mesh = *workspace.map().prepared()->mesh;
   const size_t n = mesh.boundary.size();
   const auto place = [&](Index vertex) {
     const int node = mesh.cage_vertices[static_cast<size_t>(vertex)];
@@ -38,10 +39,10 @@ Points posed_segment(const Workspace& workspace, Index segment) {
   const size_t from = place(segment), to = place((segment + 1) % pose.size());
   // The boundary runs counter-clockwise, the cage as it was drawn.
   const size_t step = signed_area(outline_of(workspace.scene().rest)) > 0 ? 1 : n - 1;
-  Points line{workspace.map.map().f[mesh.boundary[from]]};
+  Points line{workspace.map().map().f[mesh.boundary[from]]};
   for (size_t at = from; at != to;) {
     at = (at + step) % n;
-    line.push_back(workspace.map.map().f[mesh.boundary[at]]);
+    line.push_back(workspace.map().map().f[mesh.boundary[at]]);
   }
   return line;
 }

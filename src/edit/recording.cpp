@@ -47,8 +47,8 @@ bool keeps_degree(const Scene& scene, Index segment) {
 bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
   if (!workspace.require_pose()) return false;
   start_ = workspace.unedited();
-  workspace.map.follow_keys();
-  over_keys_ = !start_.keyframes.empty() && workspace.map.motion().plays();
+  workspace.map().follow_keys();
+  over_keys_ = !start_.keyframes.empty() && workspace.map().motion().plays();
   what_ = what;
   influence_ = workspace.influence;
   std::erase_if(what_, [&](const Handle& handle) {
@@ -70,7 +70,7 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
 }
 
 Scene Recording::base_at(const Workspace& workspace, double time) const {
-  const Motion& motion = workspace.map.motion();
+  const Motion& motion = workspace.map().motion();
   return over_keys_ && motion.plays() ? motion.scene_at(start_, time, motion.map_at(time)) : start_;
 }
 
@@ -175,7 +175,7 @@ void Recording::finish(Workspace& workspace) {
   for (Keyframe& key : scene.keyframes)
     if (key.time >= start_time_ && key.time <= last_time && fits(scene, key.pose))
       key.ease = key.time < last_time ? Ease::linear : last;
-  keep_turns(scene, before, workspace.map.motion());
+  keep_turns(scene, before, workspace.map().motion());
   samples_.clear();
   workspace.timeline.recording = false;
   if (!workspace.commit("Record motion", posed_as(std::move(scene), whole_pose_of(before)),

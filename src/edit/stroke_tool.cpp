@@ -91,8 +91,8 @@ class StrokeTool final : public Tool {
       return workspace.say("Click a stroke first: Shift-drag draws its new place.");
     redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;
     if (!redrawn_ && !workspace.rest_at(input.position))
-      return workspace.say(workspace.map.busy() ? "One moment, the map is being prepared."
-                                                : "A stroke starts on the picture.");
+      return workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
+                                                  : "A stroke starts on the picture.");
     drawing_.start(input);
   }
 

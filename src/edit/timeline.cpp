@@ -8,7 +8,7 @@ namespace holomorph {
 bool advance(Timeline& timeline, const Scene& scene, double now_ms) {
   if (!timeline.playing) return false;
   const double length = length_of(scene);
-  if (playing_keys(scene).size() < 2) {
+  if (!plays(scene)) {
     timeline.playing = false;
     return false;
   }

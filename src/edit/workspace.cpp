@@ -59,9 +59,25 @@ bool Workspace::amend(Scene scene, From from) {
   return enter(std::move(scene), from, [&](Scene entered) { document.amend(std::move(entered)); });
 }
 
+/// Whether a scene has other contents in a layer that is locked before and after.
+bool Workspace::is_locked_against(const Scene& scene) const {
+  const Scene& before = document.scene();
+  if (!before.layer.locked || scene.layer != before.layer) return false;
+  Scene with_others = scene;
+  with_others.below = before.below;
+  with_others.above = before.above;
+  with_others.background = before.background;
+  with_others.animation = before.animation;
+  return with_others != before;
+}
+
 bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& put) {
   preview.reset();
   playback = {};
+  if (is_locked_against(scene)) {
+    say("The layer is locked. Ctrl+L unlocks it.");
+    return false;
+  }
   const Pose own = whole_pose_of(document.scene()), before = whole_pose_of(unedited());
   const Pose shown = from == From::shown ? whole_pose_of(scene) : before;
   const bool moves = from == From::shown && fits(scene, before) && shown != before,
@@ -76,11 +92,35 @@ bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& 
     timeline.visible = timeline.shows = true;
   else if (moves)
     timeline.shows = timeline.playing = false;
+  const int layer = document.scene().layer.id;
   put(std::move(scene));
   timed.reset();
-  if (shown_time() && fits(document.scene(), shown)) timed = posed_as(document.scene(), shown);
+  if (layer == document.scene().layer.id && shown_time() && fits(document.scene(), shown))
+    timed = posed_as(document.scene(), shown);
   prune_selection();
   return true;
+}
+
+bool Workspace::commit_layers(const std::string& label, Scene scene) {
+  const int layer = document.scene().layer.id;
+  if (!commit(label, std::move(scene), From::document)) return false;
+  if (layer != document.scene().layer.id) {
+    selection.clear();
+    posture = Posture::pose;
+    if (!document.scene().has_cage() && tool != ToolId::pen) tool = ToolId::select;
+  }
+  return true;
+}
+
+void Workspace::choose_layer(size_t number) {
+  static const std::string kLabel = "Edit another layer";
+  Scene chosen = with_layer_chosen(document.scene(), number);
+  const History& history = document.history();
+  // Looking through the layers is one step, not many.
+  const bool goes_on = history.can_undo() && history.entries()[history.index()].label == kLabel &&
+                       !history.can_redo();
+  if (goes_on && number != edited_layer(document.scene())) document.undo();
+  commit_layers(kLabel, std::move(chosen));
 }
 
 /// With the scene's pose as the key at the time, and the document's own pose.
@@ -90,9 +130,9 @@ Scene Workspace::keyed(Scene scene) {
       there < before.keyframes.size() && !fits(before, before.keyframes[there].pose))
     say("A key that did not play was there; undo brings it back.");
   scene = with_key(std::move(scene), timeline.time);
-  if (map.posed() && map.posed()->keyframes == before.keyframes) {
-    map.follow_keys();
-    keep_turns(scene, before, map.motion());
+  if (map().posed() && map().posed()->keyframes == before.keyframes) {
+    map().follow_keys();
+    keep_turns(scene, before, map().motion());
   }
   const Pose own = whole_pose_of(before);
   return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
@@ -134,31 +174,32 @@ void Workspace::set_key() {
 
 std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
   const Scene& scene = document.scene();
-  if (scene.keyframes.empty() || !map.has_map() || map.posed() != scene) return {};
+  if (scene.keyframes.empty() || !map().has_map() || map().posed() != scene) return {};
   std::vector<Points> places;
-  for (const Keyframe& key : scene.keyframes) places.push_back(map.places_at(key.time, rest));
+  for (const Keyframe& key : scene.keyframes) places.push_back(map().places_at(key.time, rest));
   return places;
 }
 
 std::vector<OnionSkin> Workspace::onion_skins() const {
-  if (!timeline.onion || timeline.playing || at_rest() || !map.has_map()) return {};
+  if (!timeline.onion || timeline.playing || at_rest() || !map().has_map()) return {};
   std::vector<OnionSkin> skins;
   for (const bool later : {false, true})
-    if (const VectorXc* f = map.motion().key_beside(timeline.time, later);
-        f && f->size() == map.map().f.size())
+    if (const VectorXc* f = map().motion().key_beside(timeline.time, later);
+        f && f->size() == map().map().f.size())
       skins.push_back({*f, later});
   return skins;
 }
 
 bool Workspace::update_map(Wanted wanted) {
   const std::optional<double> time = shown_time();
-  const bool changed = map.update(preview ? *preview : document.scene(), wanted, time);
+  const bool others = maps.update_others(document.scene(), time_of_layers());
+  const bool changed = map().update(preview ? *preview : document.scene(), wanted, time) || others;
   if (preview) timeline.playing = false;
-  if (timeline.onion && map.has_map()) map.follow_keys();
+  if (timeline.onion && map().has_map()) map().follow_keys();
   if (preview) return changed;  // an edit of what was shown
   // While another method is being prepared, handles stay where they were at the time.
   if (!time || (timed && !fits(document.scene(), whole_pose_of(*timed)))) timed.reset();
-  if (time && map.posed() == document.scene()) timed = map.timed();
+  if (time && map().posed() == document.scene()) timed = map().timed();
   prune_selection();  // degrees of posed segments vary with time
   return changed;
 }
@@ -185,7 +226,8 @@ void Workspace::go_to(size_t entry) {
   // What was undone or done again last is to be seen, at its time.
   const std::optional<double> at =
       document.history().entries()[entry < from ? entry + 1 : entry].at;
-  const bool poses = whole_pose_of(before) != whole_pose_of(document.scene());
+  const bool other_layer = before.layer.id != document.scene().layer.id,
+             poses = !other_layer && whole_pose_of(before) != whole_pose_of(document.scene());
   if (at) timeline.time = *at;
   if (at || poses) timeline.shows = at && (entry < from || !poses);
   // Numbers mean other points in another structure.
@@ -193,7 +235,8 @@ void Workspace::go_to(size_t entry) {
              other_pins = before.pins.size() != scene().pins.size(),
              other_strokes = before.strokes.size() != scene().strokes.size();
   std::erase_if(selection, [&](const Handle& handle) {
-    return handle.kind == Handle::Kind::pin      ? other_pins
+    return other_layer                           ? true
+           : handle.kind == Handle::Kind::pin    ? other_pins
            : handle.kind == Handle::Kind::stroke ? other_strokes
                                                  : other_cage;
   });
@@ -224,31 +267,31 @@ void Workspace::prune_selection() {
 }
 
 std::optional<Complex> Workspace::rest_at(Complex z) const {
-  if (!map.has_map()) return {};
-  const Mesh& mesh = *map.prepared()->mesh;
+  if (!map().has_map()) return {};
+  const Mesh& mesh = *map().prepared()->mesh;
   const std::span<const Complex> positions =
-      at_rest()
-          ? std::span<const Complex>(mesh.vertices)
-          : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
+      at_rest() ? std::span<const Complex>(mesh.vertices)
+                : std::span<const Complex>(map().map().f.data(),
+                                           static_cast<size_t>(map().map().f.size()));
   const auto found = locate(mesh, positions, z);
   if (!found) return {};
   return found->in(mesh, mesh.vertices);
 }
 
 Complex Workspace::posed_at(Complex rest) const {
-  if (!map.has_map()) return rest;
-  const Mesh& mesh = *map.prepared()->mesh;
-  const VectorXc& f = map.map().f;
+  if (!map().has_map()) return rest;
+  const Mesh& mesh = *map().prepared()->mesh;
+  const VectorXc& f = map().map().f;
   const auto found = locate(mesh, mesh.vertices, rest);
   return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
 }
 
 std::optional<Cage> Workspace::solved_cage() const {
-  if (!map.has_map() || !map.posed()) return {};
-  const std::optional<Scene>& shown = map.timed() ? map.timed() : map.posed();
-  if (map.timed() && key_at(*shown, timeline.time) == shown->keyframes.size())
+  if (!map().has_map() || !map().posed()) return {};
+  const std::optional<Scene>& shown = map().timed() ? map().timed() : map().posed();
+  if (map().timed() && key_at(*shown, timeline.time) == shown->keyframes.size())
     return {};  // on the way between keys there is none
-  return map.prepared()->deformer->solved_cage(pose_of(*shown));
+  return map().prepared()->deformer->solved_cage(pose_of(*shown));
 }
 
 Box Workspace::content_box() const {
@@ -257,28 +300,36 @@ Box Workspace::content_box() const {
     box.include({0, 0});
     box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
   }
+  for (size_t i = 0; i < layer_count(document.scene()); ++i) {
+    const Scene& layer = layer_at(document.scene(), i);
+    if (i == edited_layer(document.scene()) || !layer.layer.visible) continue;
+    if (const Image* image = document.pictures().of(layer))
+      box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
+    for (const Complex& z : maps.of(layer.layer.id).map().f)
+      if (is_finite(z)) box.include(z);
+  }
   for (const Complex& z : outline_of(cage_of(scene(), posture))) box.include(z);
   if (!at_rest())
     for (const Complex& z : scene().outline) box.include(z);
   if (method_named(scene().method).uses_strokes)
     for (size_t i = 0; i < scene().strokes.size(); ++i)
       for (const Complex& z : curve_of(scene(), static_cast<Index>(i), posture)) box.include(z);
-  if (!at_rest() && map.has_map())
-    for (const Complex& z : map.map().f)
+  if (!at_rest() && map().has_map())
+    for (const Complex& z : map().map().f)
       if (is_finite(z)) box.include(z);
   return box;
 }
 
 void Workspace::open(Document opened) {
   document = std::move(opened);
-  map.clear();
+  maps.clear();
   preview.reset();
   selection.clear();
   carried_on.reset();
   playback = {};
   timeline = {};
   timed.reset();
-  timeline.visible = timeline.shows = !document.scene().keyframes.empty();
+  timeline.visible = timeline.shows = has_keyframes(document.scene());
   posture = Posture::pose;
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;

@@ -9,7 +9,7 @@
 #include "edit/timeline.h"
 #include "edit/viewport.h"
 #include "scene/document.h"
-#include "scene/live_map.h"
+#include "scene/layer_maps.h"
 
 namespace holomorph {
 
@@ -28,6 +28,8 @@ enum class Request {
   export_svg,
   export_surface,
   export_film,
+  add_layer,
+  replace_picture,
   quit,
   help,
   palette,
@@ -64,10 +66,10 @@ enum class From { shown, document };
 
 /// The editor's state beyond the document.
 struct Workspace {
-  explicit Workspace(MeshOptions options = {}) : map(options) {}
+  explicit Workspace(MeshOptions options = {}) : maps(options) {}
 
   Document document;
-  LiveMap map;
+  LayerMaps maps;
   std::optional<Scene> preview;  ///< what a drag shows before it is committed
   Selection selection;
   Viewport viewport;
@@ -90,6 +92,9 @@ struct Workspace {
   Request request = Request::none;
   std::vector<Toast> toasts;  ///< taken over by the window
 
+  /// The edited layer's map.
+  LiveMap& map() { return maps.of(document.scene().layer.id); }
+  const LiveMap& map() const { return maps.of(document.scene().layer.id); }
   /// The scene to show: the preview of a drag, the document's posed as at the shown time, or the
   /// document's.
   const Scene& scene() const { return preview ? *preview : unedited(); }
@@ -101,7 +106,12 @@ struct Workspace {
                ? std::nullopt
                : std::optional(timeline.time);
   }
-  /// Brings the map up to date with what is shown. Returns whether it changed.
+  /// The same for all layers: those without keyframes have their own pose at any time.
+  std::optional<double> time_of_layers() const {
+    return timeline.shows && has_keyframes(document.scene()) ? std::optional(timeline.time)
+                                                             : std::nullopt;
+  }
+  /// Brings the maps up to date with what is shown. Returns whether it changed.
   bool update_map(Wanted wanted);
   /// Where each keyframe takes places at rest; none before their maps are known.
   std::vector<Points> in_keyframes(std::span<const Complex> rest);
@@ -135,6 +145,10 @@ struct Workspace {
   bool commit(const std::string& label, Scene scene, From from = From::shown);
   /// The last step, carried further; refused in the same way.
   bool amend(Scene scene, From from = From::shown);
+  /// One undo step that changes layers, or what all of them share; nothing else may change.
+  bool commit_layers(const std::string& label, Scene scene);
+  /// Edits another layer.
+  void choose_layer(size_t number);
   /// Another entry of the history; drops what is selected of a structure that it changes.
   void go_to(size_t entry);
   /// The same for what is done in many small pieces: with the selection unchanged it carries the
@@ -162,6 +176,7 @@ struct Workspace {
   bool enter(Scene scene, From from, const std::function<void(Scene)>& put);
   Scene keyed(Scene scene);
   bool leaves_a_pose() const;
+  bool is_locked_against(const Scene& scene) const;
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

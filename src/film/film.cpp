@@ -7,15 +7,15 @@
 namespace holomorph {
 
 bool write_film(const Path& out, const Scene& scene, const Image* source,
-                const FilmOptions& options,
-                const std::function<bool(int done, int all)>& progress) {
+                const FilmOptions& options, const std::function<bool(int done, int all)>& progress,
+                const Pictures& others) {
   const FilmFormat& format = film_format_of(out);
-  if (scene.keyframes.empty())
+  if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "the scene has no keyframes, so there is no film in it");
   const int frames = last_frame_of(scene) + 1;
   std::vector<double> times;
   for (int i = 0; i < frames; ++i) times.push_back(i / scene.animation.frames_per_second);
-  PictureMaker maker(scene, source);
+  PictureMaker maker(scene, source, others);
   PictureOptions picture{options.view, options.scale, options.crop};
   if (!options.crop) {
     picture.shows = maker.shown_at(times, [&] { return progress(0, frames); });
@@ -36,15 +36,18 @@ bool write_film(const Path& out, const Scene& scene, const Image* source,
   return true;
 }
 
-FilmJob::FilmJob(Path out, Scene scene, std::shared_ptr<const Image> source, FilmOptions options)
+FilmJob::FilmJob(Path out, Scene scene, std::shared_ptr<const Image> source, FilmOptions options,
+                 Pictures others)
     : out_(std::move(out)),
-      thread_([this, scene = std::move(scene), source = std::move(source), options] {
+      thread_([this, scene = std::move(scene), source = std::move(source), options,
+               others = std::move(others)] {
         try {
-          written_ = write_film(out_, scene, source.get(), options, [this](int done, int all) {
+          const auto go_on = [this](int done, int all) {
             done_ = done;
             all_ = all;
             return !cancelled_;
-          });
+          };
+          written_ = write_film(out_, scene, source.get(), options, go_on, others);
         } catch (const Error& error) {
           const std::lock_guard lock(mutex_);
           error_ = error;

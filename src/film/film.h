@@ -18,17 +18,19 @@ struct FilmOptions {
   bool loops = true;
 };
 
-/// Draws all frames of a scene into a file whose extension says the kind. `progress` is told how
-/// many frames are done and how many there are; when it returns false nothing is written. Throws
-/// Error for a scene without keyframes and for what cannot be drawn or written. Returns whether the
-/// film is there. Cost: a picture for each frame, on all cores.
+/// Draws all frames of a scene, as picture_of does, into a file whose extension says the kind.
+/// `progress` is told how many frames are done and how many there are; when it returns false
+/// nothing is written. Throws Error for a scene without keyframes and for what cannot be drawn or
+/// written. Returns whether the film is there. Cost: a picture for each frame, on all cores.
 bool write_film(const Path& out, const Scene& scene, const Image* source,
-                const FilmOptions& options, const std::function<bool(int done, int all)>& progress);
+                const FilmOptions& options, const std::function<bool(int done, int all)>& progress,
+                const Pictures& others = {});
 
 /// The same on a thread of its own.
 class FilmJob {
  public:
-  FilmJob(Path out, Scene scene, std::shared_ptr<const Image> source, FilmOptions options);
+  FilmJob(Path out, Scene scene, std::shared_ptr<const Image> source, FilmOptions options,
+          Pictures others = {});
   ~FilmJob();  ///< cancels
 
   const Path& out() const { return out_; }

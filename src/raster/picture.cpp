@@ -3,75 +3,157 @@
 
 #include "core/distortion.h"
 #include "core/error.h"
+#include "raster/compose.h"
+#include "scene/keyframes.h"
+#include "scene/layers.h"
 
 namespace holomorph {
 
-RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options) {
-  return PictureMaker(scene, source).picture(options);
+RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options,
+                        const Pictures& others) {
+  return PictureMaker(scene, source, others).picture(options);
 }
 
-PictureMaker::PictureMaker(const Scene& scene, const Image* source)
-    : scene_(scene), source_(source) {
-  if (scene.has_cage()) prepared_ = prepared_map(scene, Precision::single, MeshOptions{});
+/// One layer, prepared when it is first drawn.
+class PictureMaker::LayerMaker {
+ public:
+  LayerMaker(const Scene& layer, const Image* source) : layer_(layer), source_(source) {}
+
+  const Image* source() const { return source_; }
+  bool visible() const { return layer_.layer.visible && source_; }
+
+  RasterResult picture(const PictureOptions& options, double top) {
+    RasterJob job = job_of(options, top);
+    if (!layer_.has_cage()) {
+      if (options.view != View::image)
+        throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
+      return rasterized(job);
+    }
+    if (!source_ && options.view == View::image)
+      throw Error(ErrorKind::bad_input,
+                  "the scene has no picture; choose the view checker, angle, area or stretch");
+    const SampledMap map = map_at(options.time, is_heat(options.view));
+    if (is_heat(options.view)) {
+      job.heat = heat_values(options.view, distortion_of(map));
+      job.scale = heat_scale(options.view, job.heat, options.automatic_range);
+    }
+    job.mesh = prepared_->mesh.get();
+    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    return rasterized(job);
+  }
+
+  /// The picture as it was before anything moved.
+  RasterResult original(const PictureOptions& options, double top) const {
+    return rasterized(job_of(options, top));
+  }
+
+  void include_shown(double time, Box& box) {
+    if (!layer_.has_cage()) return;
+    for (const Complex& z : map_at(time, false).f) box.include(z);
+  }
+  void include_picture(Box& box) const {
+    if (!source_) return;
+    box.include(0);
+    box.include({static_cast<double>(source_->width), static_cast<double>(source_->height)});
+  }
+
+ private:
+  RasterJob job_of(const PictureOptions& options, double top) const {
+    RasterJob job;
+    job.source = source_;
+    job.view = options.view;
+    job.pixels_per_unit = options.scale;
+    job.shows = options.shows;
+    job.crop = options.crop;
+    job.top = top;
+    return job;
+  }
+
+  SampledMap map_at(const std::optional<double>& time, bool derivatives) {
+    if (!prepared_) prepared_ = prepared_map(layer_, Precision::single, MeshOptions{});
+    SampledMap map;
+    if (!time || layer_.keyframes.empty()) {
+      prepared_->deformer->deform(pose_of(layer_), map, {derivatives});
+      return map;
+    }
+    motion_.follow(layer_, prepared_);
+    if (motion_.error()) throw Error(*motion_.error());
+    if (!motion_.plays()) return map_at({}, derivatives);
+    map.f = motion_.map_at(*time);
+    if (!derivatives) return map;
+    VertexDerivatives at = vertex_derivatives(*prepared_->mesh, map.f);
+    map.fz = std::move(at.fz);
+    map.fzbar = std::move(at.fzbar);
+    return map;
+  }
+
+  const Scene& layer_;
+  const Image* source_;
+  std::shared_ptr<PreparedMap> prepared_;
+  Motion motion_;
+};
+
+PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictures& others)
+    : scene_(scene) {
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    layers_.push_back(
+        std::make_unique<LayerMaker>(layer, i == edited_layer(scene) ? source : others.of(layer)));
+  }
 }
 
 PictureMaker::~PictureMaker() = default;
 
-SampledMap PictureMaker::map_at(const std::optional<double>& time, bool derivatives) {
-  SampledMap map;
-  if (!time || scene_.keyframes.empty()) {
-    prepared_->deformer->deform(pose_of(scene_), map, {derivatives});
-    return map;
-  }
-  motion_.follow(scene_, prepared_);
-  if (motion_.error()) throw Error(*motion_.error());
-  if (!motion_.plays())
-    throw Error(ErrorKind::bad_input,
-                "none of the keyframes has the scene's cage points, pins and strokes");
-  map.f = motion_.map_at(*time);
-  if (!derivatives) return map;
-  VertexDerivatives at = vertex_derivatives(*prepared_->mesh, map.f);
-  map.fz = std::move(at.fz);
-  map.fzbar = std::move(at.fzbar);
-  return map;
+Box PictureMaker::rectangle() const {
+  Box box;
+  for (const auto& layer : layers_)
+    if (box.empty() && layer->visible()) layer->include_picture(box);
+  return box;
 }
 
-RasterResult PictureMaker::picture(const PictureOptions& options) {
-  RasterJob job;
-  job.source = source_;
-  job.view = options.view;
-  job.pixels_per_unit = options.scale;
-  job.crop = options.crop;
-  job.shows = options.shows;
-  if (!scene_.has_cage()) {
-    if (options.view != View::image)
-      throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
-    return rasterized(job);
-  }
-  if (!source_ && options.view == View::image)
+RasterResult PictureMaker::picture(const PictureOptions& wanted) {
+  PictureOptions options = wanted;
+  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_))
     throw Error(ErrorKind::bad_input,
-                "the scene has no picture; choose the view checker, angle, area or stretch");
-  const SampledMap map = map_at(options.time, is_heat(options.view));
-  if (is_heat(options.view)) {
-    job.heat = heat_values(options.view, distortion_of(map));
-    job.scale = heat_scale(options.view, job.heat, options.automatic_range);
+                "none of the keyframes has the scene's cage points, pins and strokes");
+  LayerMaker& edited = *layers_[edited_layer(scene_)];
+  if (options.view != View::image || !has_layers(scene_)) {
+    const double top = edited.source() ? edited.source()->height : 0;
+    RasterResult result = edited.picture(options, top);
+    if (options.view != View::image) return result;
+    if (scene_.background.kind == Background::Kind::original)
+      result = composed(edited.original(options, top), result, options.scale);
+    if (scene_.background.kind == Background::Kind::color)
+      lay_on(result.image, scene_.background.color);
+    return result;
   }
-  job.mesh = prepared_->mesh.get();
-  job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
-  return rasterized(job);
+  const Box rectangle = this->rectangle();
+  if (options.crop && !options.shows && !rectangle.empty()) options.shows = rectangle;
+  const double top = rectangle.empty() ? 0 : rectangle.top;
+  std::optional<RasterResult> result;
+  const auto add = [&](RasterResult over) {
+    result = result ? composed(std::move(*result), over, options.scale) : std::move(over);
+  };
+  if (scene_.background.kind == Background::Kind::original)
+    for (const auto& layer : layers_)
+      if (layer->visible() && layer->source()) add(layer->original(options, top));
+  for (const auto& layer : layers_)
+    if (layer->visible()) add(layer->picture(options, top));
+  if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
+  if (scene_.background.kind == Background::Kind::color)
+    lay_on(result->image, scene_.background.color);
+  return std::move(*result);
 }
 
 std::optional<Box> PictureMaker::shown_at(std::span<const double> times,
                                           const std::function<bool()>& go_on) {
   Box box;
-  if (source_) {
-    box.include(0);
-    box.include({static_cast<double>(source_->width), static_cast<double>(source_->height)});
-  }
-  if (!scene_.has_cage()) return box;
+  for (const auto& layer : layers_)
+    if (layer->visible()) layer->include_picture(box);
   for (const double time : times) {
     if (!go_on()) return {};
-    for (const Complex& z : map_at(time, false).f) box.include(z);
+    for (const auto& layer : layers_)
+      if (layer->visible() || !has_layers(scene_)) layer->include_shown(time, box);
   }
   // Operators in single precision are no reason for another row of pixels.
   constexpr double kRounding = 1e-3;

@@ -1,47 +1,49 @@
-// A scene to a picture, as exported: prepare, pose, rasterize.
+// A scene to a picture, as exported: prepare, pose, rasterize, layer by layer.
 #pragma once
 
 #include <functional>
 
 #include "raster/raster.h"
 #include "scene/live_map.h"
+#include "scene/pictures.h"
 
 namespace holomorph {
 
 struct PictureOptions {
-  View view = View::image;
-  double scale = 1;   ///< output pixels per image pixel
-  bool crop = false;  ///< keep the picture's rectangle; else nothing is cut off
+  View view = View::image;  ///< others show the edited layer alone, without a background
+  double scale = 1;         ///< output pixels per image pixel
+  bool crop = false;        ///< keep the lowest picture's rectangle; else nothing is cut off
   bool automatic_range = false;
   std::optional<Box> shows = {};    ///< exactly this part of the plane
   std::optional<double> time = {};  ///< seconds of the keyframes; none: the scene's own pose
 };
 
-/// The posed scene as a picture. `source` is the scene's picture, or null when it has none. Throws
-/// Error for a scene with neither picture nor cage and for what rasterized refuses.
-RasterResult picture_of(const Scene& scene, const Image* source,
-                        const PictureOptions& options = {});
+/// The posed scene as a picture: its visible layers over its background. `source` is the edited
+/// layer's picture, or null when it has none; `others` has those of the other layers. Throws Error
+/// for a scene with neither picture nor cage, or nothing visible, and for what rasterized refuses.
+RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options = {},
+                        const Pictures& others = {});
 
 /// Pictures of one scene at many times, which share what is prepared.
 class PictureMaker {
  public:
-  /// As picture_of; both must outlive this. Throws Error.
-  PictureMaker(const Scene& scene, const Image* source);
+  /// As picture_of; all must outlive this. Throws Error.
+  PictureMaker(const Scene& scene, const Image* source, const Pictures& others = {});
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
-  /// The part of the plane that all of these times need, with the picture's own rectangle: the same
-  /// for whoever draws some of them. `go_on` is asked before each; none when it says no.
+  /// The part of the plane that all of these times need, with the pictures' own rectangles: the
+  /// same for whoever draws some of them. `go_on` is asked before each; none when it says no.
   std::optional<Box> shown_at(
       std::span<const double> times, const std::function<bool()>& go_on = [] { return true; });
+  /// The lowest visible picture's rectangle, which crop keeps; empty without one.
+  Box rectangle() const;
 
  private:
-  SampledMap map_at(const std::optional<double>& time, bool derivatives);
+  class LayerMaker;
 
   const Scene& scene_;
-  const Image* source_;
-  std::shared_ptr<PreparedMap> prepared_;
-  Motion motion_;
+  std::vector<std::unique_ptr<LayerMaker>> layers_;  ///< from the bottom to the top
 };
 
 }  // namespace holomorph

@@ -82,7 +82,7 @@ RasterResult rasterized(const RasterJob& job) {
   const double scale = job.pixels_per_unit;
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
-  const double height = job.source ? job.source->height : 0;
+  const double height = job.source ? job.source->height : 0, top_edge = job.top.value_or(height);
   constexpr double kLargest = 16384;
   const auto check_size = [&](double width, double height) {
     if (!(width <= kLargest && height <= kLargest))
@@ -91,16 +91,19 @@ RasterResult rasterized(const RasterJob& job) {
   };
   if (job.source) check_size(job.source->width * scale, height * scale);
   Frame least{0, 0, 0, 0};
-  if (job.source)
-    least = {0, 0, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
-             std::max(1, static_cast<int>(std::lround(height * scale)))};
+  if (job.source) {
+    const int top = static_cast<int>(std::floor((top_edge - height) * scale));
+    least = {0, top, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
+             top_edge == height ? std::max(1, static_cast<int>(std::lround(height * scale)))
+                                : static_cast<int>(std::ceil(top_edge * scale)) - top};
+  }
   if (job.shows) {
     const Box& box = *job.shows;
     least.left = static_cast<int>(std::floor(std::clamp(box.left * scale, -1e8, 1e8)));
-    least.top = static_cast<int>(std::floor(std::clamp((height - box.top) * scale, -1e8, 1e8)));
+    least.top = static_cast<int>(std::floor(std::clamp((top_edge - box.top) * scale, -1e8, 1e8)));
     check_size(box.width() * scale + 1, box.height() * scale + 1);
     least.width = static_cast<int>(std::ceil(box.right * scale)) - least.left;
-    least.height = static_cast<int>(std::ceil((height - box.bottom) * scale)) - least.top;
+    least.height = static_cast<int>(std::ceil((top_edge - box.bottom) * scale)) - least.top;
   }
   double left = least.left, top = least.top, right = least.left + least.width,
          bottom = least.top + least.height;
@@ -111,8 +114,8 @@ RasterResult rasterized(const RasterJob& job) {
     if (!box.empty()) {
       left = std::min(left, std::floor(box.left * scale + kRounding));
       right = std::max(right, std::ceil(box.right * scale - kRounding));
-      top = std::min(top, std::floor((height - box.top) * scale + kRounding));
-      bottom = std::max(bottom, std::ceil((height - box.bottom) * scale - kRounding));
+      top = std::min(top, std::floor((top_edge - box.top) * scale + kRounding));
+      bottom = std::max(bottom, std::ceil((top_edge - box.bottom) * scale - kRounding));
     }
   }
   check_size(right - left, bottom - top);
@@ -121,9 +124,9 @@ RasterResult rasterized(const RasterJob& job) {
   Frame frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
               static_cast<int>(bottom - top)};
   Image image =
-      drawn(job, frame.left / scale, height - frame.top / scale, frame.width, frame.height);
+      drawn(job, frame.left / scale, top_edge - frame.top / scale, frame.width, frame.height);
   if (!job.crop && !job.shows) trim(image, frame, least);
-  return {std::move(image), {frame.left / scale, height - (frame.top + frame.height) / scale}};
+  return {std::move(image), {frame.left / scale, top_edge - (frame.top + frame.height) / scale}};
 }
 
 }  // namespace holomorph

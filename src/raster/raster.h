@@ -22,6 +22,7 @@ struct RasterJob {
   bool surroundings = true;    ///< draw the source outside the rest cage, too
   bool crop = false;           ///< keep the source's rectangle; else nothing is cut off
   std::optional<Box> shows;    ///< exactly this part of the plane, in whole pixels around it
+  std::optional<double> top;   ///< where rows of pixels count from; the source's height
   int threads = 0;             ///< 0: as many as the machine has cores
 };
 

@@ -73,11 +73,18 @@ void clear_canvas(const Frame& frame) {
   glClearColor(frame.background[0], frame.background[1], frame.background[2],
                frame.map_alone ? 0 : 1);
   glClearStencil(0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  glClear(frame.over ? GL_STENCIL_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void finish(const Frame& frame) {
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, frame.window_width, frame.window_height);
 }
 
 }  // namespace
@@ -336,8 +343,13 @@ void Renderer::draw(const Frame& frame) {
   gl.color(Coloring::flat, frame.backdrop);
   if (frame.map_alone)
     gl.draw_mesh(frame.placement);
-  else if (picture)
+  else if (picture && !frame.over)
     gl.draw_quad();
+  if (frame.shows != Shows::map) {
+    gl.color(Coloring::picture);
+    if (picture && frame.shows == Shows::original) gl.draw_quad();
+    return finish(frame);
+  }
   if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings();
   if (picture) gl.draw_ghosts(frame.ghosts);
   if (gl.index_count > 0 && (picture || frame.view != View::image)) {
@@ -352,10 +364,7 @@ void Renderer::draw(const Frame& frame) {
     gl.draw_mesh(frame.placement);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glDisable(GL_SCISSOR_TEST);
-  glViewport(0, 0, frame.window_width, frame.window_height);
+  finish(frame);
 }
 
 std::vector<Complex> Renderer::placed_vertices(Placement placement) {

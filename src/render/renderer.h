@@ -25,6 +25,9 @@ struct Ghost {
   Color tint;
 };
 
+/// What of the picture: as the map takes it, all of it as it was, or only what is behind it.
+enum class Shows { map, original, nothing };
+
 /// One drawing of the canvas. Window px have x to the right and y down.
 struct Frame {
   int window_width = 1, window_height = 1;  ///< of the framebuffer
@@ -37,6 +40,8 @@ struct Frame {
   bool wireframe = false;  ///< the mesh's edges over it
   std::vector<Ghost> ghosts = {};
   bool map_alone = false;  ///< the mesh over nothing, opaque, in place of all of the picture
+  bool over = false;       ///< over what is there: nothing is cleared and there is no backdrop
+  Shows shows = Shows::map;
   Color background{0.2f, 0.2f, 0.2f},
       backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
 };

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "scene/laid_surface.h"
+#include "scene/layers.h"
 #include "scene/scene_json.h"
 
 namespace holomorph {
@@ -69,54 +70,80 @@ std::string relative_to(const Path& folder, const Path& file) {
 
 }  // namespace
 
-Path image_path_of(const Scene& scene, const Path& scene_path) {
-  if (!scene.image) return {};
-  return beside(scene_path, scene.image->file);
+namespace {
+
+/// Every file that the layers of a scene name.
+template <class Use>
+void for_each_file(std::vector<Scene>& layers, Use use) {
+  for (size_t i = 0; i < layers.size(); ++i) {
+    if (layers[i].image) use(layers[i].image->file);
+    if (layers[i].surface) use(layers[i].surface->file);
+  }
 }
+
+/// Reads the picture of a layer. Returns what is to be said of it.
+std::string load_picture(Scene& layer, Pictures& pictures, const std::string& pointer) {
+  if (!layer.image) return "";
+  ImageReference& reference = *layer.image;
+  try {
+    if (!pictures.find(reference.file)) pictures.put(reference.file, read_picture(reference.file));
+  } catch (const Error& error) {
+    throw Error(error.kind(), pointer + "/image/file: " + error.what());
+  }
+  const Picture& picture = *pictures.find(reference.file);
+  const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
+  reference.sha256 = picture.sha256;
+  reference.width = picture.image->width;
+  reference.height = picture.image->height;
+  return other ? "The picture " + Path(reference.file).filename().string() +
+                     " has changed since the scene was saved."
+               : "";
+}
+
+}  // namespace
 
 LoadedScene load_scene(const Path& path) {
   LoadedScene loaded;
-  loaded.scene = scene_from_json(read_file(path), path.string());
-  if (auto& surface = loaded.scene.surface) surface->file = beside(path, surface->file).string();
-  if (!loaded.scene.image) return loaded;
-  const Path image_path = image_path_of(loaded.scene, path);
-  const std::string pointer = path.string() + ": /image/file: ";
-  try {
-    const std::string bytes = read_file(image_path);
-    loaded.image = std::make_shared<const Image>(decode_image(bytes, image_path.string()));
-    ImageReference& reference = *loaded.scene.image;
-    if (!reference.sha256.empty() && reference.sha256 != sha256_hex(bytes))
-      loaded.warning = "The picture " + reference.file + " has changed since the scene was saved.";
-    reference.sha256 = sha256_hex(bytes);
-    reference.width = loaded.image->width;
-    reference.height = loaded.image->height;
-  } catch (const Error& error) {
-    throw Error(error.kind(), pointer + error.what());
+  const Scene scene = scene_from_json(read_file(path), path.string());
+  std::vector<Scene> layers = layers_of(scene);
+  for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string pointer =
+        path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
+    const std::string warning = load_picture(layers[i], loaded.pictures, pointer);
+    if (loaded.warning.empty()) loaded.warning = warning;
   }
+  loaded.scene = scene_of_layers(std::move(layers), edited_layer(scene), scene);
   return loaded;
 }
 
 Sources sources_of(const Scene& scene, const Path& scene_path) {
-  return {scene_path, image_path_of(scene, scene_path),
-          scene.surface ? Path(scene.surface->file) : Path()};
+  Sources sources{scene_path, {}, {}};
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    if (layer.image) sources.images.emplace_back(layer.image->file);
+    if (layer.surface) sources.surfaces.emplace_back(layer.surface->file);
+  }
+  return sources;
 }
 
 void check_not_a_source(const Path& out, const Sources& sources) {
-  std::error_code ignored;
-  for (const auto& [source, what] : {std::pair(sources.scene, "scene itself"),
-                                     std::pair(sources.image, "picture that the scene bends"),
-                                     std::pair(sources.surface, "surface that the scene covers")})
+  const auto refuse_if = [&](const Path& source, const char* what) {
+    std::error_code ignored;
     if (!source.empty() && fs::equivalent(out, source, ignored))
       throw Error(ErrorKind::bad_input,
                   out.string() + ": this is the " + what + "; choose another name");
+  };
+  refuse_if(sources.scene, "scene itself");
+  for (const Path& image : sources.images) refuse_if(image, "picture that the scene bends");
+  for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene covers");
 }
 
 LoadedScene scene_of_image(const Path& path) {
-  const std::string bytes = read_file(path);
+  Picture picture = read_picture(path);
   LoadedScene loaded;
-  loaded.image = std::make_shared<const Image>(decode_image(bytes, path.string()));
-  loaded.scene.image = ImageReference{fs::absolute(path).string(), loaded.image->width,
-                                      loaded.image->height, sha256_hex(bytes), ""};
+  loaded.scene.image = reference_to(path, picture);
+  loaded.pictures.put(loaded.scene.image->file, std::move(picture));
   return loaded;
 }
 
@@ -133,8 +160,9 @@ LoadedScene scene_of_surface(const Path& obj) {
                     "the surface onto it");
   LoadedScene loaded = scene_of_image(beside(beside(obj, file.materials), texture));
   try {
+    const Image& texture_image = *loaded.image();
     loaded.scene = with_cage(std::move(loaded.scene),
-                             texture_boundary(file, loaded.image->width, loaded.image->height));
+                             texture_boundary(file, texture_image.width, texture_image.height));
     check_rest_cage(loaded.scene.rest);
   } catch (const Error& error) {
     throw about(obj, error);
@@ -152,8 +180,7 @@ Document::Document() : id_(fresh_id()), history_(Scene{}, "New") {}
 Document::Document(LoadedScene loaded, Path path)
     : id_(fresh_id()),
       history_(loaded.scene),
-      image_(std::move(loaded.image)),
-      image_path_(image_path_of(loaded.scene, path)),
+      pictures_(std::move(loaded.pictures)),
       path_(std::move(path)),
       saved_(loaded.scene),
       warning_(std::move(loaded.warning)) {}
@@ -166,14 +193,11 @@ Document Document::open(const Path& path) {
 }
 
 Document Document::copy_of(const Path& scene) {
-  Document document(load_scene(scene), Path());
-  document.image_path_ = image_path_of(document.scene(), scene);
-  return document;
+  return {load_scene(scene), Path()};
 }
 
 Document Document::recover(const Path& autosave) {
   Document document(load_scene(autosave), Path());
-  document.image_path_ = image_path_of(document.scene(), autosave);
   document.path_ = origin_of(read_file(autosave));
   Scene scene = document.scene();
   scene.extra = without_origin(scene.extra);
@@ -184,26 +208,26 @@ Document Document::recover(const Path& autosave) {
 
 std::string Document::title() const {
   if (!path_.empty()) return path_.filename().string();
-  return image_path_.empty() ? "Untitled" : image_path_.stem().string() + " (not saved)";
+  return image_path().empty() ? "Untitled" : image_path().stem().string() + " (not saved)";
 }
 
 Sources Document::sources() const {
-  return {path_, image_path_, scene().surface ? Path(scene().surface->file) : Path()};
+  return sources_of(scene(), path_);
 }
 
 bool Document::commit(const std::string& label, Scene scene, std::optional<double> at) {
   return history_.commit(label, std::move(scene), at);
 }
 
-Scene portable(Scene scene, const Path& image, const Path& folder) {
-  if (scene.image && !image.empty()) scene.image->file = relative_to(folder, image);
-  if (scene.surface) scene.surface->file = relative_to(folder, scene.surface->file);
-  return scene;
+Scene portable(Scene scene, const Path& folder) {
+  std::vector<Scene> layers = layers_of(scene);
+  for_each_file(layers, [&](std::string& file) { file = relative_to(folder, file); });
+  return scene_of_layers(std::move(layers), edited_layer(scene), scene);
 }
 
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
-  write_file(target, json_of(portable(scene(), image_path_, target.parent_path())));
+  write_file(target, json_of(portable(scene(), target.parent_path())));
   path_ = target;
   saved_ = history_.current();
 }
@@ -216,7 +240,7 @@ bool Document::autosave(const Path& folder) {
   fs::create_directories(folder, ignored);
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
-    write_file(path, with_origin(json_of(portable(scene(), image_path_, Path())), path_));
+    write_file(path, with_origin(json_of(portable(scene(), Path())), path_));
   } catch (const Error&) {
     return false;
   }

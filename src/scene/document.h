@@ -1,37 +1,38 @@
-// An open scene: its history, its picture, its file and its autosave. The only owner of edits.
+// An open scene: its history, its pictures, its file and its autosave. The only owner of edits.
 #pragma once
 
 #include <memory>
 
 #include "scene/file.h"
 #include "scene/history.h"
-#include "scene/image.h"
+#include "scene/layers.h"
+#include "scene/pictures.h"
 
 namespace holomorph {
 
-/// A scene and its picture as read from disk.
+/// A scene and its pictures as read from disk.
 struct LoadedScene {
-  Scene scene;
-  std::shared_ptr<const Image> image;
+  Scene scene;  ///< with absolute paths
+  Pictures pictures;
   std::string warning;  ///< such as: the picture is not the one that the scene was made with
+
+  const Image* image() const { return pictures.of(scene); }  ///< the edited layer's
 };
-/// Reads a scene file and the picture that it names, relative to the file's folder. Throws Error.
+/// Reads a scene file and the pictures that it names, relative to the file's folder. Throws Error.
 LoadedScene load_scene(const Path& path);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
 
-/// The absolute path of a scene's picture; empty without one.
-Path image_path_of(const Scene& scene, const Path& scene_path);
-
 /// The scene as a file in an absolute folder holds it, with paths relative to there; with absolute
-/// ones when the folder is empty. `image` is the picture's absolute path.
-Scene portable(Scene scene, const Path& image, const Path& folder);
+/// ones when the folder is empty.
+Scene portable(Scene scene, const Path& folder);
 
 /// The files that a scene is made of; empty for what it has not.
 struct Sources {
-  Path scene, image, surface;
+  Path scene;
+  std::vector<Path> images, surfaces;
 };
-/// Of a scene read from this file.
+/// Of a loaded scene that was read from this file.
 Sources sources_of(const Scene& scene, const Path& scene_path);
 /// Throws Error when writing to `out` would replace one of them.
 void check_not_a_source(const Path& out, const Sources& sources);
@@ -56,16 +57,25 @@ class Document {
   static Document recover(const Path& autosave);
 
   const Scene& scene() const { return history_.current(); }
-  const Image* image() const { return image_.get(); }
-  std::shared_ptr<const Image> shared_image() const { return image_; }
+  const Image* image() const { return pictures_.of(scene()); }  ///< the edited layer's
+  const Pictures& pictures() const { return pictures_; }
   const History& history() const { return history_; }
-  const Path& path() const { return path_; }              ///< empty for a scene never saved
-  const Path& image_path() const { return image_path_; }  ///< absolute; empty without a picture
+  const Path& path() const { return path_; }  ///< empty for a scene never saved
+  /// The edited layer's picture, absolute; empty without one.
+  Path image_path() const { return scene().image ? Path(scene().image->file) : Path(); }
   Sources sources() const;
   const std::string& warning() const { return warning_; }
   std::string title() const;
   bool modified() const { return scene() != saved_; }
-  bool empty() const { return !image_ && !scene().has_cage() && history_.entries().size() == 1; }
+  bool empty() const {
+    return !scene().image && !scene().has_cage() && !has_layers(scene()) &&
+           history_.entries().size() == 1;
+  }
+
+  /// Gives a file that a scene is going to name, or that has changed, its picture.
+  void put_picture(const std::string& file, Picture picture) {
+    pictures_.put(file, std::move(picture));
+  }
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.
   bool commit(const std::string& label, Scene scene, std::optional<double> at = {});
@@ -88,8 +98,8 @@ class Document {
 
   std::string id_;  ///< names the autosave file, whatever the document's path is
   History history_;
-  std::shared_ptr<const Image> image_;
-  Path image_path_, path_;
+  Pictures pictures_;
+  Path path_;
   Scene saved_;
   std::optional<Scene> autosaved_;
   std::shared_ptr<FileLock> lock_;  ///< says that the autosave has a running owner

@@ -73,6 +73,10 @@ class Reader {
       fail("the coordinates are larger than 1e8");
     return z;
   }
+  bool truth() const {
+    if (!value_.is_boolean()) fail("true or false is wanted here, not " + kind());
+    return value_.get<bool>();
+  }
   /// A parameter: a number, or a switch as 0 or 1.
   double value() const { return value_.is_boolean() ? (value_.get<bool>() ? 1.0 : 0.0) : number(); }
 

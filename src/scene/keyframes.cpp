@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -62,8 +63,35 @@ std::vector<size_t> playing_keys(const Scene& scene) {
   return playing;
 }
 
+namespace {
+
+template <class Test>
+bool any_layer(const Scene& scene, Test test) {
+  for (size_t i = 0; i < layer_count(scene); ++i)
+    if (test(layer_at(scene, i))) return true;
+  return false;
+}
+
+}  // namespace
+
+bool has_keyframes(const Scene& scene) {
+  return any_layer(scene, [](const Scene& layer) { return !layer.keyframes.empty(); });
+}
+
+bool has_playing_keys(const Scene& scene) {
+  return any_layer(scene, [](const Scene& layer) { return !playing_keys(layer).empty(); });
+}
+
+bool plays(const Scene& scene) {
+  return any_layer(scene, [](const Scene& layer) { return playing_keys(layer).size() > 1; });
+}
+
 double length_of(const Scene& scene) {
-  return scene.keyframes.empty() ? 0 : scene.keyframes.back().time;
+  double length = 0;
+  for (size_t i = 0; i < layer_count(scene); ++i)
+    if (const auto& keys = layer_at(scene, i).keyframes; !keys.empty())
+      length = std::max(length, keys.back().time);
+  return length;
 }
 
 int last_frame_of(const Scene& scene) {

@@ -17,7 +17,11 @@ std::pair<Scene, size_t> with_key_moved(Scene scene, size_t key, double time);
 Scene with_ease(Scene scene, size_t key, Ease ease);
 /// The keyframes that play: those that have the scene's structure.
 std::vector<size_t> playing_keys(const Scene& scene);
-/// The last one's time, 0 without any.
+/// Whether any layer has keyframes, has some that play, and moves.
+bool has_keyframes(const Scene& scene);
+bool has_playing_keys(const Scene& scene);
+bool plays(const Scene& scene);
+/// The last key's time in any layer, 0 without any.
 double length_of(const Scene& scene);
 /// Frame i is at time i / frames_per_second; the last one is at the last key or just behind it.
 int last_frame_of(const Scene& scene);

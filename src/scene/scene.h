@@ -1,6 +1,8 @@
 // What the user made and what a file holds: a plain value.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,7 +14,8 @@ namespace holomorph {
 /// JSON object text of keys that this version does not know; they are kept and written back.
 using Extra = std::string;
 
-/// The picture that a scene bends: a path relative to the scene file, and what the file was.
+/// The picture that a scene bends, and what its file was. In a file the path is relative to the
+/// scene's folder, in a loaded scene absolute.
 struct ImageReference {
   std::string file;
   int width = 0, height = 0;
@@ -79,8 +82,40 @@ inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< a second
 inline constexpr int kMostTurns = 150;                         ///< on the way to a keyframe
 inline constexpr size_t kMostKeyframes = 2000;
 
-/// All that is saved. rest and pose of the cage have the same number of segments; both are empty
-/// until a cage is drawn.
+/// How a layer stands among the others.
+struct LayerState {
+  int id = 1;  ///< tells layers of a session apart; not saved
+  std::string name = {};
+  bool visible = true;
+  bool locked = false;  ///< edits are refused
+  Extra extra = {};
+  bool operator==(const LayerState&) const = default;
+};
+
+struct Scene;
+/// A layer that is not being edited. Shared, because every drag copies scenes.
+class OtherLayer {
+ public:
+  explicit OtherLayer(Scene layer);
+  const Scene& operator*() const { return *layer_; }
+  const Scene* operator->() const { return layer_.get(); }
+  bool operator==(const OtherLayer& other) const;
+
+ private:
+  std::shared_ptr<const Scene> layer_;
+};
+
+/// What is seen where no layer is: nothing, a colour, or the pictures as they were.
+struct Background {
+  enum class Kind { transparent, color, original };
+  Kind kind = Kind::transparent;
+  std::array<std::uint8_t, 3> color{255, 255, 255};  ///< red, green, blue
+  bool operator==(const Background&) const = default;
+};
+
+/// All that is saved: the layer that is being edited, the others, and what all of them share. A
+/// layer's rest and pose of the cage have the same number of segments; both are empty
+/// until a cage is drawn. See layers.h for what is done with them.
 struct Scene {
   std::optional<ImageReference> image;
   Cage rest, pose;
@@ -92,11 +127,17 @@ struct Scene {
   /// By increasing time. Those that have another structure than the scene by now are kept, but do
   /// not play.
   std::vector<Keyframe> keyframes = {};
-  AnimationSettings animation;
+  AnimationSettings animation;  ///< the same for all layers
   std::string method = "cage";
   Parameters parameters;
   std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id
-  Extra cage_extra, method_extra, animation_extra, extra;
+  Extra cage_extra, method_extra;
+
+  LayerState layer = {};
+  std::vector<OtherLayer> below = {}, above = {};  ///< from the bottom to the top
+
+  Background background = {};  ///< like the rest the edited layer's, for all
+  Extra animation_extra, extra;
 
   bool has_cage() const { return rest.size() > 0; }
   bool operator==(const Scene&) const = default;

@@ -5,13 +5,14 @@
 #include "core/error.h"
 #include "core/outline_match.h"
 #include "core/polyline.h"
+#include "scene/layers.h"
 #include "scene/pose_json.h"
 
 namespace holomorph {
 namespace {
 
-constexpr int kVersion = 1;
-constexpr int kDeepest = 200;  ///< nesting, unknown keys included
+constexpr int kVersion = 2, kPlainVersion = 1;  ///< with layers, and without
+constexpr int kDeepest = 200;                   ///< nesting, unknown keys included
 
 void read_cage(const Reader& reader, Scene& scene) {
   reader.object();
@@ -71,6 +72,19 @@ SurfaceReference read_surface(const Reader& reader) {
   }
   surface.extra = reader.others({"file", "flattening"});
   return surface;
+}
+
+/// "original", or a colour as "#rrggbb".
+Background read_background(const Reader& reader) {
+  const std::string text = reader.text();
+  if (text == "original") return {Background::Kind::original};
+  unsigned color = 0;
+  int end = 0;
+  if (text.size() != 7 || std::sscanf(text.c_str(), "#%6x%n", &color, &end) != 1 || end != 7)
+    reader.fail("'" + text + "' is no background: \"original\", or a colour as \"#rrggbb\"");
+  return {Background::Kind::color,
+          {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
+           static_cast<std::uint8_t>(color)}};
 }
 
 Parameters read_parameters(const Reader& values, const Method& method) {
@@ -173,6 +187,87 @@ void write_value(const Json& value, int depth, std::string& out) {
   }
 }
 
+/// What belongs to one layer; `scene` has the animation's settings.
+void read_layer(const Reader& reader, Scene& scene) {
+  if (reader.has("image")) scene.image = read_image(reader["image"]);
+  read_cage(reader["cage"], scene);
+  if (reader.has("pins")) {
+    const Reader pins = reader["pins"].array();
+    if (pins.size() > 2000) pins.fail("more than 2000 pins");
+    for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
+  }
+  if (reader.has("strokes")) {
+    const Reader strokes = reader["strokes"].array();
+    if (strokes.size() > 200) strokes.fail("more than 200 strokes");
+    for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
+  }
+  if (reader.has("corners")) {
+    const Reader corners = reader["corners"].array();
+    for (size_t i = 0; i < corners.size(); ++i)
+      scene.corners.push_back(read_corner(corners[i], scene));
+    if (!scene.corners.empty() && scene.corners.size() < 3)
+      corners.fail("there must be three corners at least, or none: all vertices");
+  }
+  if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
+  if (reader.has("surface")) {
+    scene.surface = read_surface(reader["surface"]);
+    if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
+  }
+  if (reader.has("method")) read_method(reader["method"], scene);
+  if (reader.has("keyframes")) {
+    const Reader keys = reader["keyframes"].array();
+    if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
+    for (size_t i = 0; i < keys.size(); ++i)
+      scene.keyframes.push_back(read_keyframe(keys[i], scene));
+  }
+}
+
+/// What all layers share.
+void read_shared(const Reader& reader, Scene& scene) {
+  if (reader.has("animation")) {
+    scene.animation = read_animation(reader["animation"]);
+    scene.animation_extra = reader["animation"].others({"frames_per_second", "in_betweens"});
+  }
+  if (reader.has("background")) scene.background = read_background(reader["background"]);
+}
+
+Scene read_single(const Reader& reader) {
+  Scene scene;
+  read_shared(reader, scene);
+  read_layer(reader, scene);
+  scene.extra =
+      reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners", "outline",
+                     "surface", "method", "animation", "keyframes", "background"});
+  return scene;
+}
+
+Scene read_layers(const Reader& reader) {
+  Scene shared;
+  read_shared(reader, shared);
+  shared.extra =
+      reader.others({"format", "version", "layers", "edited", "animation", "background"});
+  const Reader list = reader["layers"].array();
+  if (list.size() < 1 || list.size() > kMostLayers) list.fail("1 to 100 layers are wanted here");
+  std::vector<Scene> layers;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Reader item = list[i].object();
+    Scene layer;
+    layer.animation = shared.animation;
+    read_layer(item, layer);
+    layer.layer.id = static_cast<int>(i) + 1;
+    if (item.has("name")) layer.layer.name = item["name"].text();
+    if (item.has("visible")) layer.layer.visible = item["visible"].truth();
+    if (item.has("locked")) layer.layer.locked = item["locked"].truth();
+    layer.layer.extra =
+        item.others({"name", "visible", "locked", "image", "cage", "pins", "strokes", "corners",
+                     "outline", "surface", "method", "keyframes"});
+    layers.push_back(std::move(layer));
+  }
+  const int last = static_cast<int>(list.size()) - 1;
+  const int edited = reader.has("edited") ? reader["edited"].whole(0, last) : last;
+  return scene_of_layers(std::move(layers), static_cast<size_t>(edited), shared);
+}
+
 }  // namespace
 
 Scene scene_from_json(const std::string& text, const std::string& name) {
@@ -203,51 +298,12 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     reader["version"].fail("the scene is of version " + std::to_string(version) +
                            ", written by a newer program; this one reads up to version " +
                            std::to_string(kVersion));
-  Scene scene;
-  if (reader.has("image")) scene.image = read_image(reader["image"]);
-  read_cage(reader["cage"], scene);
-  if (reader.has("pins")) {
-    const Reader pins = reader["pins"].array();
-    if (pins.size() > 2000) pins.fail("more than 2000 pins");
-    for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
-  }
-  if (reader.has("strokes")) {
-    const Reader strokes = reader["strokes"].array();
-    if (strokes.size() > 200) strokes.fail("more than 200 strokes");
-    for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
-  }
-  if (reader.has("corners")) {
-    const Reader corners = reader["corners"].array();
-    for (size_t i = 0; i < corners.size(); ++i)
-      scene.corners.push_back(read_corner(corners[i], scene));
-    if (!scene.corners.empty() && scene.corners.size() < 3)
-      corners.fail("there must be three corners at least, or none: all vertices");
-  }
-  if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
-  if (reader.has("surface")) {
-    scene.surface = read_surface(reader["surface"]);
-    if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
-  }
-  if (reader.has("method")) read_method(reader["method"], scene);
-  if (reader.has("animation")) {
-    scene.animation = read_animation(reader["animation"]);
-    scene.animation_extra = reader["animation"].others({"frames_per_second", "in_betweens"});
-  }
-  if (reader.has("keyframes")) {
-    const Reader keys = reader["keyframes"].array();
-    if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
-    for (size_t i = 0; i < keys.size(); ++i)
-      scene.keyframes.push_back(read_keyframe(keys[i], scene));
-  }
-  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners",
-                               "outline", "surface", "method", "animation", "keyframes"});
-  return scene;
+  return reader.has("layers") ? read_layers(reader) : read_single(reader);
 }
 
-std::string json_of(const Scene& scene) {
-  Json document;
-  document["format"] = "holomorph";
-  document["version"] = kVersion;
+namespace {
+
+void write_layer(const Scene& scene, Json& document) {
   if (scene.image) {
     Json image;
     image["file"] = scene.image->file;
@@ -306,12 +362,56 @@ std::string json_of(const Scene& scene) {
   }
   add_extra(method, scene.method_extra);
   document["method"] = std::move(method);
+  for (const Keyframe& key : scene.keyframes)
+    document["keyframes"].push_back(keyframe_json(key, scene));
+}
+
+void write_shared(const Scene& scene, Json& document) {
   if (scene.animation != AnimationSettings{} || !scene.animation_extra.empty()) {
     document["animation"] = animation_json(scene.animation);
     add_extra(document["animation"], scene.animation_extra);
   }
-  for (const Keyframe& key : scene.keyframes)
-    document["keyframes"].push_back(keyframe_json(key, scene));
+  if (scene.background.kind == Background::Kind::original)
+    document["background"] = "original";
+  else if (scene.background.kind == Background::Kind::color) {
+    const auto& [red, green, blue] = scene.background.color;
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", red, green, blue);
+    document["background"] = text;
+  }
+}
+
+Json layers_json(const Scene& scene) {
+  Json layers = Json::array();
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    Json item = Json::object();
+    if (!layer.layer.name.empty()) item["name"] = layer.layer.name;
+    if (!layer.layer.visible) item["visible"] = false;
+    if (layer.layer.locked) item["locked"] = true;
+    write_layer(layer, item);
+    add_extra(item, layer.layer.extra);
+    layers.push_back(std::move(item));
+  }
+  return layers;
+}
+
+}  // namespace
+
+std::string json_of(const Scene& scene) {
+  // A scene of one plain layer is written as it always was.
+  const bool layered = has_layers(scene);
+  Json document;
+  document["format"] = "holomorph";
+  document["version"] = layered ? kVersion : kPlainVersion;
+  if (layered) {
+    document["layers"] = layers_json(scene);
+    document["edited"] = edited_layer(scene);
+    write_shared(scene, document);
+  } else {
+    write_layer(scene, document);
+    write_shared(scene, document);
+  }
   add_extra(document, scene.extra);
   std::string text;
   try {

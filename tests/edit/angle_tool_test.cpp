@@ -73,9 +73,9 @@ TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
   CHECK(corner_at(desk.scene(), 0).tension == Approx(0.5));
   CHECK(corner_at(desk.scene(), 1).tension == 1);
   desk.settle();
-  CHECK((desk.workspace.map.map().f -
-         Eigen::Map<const VectorXc>(desk.workspace.map.prepared()->mesh->vertices.data(),
-                                    desk.workspace.map.map().f.size()))
+  CHECK((desk.workspace.map().map().f -
+         Eigen::Map<const VectorXc>(desk.workspace.map().prepared()->mesh->vertices.data(),
+                                    desk.workspace.map().map().f.size()))
             .isZero(0));  // no corner wants anything
 }
 

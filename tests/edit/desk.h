@@ -23,7 +23,7 @@ struct Desk {
     if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
     settle();
   }
-  void settle() { workspace.map.finish(workspace.scene(), {}); }
+  void settle() { workspace.map().finish(workspace.scene(), {}); }
   Tool& tool() {
     for (const auto& tool : tools)
       if (tool->id() == workspace.tool) return *tool;

@@ -147,8 +147,8 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   for (const Complex& z : desk.scene().outline)
     CHECK(std::abs(std::abs(z - Complex(300, 300)) - 100.75) <= 0.75);
   desk.settle();
-  for (const int v : desk.workspace.map.prepared()->mesh->boundary)
-    CHECK(std::abs(std::abs(desk.workspace.map.map().f[v] - Complex(300, 300)) - 100.75) <= 2);
+  for (const int v : desk.workspace.map().prepared()->mesh->boundary)
+    CHECK(std::abs(std::abs(desk.workspace.map().map().f[v] - Complex(300, 300)) - 100.75) <= 2);
   run(action_named("edit.undo"), desk.workspace);
   CHECK(desk.scene().outline.empty());
 }
@@ -164,11 +164,11 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
   Playback& playback = desk.workspace.playback;
   CHECK(playback.playing);
   const auto pose = [&] {
-    desk.workspace.map.finish(desk.scene(), {false, false, playback.iteration});
-    return desk.workspace.map.map().f;
+    desk.workspace.map().finish(desk.scene(), {false, false, playback.iteration});
+    return desk.workspace.map().map().f;
   };
   const VectorXc first = pose();
-  const LiveMap& map = desk.workspace.map;
+  const LiveMap& map = desk.workspace.map();
   const int last = static_cast<int>(map.map().energies.size()) - 1;
   REQUIRE(last > 2);
   CHECK(map.map().iterations == 0);
@@ -210,14 +210,14 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
 
 TEST_CASE("What folds is told with its places, and made fold-free by the method that is asked") {
   Desk desk(shapes::rectangle(200, 150));
-  CHECK_FALSE(desk.workspace.map.injectivity().folds());
-  CHECK_FALSE(desk.workspace.map.injectivity().crossing);
+  CHECK_FALSE(desk.workspace.map().injectivity().folds());
+  CHECK_FALSE(desk.workspace.map().injectivity().crossing);
   // Two corners change places.
   Scene scene = desk.scene();
   std::swap(scene.pose.segments[0], scene.pose.segments[1]);
   desk.workspace.commit("Twist", scene);
   desk.settle();
-  const Injectivity& found = desk.workspace.map.injectivity();
+  const Injectivity& found = desk.workspace.map().injectivity();
   CHECK(found.folds());
   CHECK(found.fold);
   CHECK(found.crossing);
@@ -226,7 +226,7 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   CHECK(desk.scene().method == "bounded");
   CHECK(choice(method_named("bounded"), desk.scene().parameters, "reference") == "cage");
   desk.settle();
-  CHECK_FALSE(desk.workspace.map.injectivity().folds());
+  CHECK_FALSE(desk.workspace.map().injectivity().folds());
 }
 
 TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it moves") {
@@ -259,11 +259,11 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
 
 TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") {
   const auto followed = [](Desk& desk) {
-    const VectorXc before = desk.workspace.map.map().f;
+    const VectorXc before = desk.workspace.map().map().f;
     run(action_named("map.fold_free"), desk.workspace);
     desk.settle();
-    REQUIRE(desk.workspace.map.map().status == SampledMap::Status::certified);
-    return (desk.workspace.map.map().f - before).cwiseAbs().maxCoeff();
+    REQUIRE(desk.workspace.map().map().status == SampledMap::Status::certified);
+    return (desk.workspace.map().map().f - before).cwiseAbs().maxCoeff();
   };
   Desk strokes(shapes::rectangle(200, 150));
   Points bent;

@@ -44,8 +44,8 @@ TEST_CASE("Timeline: keys are set, and the picture between them is shown") {
   go_to(desk, 0.5);
   CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
   CHECK(desk.workspace.document.scene().pose.vertex(0) == 40.0);  // its own stays
-  CHECK(desk.workspace.map.map().f[0].real() -
-            desk.workspace.map.prepared()->mesh->vertices[0].real() ==
+  CHECK(desk.workspace.map().map().f[0].real() -
+            desk.workspace.map().prepared()->mesh->vertices[0].real() ==
         Approx(20).margin(1e-2));
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       desk.workspace.commit("Turns", scene, From::document);
       const auto turned = [&](double at) {
         go_to(desk, at);
-        return desk.workspace.map.motion().turned_at(at);
+        return desk.workspace.map().motion().turned_at(at);
       };
       const double before = turned(0.9), mid = turned(time);
       CHECK(before == Approx(0.9 * 2 * kPi * turns).margin(1e-6));
@@ -171,7 +171,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       CHECK(desk.workspace.document.scene().keyframes[1].ease == Ease::linear);
       INFO(turns << " turns, a key at " << time);
       CHECK(turned(time) == Approx(mid).margin(1e-6));
-      CHECK_FALSE(desk.workspace.map.injectivity().folds());
+      CHECK_FALSE(desk.workspace.map().injectivity().folds());
       CHECK(turned(0.9) == Approx(before).margin(1e-6));
       act(desk, "edit.undo");
     }
@@ -290,7 +290,7 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
   act(desk, "time.onion");
   const std::vector<OnionSkin> skins = desk.workspace.onion_skins();
   REQUIRE(skins.size() == 2);
-  const double rest = desk.workspace.map.prepared()->mesh->vertices[0].real();
+  const double rest = desk.workspace.map().prepared()->mesh->vertices[0].real();
   CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
   CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
   // The own pose is compared with the keys as they are now.
@@ -395,7 +395,7 @@ TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of 
   CHECK(after.keyframes[0] == hollow);
   CHECK(after.keyframes.back().time == 3);
   go_to(desk, 3);
-  CHECK(desk.workspace.map.motion().turned_at(3) == Approx(2 * kPi).margin(0.05));
+  CHECK(desk.workspace.map().motion().turned_at(3) == Approx(2 * kPi).margin(0.05));
 }
 
 TEST_CASE("Timeline: tangents that are none at other times are not recorded") {

@@ -160,9 +160,9 @@ TEST_CASE(
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {240, 130});
   desk.settle();
-  const VectorXc before = desk.workspace.map.map().f;
+  const VectorXc before = desk.workspace.map().map().f;
   const Complex image = before[before.size() / 2],
-                rest = desk.workspace.map.prepared()->mesh->vertices[before.size() / 2];
+                rest = desk.workspace.map().prepared()->mesh->vertices[before.size() / 2];
   desk.workspace.tool = ToolId::pin;
   desk.click(image);
   REQUIRE(desk.scene().pins.size() == 1);
@@ -170,7 +170,7 @@ TEST_CASE(
   CHECK(std::abs(desk.scene().pins[0].rest - rest) < 0.5);
   CHECK(desk.scene().pins[0].pose == image);
   desk.settle();
-  CHECK((desk.workspace.map.map().f - before).cwiseAbs().maxCoeff() < 0.2);
+  CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 0.2);
   desk.drag(image, image + Complex(20, 10));
   desk.settle();
   CHECK(desk.scene().pins[0].pose == image + Complex(20, 10));

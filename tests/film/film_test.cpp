@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/keyframes.h"
+#include "support/folder.h"
 
 using namespace holomorph;
 
@@ -17,19 +18,6 @@ Scene film_scene() {
   for (Points& segment : scene.pose.segments) segment[0] += 8.0;
   return with_key(scene, 0.5);
 }
-
-struct Folder {
-  Path path = std::filesystem::temp_directory_path() /
-              ("holomorph-film-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-  Folder() { std::filesystem::create_directory(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path))
-      names.push_back(entry.path().filename().string());
-    return names;
-  }
-};
 
 Image grey() {
   Image image(40, 30);

@@ -79,12 +79,12 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
         load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/" + name + ".json");
     PictureOptions options;
     options.crop = true;
-    const Image exported = picture_of(loaded.scene, loaded.image.get(), options).image;
+    const Image exported = picture_of(loaded.scene, loaded.image(), options).image;
     const int width = exported.width, height = exported.height;
     const Context context(width, height);
     Renderer renderer;
-    CHECK(renderer.set_picture(loaded.image->width, loaded.image->height,
-                               loaded.image->pixels.data()) == 1);
+    CHECK(renderer.set_picture(loaded.image()->width, loaded.image()->height,
+                               loaded.image()->pixels.data()) == 1);
     const auto prepared = prepared_map(loaded.scene, Precision::single, MeshOptions{});
     SampledMap map;
     prepared->deformer->deform(pose_of(loaded.scene), map, {});
@@ -342,7 +342,8 @@ TEST_CASE("The map alone is opaque where it is and nothing elsewhere") {
   SampledMap map;
   prepared->deformer->deform(pose_of(loaded.scene), map, {});
   Renderer renderer;
-  renderer.set_picture(loaded.image->width, loaded.image->height, loaded.image->pixels.data());
+  renderer.set_picture(loaded.image()->width, loaded.image()->height,
+                       loaded.image()->pixels.data());
   renderer.set_mesh(prepared->mesh.get());
   const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
   renderer.set_positions(positions);

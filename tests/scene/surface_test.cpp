@@ -210,13 +210,13 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and what it i
   scene.outline = laid_onto(sample("mask.obj"), Flattening::circle, onto).outline();
   scene.surface = SurfaceReference{file, Flattening::circle, R"({"kept":1})"};
   for (const Path& at : {folder / "s.json", folder / "inside" / "s.json"}) {
-    write_file(at, json_of(portable(scene, {}, at.parent_path())));
+    write_file(at, json_of(portable(scene, at.parent_path())));
     CHECK_THAT(read_file(at), Catch::Contains("\"../") && Catch::Contains("\"kept\": 1"));
     const Scene again = load_scene(at).scene;
     CHECK(again.surface == scene.surface);
     CHECK(laid_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
   }
-  CHECK(portable(scene, {}, {}).surface == scene.surface);  // as an autosave has it
+  CHECK(portable(scene, {}).surface == scene.surface);  // as an autosave has it
   Scene other = scene;
   other.surface->flattening = Flattening::lscm;
   CHECK_THROWS_WITH(laid_surface_of(other),

@@ -34,7 +34,7 @@ void switch_posture(Workspace& w) {
 }
 
 bool converges(const Workspace& w) {
-  return w.map.map().energies.size() > 1;
+  return w.map().map().energies.size() > 1;
 }
 
 // Glyphs of Font Awesome 4.
@@ -119,7 +119,7 @@ std::vector<Action> cage_actions() {
        {},
        [](const Workspace& w) { return converges(w) && w.playback.iteration; },
        [](Workspace& w) {
-         const int last = static_cast<int>(w.map.map().energies.size()) - 1,
+         const int last = static_cast<int>(w.map().map().energies.size()) - 1,
                    next = w.playback.iteration.value_or(-1) + 1;
          w.playback = {};
          if (next < last) w.playback.iteration = next;

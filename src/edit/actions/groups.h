@@ -8,6 +8,7 @@ namespace holomorph {
 std::vector<Action> file_actions();
 std::vector<Action> edit_actions();
 std::vector<Action> cage_actions();
+std::vector<Action> layer_actions();
 std::vector<Action> time_actions();
 std::vector<Action> view_actions();
 
@@ -30,7 +31,7 @@ inline bool has_selection(const Workspace& w) {
   return !w.selection.empty();
 }
 inline bool plays(const Workspace& w) {
-  return playing_keys(w.document.scene()).size() > 1;
+  return plays(w.document.scene());
 }
 template <Request request>
 void ask(Workspace& w) {

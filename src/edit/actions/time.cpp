@@ -5,7 +5,7 @@ namespace holomorph {
 namespace {
 
 bool has_keys(const Workspace& w) {
-  return !w.document.scene().keyframes.empty();
+  return has_keyframes(w.document.scene());
 }
 bool has_copied(const Workspace& w) {
   return w.copied && fits(w.scene(), *w.copied);

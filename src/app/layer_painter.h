@@ -1,0 +1,41 @@
+// One layer on the graphics processor.
+#pragma once
+
+#include <memory>
+
+#include "render/renderer.h"
+#include "scene/image.h"
+#include "scene/live_map.h"
+
+namespace holomorph {
+
+/// Owns a renderer and what it was last given. Needs a current OpenGL context.
+class LayerPainter {
+ public:
+  /// The picture as it is now, or null. Returns how many times it had to be reduced for this
+  /// driver, 1 when not at all; 0 when it is the one that was there.
+  int take_picture(std::shared_ptr<const Image> picture);
+  /// The map as it is now, and its heat map if `view` is one.
+  void take_map(const LiveMap& map, View view, bool automatic_range);
+  /// Draws; view and placement are chosen here from the map that was taken.
+  void draw(const LiveMap& map, View view, Frame frame);
+
+  const HeatScale& heat_scale() const { return heat_scale_; }
+  /// Per mesh vertex; empty without a heat map.
+  const Eigen::VectorXd& heat_values() const { return heat_values_; }
+  /// Whether the shader places the vertices itself.
+  bool by_operator() const { return by_operator_; }
+
+ private:
+  void update_heat(const LiveMap& map, View view, bool automatic_range);
+
+  Renderer renderer_;
+  std::shared_ptr<const Image> picture_;
+  Eigen::VectorXd heat_values_;
+  HeatScale heat_scale_;
+  unsigned uploaded_ = 0;  ///< a preparation's number
+  bool timed_ = false;     ///< what was uploaded is no sum of controls
+  bool by_operator_ = false;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,144 @@
+// What is being typed or dragged is kept by ImGui; the scene changes when it is done.
+#include "app/layer_panel.h"
+
+#include <utility>
+
+#include "app/panels.h"
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+namespace holomorph {
+namespace {
+
+/// Glyphs of Font Awesome 4.
+constexpr const char *kShown = "\uf06e", *kHidden = "\uf070", *kLocked = "\uf023",
+                     *kUnlocked = "\uf09c";
+
+/// A small button with one of two faces. Returns whether it was pressed.
+bool toggle(const char* id, bool on, const char* on_face, const char* off_face, const char* tip,
+            float width) {
+  if (!on) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
+  const bool pressed = ImGui::Button((std::string(on ? on_face : off_face) + "###" + id).c_str(),
+                                     {width, ImGui::GetFrameHeight()});
+  ImGui::PopStyleColor(on ? 1 : 2);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  return pressed;
+}
+
+/// The row's name while it is being typed.
+struct Naming {
+  int id = 0;  ///< the layer's; 0: none
+  std::string text;
+  bool starts = false;
+};
+
+void name_field(Workspace& workspace, Naming& naming, size_t layer) {
+  ImGui::SetNextItemWidth(-1);
+  if (std::exchange(naming.starts, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##name", &naming.text, ImGuiInputTextFlags_AutoSelectAll);
+  if (!ImGui::IsItemDeactivated()) return;
+  const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  naming.id = 0;
+  if (cancelled || naming.text.empty()) return;
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  state.name = naming.text;
+  workspace.commit_layers("Name layer", with_layer_state(scene, layer, state));
+}
+
+void layer_row(Workspace& workspace, Naming& naming, size_t layer, float s) {
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  ImGui::PushID(state.id);
+  const auto change = [&](const char* label) {
+    workspace.commit_layers(label, with_layer_state(workspace.document.scene(), layer, state));
+  };
+  if (toggle("shown", state.visible, kShown, kHidden,
+             state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
+    state.visible = !state.visible;
+    change(state.visible ? "Show layer" : "Hide layer");
+  }
+  ImGui::SameLine(0, 0);
+  if (toggle("locked", state.locked, kLocked, kUnlocked,
+             state.locked ? "Locked; click unlocks it" : "Click locks it: edits are refused",
+             30 * s)) {
+    state.locked = !state.locked;
+    change(state.locked ? "Lock layer" : "Unlock layer");
+  }
+  ImGui::SameLine(0, 2 * s);
+  if (naming.id == state.id) {
+    name_field(workspace, naming, layer);
+  } else {
+    const std::string title = title_of_layer(workspace.document.scene(), layer);
+    const bool edited = layer == edited_layer(workspace.document.scene());
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
+    if (ImGui::Selectable((title + "###row").c_str(), edited, ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetFrameHeight()})) {
+      if (ImGui::IsMouseDoubleClicked(0))
+        naming = {state.id, title, true};
+      else
+        workspace.choose_layer(layer);
+    }
+    ImGui::PopStyleVar();
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
+                                     : "Click to edit this layer, double-click to rename it");
+  }
+  ImGui::PopID();
+}
+
+void background_row(Workspace& workspace) {
+  static constexpr const char* kIds[] = {"background.transparent", "background.color",
+                                         "background.original"};
+  static constexpr const char* kNames[] = {"Transparent", "A colour", "The original"};
+  Scene scene = workspace.document.scene();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (begin_combo("background", kNames[static_cast<int>(scene.background.kind)])) {
+    for (int i = 0; i < 3; ++i)
+      if (const Action& action = action_named(kIds[i]);
+          ImGui::Selectable(kNames[i], action.checked(workspace)))
+        run(action, workspace);
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("What is seen and exported where the picture is transparent or has left");
+  if (scene.background.kind != Background::Kind::color) return;
+  float color[3];
+  for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
+  if (ImGui::ColorEdit3("##color", color, ImGuiColorEditFlags_DisplayHex)) {
+    for (size_t k = 0; k < 3; ++k)
+      scene.background.color[k] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
+    workspace.commit_or_amend("Background colour", scene, From::document);
+  }
+}
+
+}  // namespace
+
+void layer_section(Workspace& workspace, double scale) {
+  const float s = static_cast<float>(scale);
+  static Naming naming;
+  const size_t count = layer_count(workspace.document.scene());
+  // As many as fit without pushing everything else away.
+  const float row = ImGui::GetFrameHeightWithSpacing();
+  ImGui::BeginChild("rows", {0, row * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
+  for (size_t i = layer_count(workspace.document.scene()); i-- > 0;)
+    if (i < layer_count(workspace.document.scene())) layer_row(workspace, naming, i, s);
+  ImGui::EndChild();
+  for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {
+    const Action& action = action_named(id);
+    ImGui::BeginDisabled(!action.enabled(workspace));
+    if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
+      run(action, workspace);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+    ImGui::SameLine(0, 4 * s);
+  }
+  ImGui::NewLine();
+  background_row(workspace);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,71 @@
+// Integers throughout: what is opaque or alone stays exactly itself.
+#include "raster/compose.h"
+
+#include <cstring>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+/// `over` above `under`, one pixel of straight alpha.
+void blend(const std::uint8_t* over, std::uint8_t* under) {
+  const unsigned a = over[3], b = under[3];
+  if (a == 0) return;
+  if (a == 255 || b == 0) {
+    std::memcpy(under, over, 4);
+    return;
+  }
+  const unsigned through = b * (255 - a), all = 255 * a + through;  // of 255^2
+  for (int k = 0; k < 3; ++k)
+    under[k] = static_cast<std::uint8_t>((255 * a * over[k] + through * under[k] + all / 2) / all);
+  under[3] = static_cast<std::uint8_t>((all + 127) / 255);
+}
+
+struct Place {
+  int column = 0, row = 0;
+};
+
+}  // namespace
+
+RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit) {
+  // Corners are lower left ones; rows count from the top.
+  const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
+  const int right = shift(over.corner.real() - under.corner.real()),
+            up = shift(over.corner.imag() - under.corner.imag());
+  const int left_edge = std::min(0, right), bottom_edge = std::min(0, up);
+  const int width = std::max(under.image.width, right + over.image.width) - left_edge,
+            height = std::max(under.image.height, up + over.image.height) - bottom_edge;
+  constexpr int kLargest = 16384;
+  if (width > kLargest || height > kLargest)
+    throw Error(ErrorKind::bad_input,
+                "the picture would have more than 16384 pixels a side; choose a smaller scale");
+  const auto place_of = [&](const Image& image, int x, int y) {
+    return Place{x - left_edge, height - (y - bottom_edge) - image.height};
+  };
+  RasterResult result = std::move(under);
+  if (width != result.image.width || height != result.image.height) {
+    const Place at = place_of(result.image, 0, 0);
+    Image larger(width, height);
+    for (int r = 0; r < result.image.height; ++r)
+      std::memcpy(larger.at(at.column, at.row + r), result.image.at(0, r),
+                  4 * static_cast<size_t>(result.image.width));
+    result.image = std::move(larger);
+    result.corner += Complex(left_edge, bottom_edge) / pixels_per_unit;
+  }
+  const Place at = place_of(over.image, right, up);
+  for (int r = 0; r < over.image.height; ++r)
+    for (int c = 0; c < over.image.width; ++c)
+      blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r));
+  return result;
+}
+
+void lay_on(Image& image, const std::array<std::uint8_t, 3>& color) {
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    std::uint8_t pixel[4] = {color[0], color[1], color[2], 255};
+    blend(&image.pixels[i], pixel);
+    std::memcpy(&image.pixels[i], pixel, 4);
+  }
+}
+
+}  // namespace holomorph

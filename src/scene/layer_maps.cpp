@@ -1,0 +1,41 @@
+// Layers are known by their ids, which outlive their places.
+#include "scene/layer_maps.h"
+
+namespace holomorph {
+
+LiveMap& LayerMaps::of(int id) const {
+  std::unique_ptr<LiveMap>& map = maps_[id];
+  if (map) return *map;
+  if (!spare_.empty()) {
+    map = std::move(spare_.back());
+    spare_.pop_back();
+  } else {
+    map = std::make_unique<LiveMap>(options_);
+    if (wake_) map->on_ready(wake_);
+  }
+  return *map;
+}
+
+bool LayerMaps::update_others(const Scene& scene, const std::optional<double>& time) {
+  bool changed = false;
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    if (i == edited_layer(scene) || !layer.layer.visible) continue;
+    changed = of(layer.layer.id).update(layer, {}, time) || changed;
+  }
+  return changed;
+}
+
+bool LayerMaps::busy() const {
+  return std::ranges::any_of(maps_, [](const auto& entry) { return entry.second->busy(); });
+}
+
+void LayerMaps::clear() {
+  for (auto& [id, map] : maps_) {
+    map->clear();
+    spare_.push_back(std::move(map));
+  }
+  maps_.clear();
+}
+
+}  // namespace holomorph

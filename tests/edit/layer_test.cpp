@@ -1,0 +1,124 @@
+// Layers in the editor: choosing, locking, hiding, and undo through all of it.
+#include <catch2/catch.hpp>
+
+#include "desk.h"
+#include "edit/actions.h"
+
+using namespace holomorph;
+
+namespace {
+
+const Points kSquare{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
+
+/// Two layers with the same cage; the upper one is edited.
+struct TwoLayers : Desk {
+  TwoLayers() : Desk(kSquare) {
+    run(action_named("layer.double"), workspace);
+    settle();
+  }
+  Complex corner(size_t layer) const {
+    return layer_at(workspace.document.scene(), layer).pose.vertex(0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Edits move the edited layer alone, and undo leads back through both") {
+  TwoLayers desk;
+  desk.drag({0, 0}, {-20, 0});
+  CHECK(desk.corner(1) == Complex(-20, 0));
+  CHECK(desk.corner(0) == Complex(0, 0));
+  desk.workspace.selection = {{Handle::Kind::cage, 0, 0}};
+  run(action_named("layer.below"), desk.workspace);
+  CHECK(desk.workspace.selection.empty());
+  desk.settle();
+  desk.drag({0, 0}, {0, -30});
+  CHECK(desk.corner(0) == Complex(0, -30));
+  CHECK(desk.corner(1) == Complex(-20, 0));
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.corner(0) == Complex(0, 0));
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(edited_layer(desk.workspace.document.scene()) == 1);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(desk.corner(1) == Complex(0, 0));
+}
+
+TEST_CASE("Looking through layers is one step of the history") {
+  TwoLayers desk;
+  const size_t steps = desk.steps();
+  for (int i = 0; i < 3; ++i) {
+    run(action_named("layer.below"), desk.workspace);
+    run(action_named("layer.above"), desk.workspace);
+  }
+  run(action_named("layer.below"), desk.workspace);
+  CHECK(desk.steps() == steps + 1);
+  CHECK(edited_layer(desk.workspace.document.scene()) == 0);
+  run(action_named("edit.undo"), desk.workspace);
+  CHECK(edited_layer(desk.workspace.document.scene()) == 1);
+  CHECK_FALSE(action_named("layer.above").enabled(desk.workspace));
+}
+
+TEST_CASE("A locked layer refuses edits and says so; the others do not") {
+  TwoLayers desk;
+  run(action_named("layer.lock"), desk.workspace);
+  const Scene before = desk.workspace.document.scene();
+  desk.drag({0, 0}, {-20, 0});
+  CHECK(desk.workspace.document.scene() == before);
+  REQUIRE_FALSE(desk.workspace.toasts.empty());
+  CHECK(desk.workspace.toasts.back().text.find("locked") != std::string::npos);
+  run(action_named("layer.delete"), desk.workspace);
+  CHECK(layer_count(desk.workspace.document.scene()) == 2);
+  run(action_named("layer.down"), desk.workspace);  // its place is not its content
+  CHECK(edited_layer(desk.workspace.document.scene()) == 0);
+  run(action_named("layer.above"), desk.workspace);
+  desk.settle();
+  desk.drag({200, 200}, {220, 200});
+  CHECK(desk.workspace.document.scene().pose.vertex(2) == Complex(220, 200));
+  run(action_named("layer.below"), desk.workspace);
+  run(action_named("layer.lock"), desk.workspace);
+  desk.settle();
+  desk.drag({0, 0}, {-20, 0});
+  CHECK(desk.workspace.document.scene().pose.vertex(0) == Complex(-20, 0));
+}
+
+TEST_CASE("Layers are hidden, ordered and deleted by actions, and each undoes") {
+  TwoLayers desk;
+  const Scene before = desk.workspace.document.scene();
+  for (const char* id : {"layer.visible", "layer.lock", "layer.down", "layer.delete",
+                         "background.original", "background.color"}) {
+    INFO(id);
+    run(action_named(id), desk.workspace);
+    CHECK(desk.workspace.document.scene() != before);
+    run(action_named("edit.undo"), desk.workspace);
+    CHECK(desk.workspace.document.scene() == before);
+  }
+  run(action_named("layer.delete"), desk.workspace);
+  CHECK_FALSE(action_named("layer.delete").enabled(desk.workspace));
+}
+
+TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
+  TwoLayers desk;
+  Workspace& w = desk.workspace;
+  w.go_to_time(0);
+  w.set_key();
+  w.go_to_time(2);
+  desk.settle();
+  w.update_map({});
+  desk.drag({0, 0}, {-40, 0});
+  w.set_key();
+  run(action_named("layer.below"), w);
+  CHECK(w.document.scene().keyframes.empty());
+  w.go_to_time(1);
+  CHECK_FALSE(w.shown_time());
+  REQUIRE(w.time_of_layers() == 1.0);
+  for (int i = 0; i < 200 && (w.update_map({}) || w.maps.busy()); ++i) {
+    desk.settle();
+    w.maps.of(w.document.scene().above[0]->layer.id).finish(*w.document.scene().above[0], {});
+  }
+  w.update_map({});
+  const LiveMap& upper = w.maps.of(w.document.scene().above[0]->layer.id);
+  REQUIRE(upper.timed());
+  CHECK(upper.timed()->pose.vertex(0).real() == Approx(-20).margin(3));
+  CHECK(w.scene().pose.vertex(0) == Complex(0, 0));
+  CHECK(action_named("time.play").enabled(w));
+}

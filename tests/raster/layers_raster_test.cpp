@@ -1,0 +1,152 @@
+// Layers above each other: what is opaque or alone stays bit for bit, and the order is the stack's.
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "raster/compose.h"
+#include "raster/picture.h"
+#include "scene/layers.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+using Pixel = std::array<std::uint8_t, 4>;
+
+Image filled(int width, int height, Pixel pixel) {
+  Image image(width, height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = pixel[i % 4];
+  return image;
+}
+
+Pixel pixel_at(const Image& image, int column, int row) {
+  const std::uint8_t* p = image.at(column, row);
+  return {p[0], p[1], p[2], p[3]};
+}
+
+constexpr Pixel kRed{255, 0, 0, 255}, kBlue{0, 0, 255, 255}, kNothing{0, 0, 0, 0};
+
+/// A red picture of 60 x 40 below a blue one of 30 x 20, which is edited; both with a cage.
+struct Two {
+  Image blue = filled(30, 20, kBlue);
+  Pictures pictures;
+  Scene scene;
+
+  Two() {
+    const auto named = [](const char* file, double width, double height) {
+      Scene layer = with_cage(Scene{}, shapes::rectangle(width, height));
+      layer.image = ImageReference{file, 0, 0, "", ""};
+      return layer;
+    };
+    pictures.put("red", {std::make_shared<const Image>(filled(60, 40, kRed)), ""});
+    scene = with_layer_added(named("red", 60, 40), named("blue", 30, 20));
+  }
+  RasterResult drawn(const PictureOptions& options = {}) const {
+    return picture_of(scene, &blue, options, pictures);
+  }
+};
+
+Scene moved(Scene scene, Complex by) {
+  for (Points& segment : scene.pose.segments)
+    for (Complex& z : segment) z += by;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("The upper layer covers the lower one where it is, and nothing else changes") {
+  Two two;
+  const Image image = two.drawn().image;
+  REQUIRE(image.width == 60);
+  REQUIRE(image.height == 40);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 60; ++column)
+      REQUIRE(pixel_at(image, column, row) == (column < 30 && row >= 20 ? kBlue : kRed));
+  two.scene = with_layer_moved(two.scene, 0);
+  CHECK(two.drawn().image == filled(60, 40, kRed));
+}
+
+TEST_CASE("A layer that leaves the lowest picture enlarges the result, unless that is cropped") {
+  Two two;
+  two.scene = moved(two.scene, {-10, 30});
+  const RasterResult result = two.drawn();
+  CHECK(result.image.width == 70);
+  CHECK(result.image.height == 50);
+  CHECK(result.corner == Complex(-10, 0));
+  CHECK(pixel_at(result.image, 0, 0) == kBlue);
+  CHECK(pixel_at(result.image, 0, 49) == kNothing);
+  CHECK(pixel_at(result.image, 69, 49) == kRed);
+  PictureOptions crop;
+  crop.crop = true;
+  const Image cropped = two.drawn(crop).image;
+  CHECK(cropped.width == 60);
+  CHECK(cropped.height == 40);
+  CHECK(pixel_at(cropped, 0, 0) == kBlue);
+  CHECK(pixel_at(cropped, 30, 0) == kRed);
+}
+
+TEST_CASE("Hidden layers are not drawn, and a scene of hidden layers says so") {
+  Two two;
+  two.scene.layer.visible = false;
+  CHECK(two.drawn().image == filled(60, 40, kRed));
+  LayerState state = two.scene.below[0]->layer;
+  state.visible = false;
+  two.scene = with_layer_state(two.scene, 0, state);
+  CHECK_THROWS_AS(two.drawn(), Error);
+  two.scene.layer.visible = true;
+  CHECK(two.drawn().image == two.blue);
+}
+
+TEST_CASE("The background shows through where no layer is") {
+  Two two;
+  LayerState state = two.scene.below[0]->layer;
+  state.visible = false;
+  two.scene = moved(with_layer_state(two.scene, 0, state), {40, 0});
+  CHECK(pixel_at(two.drawn().image, 0, 0) == kNothing);
+  two.scene.background = {Background::Kind::color, {9, 8, 7}};
+  CHECK(pixel_at(two.drawn().image, 0, 0) == Pixel{9, 8, 7, 255});
+  CHECK(pixel_at(two.drawn().image, 69, 0) == kBlue);
+  two.scene.background.kind = Background::Kind::original;
+  CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // as it was before it moved
+  CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
+  // The same in a scene of one layer.
+  Scene alone = moved(with_cage(Scene{}, shapes::rectangle(30, 20)), {40, 0});
+  alone.background = {Background::Kind::original};
+  const Image both = picture_of(alone, &two.blue).image;
+  CHECK(pixel_at(both, 0, 0) == kBlue);
+  CHECK(pixel_at(both, 69, 0) == kBlue);
+  CHECK(pixel_at(both, 35, 0) == kNothing);
+}
+
+TEST_CASE("Views of the map are about the edited layer alone") {
+  const Two two;
+  PictureOptions options;
+  options.view = View::checker;
+  CHECK(two.drawn(options).image.width == 30);
+}
+
+TEST_CASE("Pixels blend as light does: the mean of colours weighted by what is seen of them") {
+  RasterResult under{filled(2, 1, {200, 100, 0, 255}), 0}, over{filled(2, 1, {0, 100, 200, 51}), 0};
+  const Image opaque = composed(under, over, 1).image;
+  CHECK(pixel_at(opaque, 0, 0) == Pixel{160, 100, 40, 255});
+  under.image = filled(2, 1, {200, 100, 0, 102});
+  const Pixel half = pixel_at(composed(under, over, 1).image, 1, 0);
+  CHECK(half[3] == 133);  // 51 + 102 * 0.8
+  CHECK(half[0] == 123);  // 200 * 81.6 / 132.6
+  under.image = filled(2, 1, {1, 2, 3, 0});
+  CHECK(composed(under, over, 1).image == over.image);
+  over.image = filled(2, 1, {1, 2, 3, 0});
+  under.image = filled(2, 1, {200, 100, 0, 102});
+  CHECK(composed(under, over, 1).image == under.image);
+}
+
+TEST_CASE("Layers of other heights share one grid of pixels at any scale") {
+  const Two two;
+  PictureOptions options;
+  options.scale = 0.37;
+  const Image image = two.drawn(options).image;
+  CHECK(image.width == 23);  // 22.2
+  CHECK(image.height == 15);
+  CHECK(pixel_at(image, 1, 12) == kBlue);
+  CHECK(pixel_at(image, 20, 2) == kRed);
+}

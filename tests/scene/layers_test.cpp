@@ -1,0 +1,192 @@
+// Layers: what is done with the stack leaves each layer itself, files keep it, and maps follow.
+#include "scene/layers.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "scene/document.h"
+#include "scene/keyframes.h"
+#include "scene/layer_maps.h"
+#include "scene/scene_json.h"
+#include "support/folder.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+Scene layer(const std::string& name, double width) {
+  Scene scene = with_cage(Scene{}, shapes::rectangle(width, 60));
+  scene.layer.name = name;
+  return scene;
+}
+
+/// Bottom, middle and top; the top one is edited.
+Scene stack() {
+  return with_layer_added(with_layer_added(layer("bottom", 100), layer("middle", 110)),
+                          layer("top", 120));
+}
+
+std::string names(const Scene& scene) {
+  std::string names;
+  for (size_t i = 0; i < layer_count(scene); ++i)
+    names += layer_at(scene, i).layer.name.substr(0, 1);
+  return names;
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    scene_from_json(text, "s.json");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::bad_input);
+    return error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("Choosing a layer changes nothing but which one is edited") {
+  Scene scene = stack();
+  scene.background = {Background::Kind::color, {1, 2, 3}};
+  scene.extra = R"({"mood":"glad"})";
+  scene = with_animation(scene, {12, true});
+  CHECK(names(scene) == "bmt");
+  CHECK(edited_layer(scene) == 2);
+  for (const size_t other : {0, 1, 2}) {
+    const Scene chosen = with_layer_chosen(scene, other);
+    CHECK(edited_layer(chosen) == other);
+    CHECK(names(chosen) == "bmt");
+    CHECK(chosen.layer == layer_at(scene, other).layer);
+    CHECK(chosen.rest == layer_at(scene, other).rest);
+    CHECK(chosen.background == scene.background);
+    CHECK(chosen.extra == scene.extra);
+    CHECK(chosen.animation == scene.animation);
+    CHECK(with_layer_chosen(chosen, 2) == scene);
+  }
+}
+
+TEST_CASE("Layers move through the stack, are doubled and go, and the others stay themselves") {
+  const Scene scene = stack();
+  CHECK(names(with_layer_moved(scene, 0)) == "tbm");
+  CHECK(with_layer_moved(with_layer_moved(scene, 0), 2) == scene);
+  CHECK(edited_layer(with_layer_moved(scene, 1)) == 1);
+  const Scene doubled = with_layer_doubled(with_layer_chosen(scene, 1));
+  CHECK(names(doubled) == "bmmt");
+  CHECK(doubled.layer.name == "middle copy");
+  CHECK(doubled.rest == layer_at(scene, 1).rest);
+  CHECK(without_layer(doubled) == with_layer_chosen(scene, 1));
+  CHECK(names(without_layer(with_layer_chosen(scene, 0))) == "mt");
+  // Ids stay and are never shared.
+  for (size_t i = 0; i < layer_count(doubled); ++i) {
+    const int id = layer_at(doubled, i).layer.id;
+    CHECK(layer_of_id(doubled, id) == i);
+  }
+  CHECK(layer_of_id(doubled, 99) == layer_count(doubled));
+  LayerState hidden = scene.below[0]->layer;
+  hidden.visible = false;
+  const Scene changed = with_layer_state(scene, 0, hidden);
+  CHECK_FALSE(layer_at(changed, 0).layer.visible);
+  CHECK(layer_at(changed, 1) == layer_at(scene, 1));
+  CHECK(changed != scene);
+  Scene full = scene;
+  while (layer_count(full) < kMostLayers) full = with_layer_added(full, Scene{});
+  CHECK_THROWS_AS(with_layer_added(full, Scene{}), Error);
+}
+
+TEST_CASE("Files keep layers, and scenes of one plain layer are written as before") {
+  Scene scene = stack();
+  scene = with_layer_chosen(scene, 1);
+  scene.layer.visible = false;
+  scene.layer.locked = true;
+  scene.layer.extra = R"({"tint":7})";
+  scene.extra = R"({"mood":"glad"})";
+  scene.background.kind = Background::Kind::original;
+  scene = with_key(scene, 0.5);
+  CHECK(scene_from_json(json_of(scene), "s.json") == scene);
+  CHECK(json_of(scene).find("\"version\": 2") != std::string::npos);
+  const Scene plain = with_cage(Scene{}, shapes::rectangle(90, 60));
+  CHECK(json_of(plain).find("\"version\": 1") != std::string::npos);
+  CHECK(json_of(plain).find("layers") == std::string::npos);
+  for (const Background background : {Background{},
+                                      Background{Background::Kind::original},
+                                      {Background::Kind::color, {250, 0, 16}}}) {
+    Scene on = plain;
+    on.background = background;
+    CHECK(scene_from_json(json_of(on), "s.json") == on);
+  }
+}
+
+TEST_CASE("What is wrong with a layer is said with its place") {
+  const std::string text = json_of(stack());
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    return complaint(changed);
+  };
+  CHECK_THAT(with("\"edited\": 2", "\"edited\": 3"), Catch::Matchers::Contains("/edited"));
+  CHECK_THAT(with("\"middle\"", "7"), Catch::Matchers::Contains("/layers/1/name"));
+  CHECK_THAT(with("\"name\": \"top\"", "\"visible\": 1"),
+             Catch::Matchers::Contains("/layers/2/visible"));
+  CHECK_THAT(with("\"edited\"", "\"background\": \"#12345\", \"edited\""),
+             Catch::Matchers::Contains("/background"));
+  CHECK_THAT(complaint(R"({"format": "holomorph", "version": 2, "layers": []})"),
+             Catch::Matchers::Contains("/layers"));
+}
+
+TEST_CASE("The film is as long as the longest layer's keys, and plays when one of them does") {
+  Scene scene = with_key(with_key(layer("bottom", 100), 0), 3);
+  scene = with_layer_added(scene, layer("top", 100));
+  CHECK(scene.keyframes.empty());
+  CHECK(length_of(scene) == 3);
+  CHECK(plays(scene));
+  CHECK(has_keyframes(scene));
+  CHECK_FALSE(plays(stack()));
+}
+
+TEST_CASE("Each layer keeps its map while layers are chosen and moved") {
+  LayerMaps maps;
+  Scene scene = stack();
+  maps.update_others(scene, {});
+  for (int i = 0; i < 2; ++i) maps.of(scene.below[i]->layer.id).finish(*scene.below[i], {});
+  maps.of(scene.layer.id).finish(scene, {});
+  CHECK_FALSE(maps.busy());
+  const LiveMap& lowest = maps.of(layer_at(scene, 0).layer.id);
+  REQUIRE(lowest.has_map());
+  const unsigned preparation = lowest.preparation();
+  scene = with_layer_chosen(with_layer_moved(scene, 0), 1);
+  CHECK(scene.layer.name == "bottom");
+  LiveMap& now = maps.of(scene.layer.id);
+  CHECK(&now == &lowest);
+  now.update(scene, {});
+  CHECK(now.preparation() == preparation);
+  CHECK_FALSE(now.busy());
+}
+
+TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "pictures");
+  write_file(folder.path / "pictures" / "a.png", encode_png(Image(8, 6)));
+  write_file(folder.path / "b.png", encode_png(Image(5, 4)));
+  Document document = Document::open(folder.path / "pictures" / "a.png");
+  LoadedScene other = scene_of_image(folder.path / "b.png");
+  document.put_picture(other.scene.image->file, *other.pictures.find(other.scene.image->file));
+  document.commit("Add", with_layer_added(document.scene(), other.scene));
+  CHECK(document.image()->width == 5);
+  document.save(folder.path / "pictures" / "s.json");
+  const std::string text = read_file(folder.path / "pictures" / "s.json");
+  CHECK(text.find("\"a.png\"") != std::string::npos);
+  CHECK(text.find("\"../b.png\"") != std::string::npos);
+  const Document again = Document::open(folder.path / "pictures" / "s.json");
+  CHECK(again.image()->width == 5);
+  CHECK(again.pictures().of(layer_at(again.scene(), 0))->width == 8);
+  for (const char* name : {"pictures/a.png", "b.png", "pictures/s.json"})
+    CHECK_THROWS_AS(check_not_a_source(folder.path / name, again.sources()), Error);
+  std::filesystem::remove(folder.path / "b.png");
+  try {
+    Document::open(folder.path / "pictures" / "s.json");
+    FAIL("a missing picture is said");
+  } catch (const Error& error) {
+    CHECK_THAT(error.what(), Catch::Matchers::Contains("/layers/1/image/file"));
+  }
+}
