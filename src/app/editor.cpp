@@ -25,7 +25,8 @@ class Editor {
       : preferences_(load_preferences()),
         window_(1280, 800, preferences_.ui_scale, preferences_.light_theme),
         comparison_([this] { window_.wake(); }),
-        files_(workspace_, preferences_, [this] { document_replaced(); }) {
+        files_(
+            workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); }) {
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
     tools_.push_back(pin_tool());
@@ -33,6 +34,11 @@ class Editor {
     tools_.push_back(outline_tool());
     tools_.push_back(angle_tool());
     workspace_.maps.on_ready([this] { window_.wake(); });
+    workspace_.beside = [this](const std::string& title, Job::Work work,
+                               std::function<void()> then) {
+      const std::string problem = files_.jobs().run(title, std::move(work), std::move(then));
+      if (!problem.empty()) workspace_.complain(Error(ErrorKind::failed, problem));
+    };
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);
     if (!options.file.empty() && !files_.recoverable().empty())

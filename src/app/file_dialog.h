@@ -32,6 +32,8 @@ class FileDialog {
   void start_in(const Path& folder) { folder_ = folder; }
   const Path& folder() const { return folder_; }
   bool open() const { return open_; }
+  /// What is shown below the name, such as why the last answer could not be used.
+  void say(const std::string& message) { message_ = message; }
   /// Draws the dialog while it is open.
   void draw(double scale);
 

@@ -25,10 +25,14 @@ std::vector<std::string> kinds_of_file(std::vector<std::string> kinds) {
 
 }  // namespace
 
-Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced)
+Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
+             const std::function<void()>& wake)
     : workspace_(workspace),
       preferences_(preferences),
       replaced_(std::move(replaced)),
+      jobs_(workspace, wake),
+      dialog_(wake),
+      export_(workspace, jobs_, dialog_),
       recoverable_(holomorph::recoverable(autosave_folder())) {}
 
 void Files::ask_then(Then then) {
@@ -40,22 +44,25 @@ void Files::ask_then(Then then) {
 void Files::adopt(Document document) {
   workspace_.document.remove_autosave(autosave_folder());
   workspace_.open(std::move(document));
-  export_path_.clear();
+  export_.forget();
   replaced_();
 }
 
 std::string Files::open(const Path& path) {
-  try {
-    adopt(Document::open(path));
-    dialog_.start_in(std::filesystem::absolute(path).parent_path());
-    remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+  const auto opened = std::make_shared<std::optional<Document>>();
+  const std::string problem = jobs_.run(
+      "Opening " + path.filename().string(),
+      [opened, path](Job::Progress&) { *opened = Document::open(path); },
+      [this, opened, path] {
+        adopt(std::move(**opened));
+        dialog_.start_in(std::filesystem::absolute(path).parent_path());
+        remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+        keep_preferences();
+      });
+  if (!problem.empty() && !std::filesystem::exists(path) &&
+      std::erase(preferences_.recent, path) > 0)
     keep_preferences();
-  } catch (const Error& error) {
-    if (!std::filesystem::exists(path) && std::erase(preferences_.recent, path) > 0)
-      keep_preferences();
-    return error.what();
-  }
-  return "";
+  return problem;
 }
 
 void Files::complain(const std::string& problem) {
@@ -84,41 +91,43 @@ void Files::drop(const Path& path) {
 }
 
 std::string Files::add_layer(const Path& path) {
-  try {
-    LoadedScene added = is_scene_name(path) ? load_scene(path) : scene_of_image(path);
-    Document& document = workspace_.document;
-    Scene scene = document.scene();
-    for (Scene& layer : layers_of(added.scene)) {
-      if (layer.image)
-        document.put_picture(layer.image->file, *added.pictures.find(layer.image->file));
-      scene = with_layer_added(std::move(scene), std::move(layer));
-    }
-    if (workspace_.commit_layers("Add " + path.stem().string(), std::move(scene)))
-      workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
-    remember(preferences_, std::filesystem::absolute(path).lexically_normal());
-    keep_preferences();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  const auto added = std::make_shared<LoadedScene>();
+  return jobs_.run(
+      "Reading " + path.filename().string(),
+      [added, path](Job::Progress&) {
+        *added = is_scene_name(path) ? load_scene(path) : scene_of_image(path);
+      },
+      [this, added, path] {
+        Document& document = workspace_.document;
+        Scene scene = document.scene();
+        for (Scene& layer : layers_of(added->scene)) {
+          if (layer.image)
+            document.put_picture(layer.image->file, *added->pictures.find(layer.image->file));
+          scene = with_layer_added(std::move(scene), std::move(layer));
+        }
+        if (workspace_.commit_layers("Add " + path.stem().string(), std::move(scene)))
+          workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
+        remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+        keep_preferences();
+      });
 }
 
 std::string Files::replace_picture(const Path& path) {
-  try {
-    Picture picture = read_picture(path);
-    Scene scene = workspace_.document.scene();
-    const std::optional<ImageReference> before = scene.image;
-    scene.image = reference_to(path, picture);
-    if (before &&
-        (before->width != picture.image->width || before->height != picture.image->height))
-      workspace_.say(
-          "The new picture has another size; cage, pins and strokes stay where they are.");
-    workspace_.document.put_picture(scene.image->file, std::move(picture));
-    workspace_.commit("Replace picture", std::move(scene), From::document);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  const auto picture = std::make_shared<Picture>();
+  return jobs_.run(
+      "Reading " + path.filename().string(),
+      [picture, path](Job::Progress&) { *picture = read_picture(path); },
+      [this, picture, path] {
+        Scene scene = workspace_.document.scene();
+        const std::optional<ImageReference> before = scene.image;
+        scene.image = reference_to(path, *picture);
+        if (before &&
+            (before->width != scene.image->width || before->height != scene.image->height))
+          workspace_.say(
+              "The new picture has another size; cage, pins and strokes stay where they are.");
+        workspace_.document.put_picture(scene.image->file, std::move(*picture));
+        workspace_.commit("Replace picture", std::move(scene), From::document);
+      });
 }
 
 Path Files::beside_document(const std::string& name) const {
@@ -128,11 +137,11 @@ Path Files::beside_document(const std::string& name) const {
 
 void Files::ask_sample(const Path& scene) {
   ask_then([this, scene] {
-    try {
-      adopt(Document::copy_of(scene));
-    } catch (const Error& error) {
-      workspace_.complain(error);
-    }
+    const auto opened = std::make_shared<std::optional<Document>>();
+    complain(jobs_.run(
+        "Opening " + scene.filename().string(),
+        [opened, scene](Job::Progress&) { *opened = Document::copy_of(scene); },
+        [this, opened] { adopt(std::move(**opened)); }));
   });
 }
 
@@ -180,38 +189,6 @@ void Files::save(bool as, const Then& then) {
   dialog_.ask(
       {FileQuestion::Mode::save, "Save the scene", "Save", {".json", ".holomorph"}, start, false},
       [this, then](const Path& path, double) { return save_to(path, then); });
-}
-
-std::string Files::export_to(const Path& path, double scale) {
-  try {
-    check_not_a_source(path, workspace_.document.sources());
-    PictureOptions options;
-    options.scale = scale;
-    options.view = workspace_.scene().has_cage() ? workspace_.view : View::image;
-    options.automatic_range = workspace_.automatic_range;
-    options.time = workspace_.time_of_layers();
-    const Document& document = workspace_.document;
-    const RasterResult result =
-        picture_of(document.scene(), document.image(), options, document.pictures());
-    write_file(path, encode_png(result.image));
-    export_path_ = path;
-    export_scale_ = scale;
-    workspace_.say("Exported " + path.filename().string() + ", " +
-                   std::to_string(result.image.width) + " x " +
-                   std::to_string(result.image.height) + " pixels.");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void Files::ask_export() {
-  const Document& document = workspace_.document;
-  const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const std::string stem = source.empty() ? "picture" : source.stem().string();
-  const Path start = export_path_.empty() ? beside_document(stem + "-bent.png") : export_path_;
-  dialog_.ask({FileQuestion::Mode::save, "Export a picture", "Export", {".png"}, start, true},
-              [this](const Path& path, double scale) { return export_to(path, scale); });
 }
 
 void Files::ask_svg(bool pose) {
@@ -306,74 +283,6 @@ void Files::ask_export_surface() {
               [this](const Path& path, double scale) { return export_surface(path, scale); });
 }
 
-void Files::ask_export_film() {
-  const Document& document = workspace_.document;
-  const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const std::string stem = source.empty() ? "film" : source.stem().string();
-  const Path start = film_path_.empty() ? beside_document(stem + ".webp") : film_path_;
-  std::vector<std::string> extensions;
-  for (const FilmFormat& format : film_formats()) extensions.push_back(format.extension);
-  dialog_.ask(
-      {FileQuestion::Mode::save, "Export a film: .webp, .gif, .apng, .png files, .mp4 or .webm",
-       "Export", extensions, start, true, [this](const Path& path) { return files_of_film(path); }},
-      [this](const Path& path, double scale) { return export_film(path, scale); });
-}
-
-std::vector<Path> Files::files_of_film(const Path& path) const {
-  return holomorph::files_of_film(path, last_frame_of(workspace_.document.scene()) + 1);
-}
-
-std::string Files::export_film(const Path& path, double scale) {
-  try {
-    film_format_of(path);
-    for (const Path& file : files_of_film(path))
-      check_not_a_source(file, workspace_.document.sources());
-    FilmOptions options;
-    options.scale = scale;
-    options.view = workspace_.view;
-    film_ = std::make_unique<FilmJob>(
-        path, workspace_.document.scene(),
-        workspace_.document.pictures().shared(workspace_.document.scene()), options,
-        workspace_.document.pictures());
-    film_path_ = path;
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// How far the film is; Cancel and Escape end it and leave nothing.
-void Files::draw_film(double scale) {
-  if (!film_) return;
-  const float s = static_cast<float>(scale);
-  ImGui::OpenPopup("Exporting");
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal("Exporting", nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
-  const std::string name = film_->out().filename().string();
-  ImGui::TextUnformatted(name.c_str());
-  const std::string frames =
-      std::to_string(film_->done()) + " of " + std::to_string(film_->all()) + " frames";
-  ImGui::ProgressBar(static_cast<float>(film_->done()) / static_cast<float>(film_->all()),
-                     {360 * s, 0}, frames.c_str());
-  if (ImGui::Button("Cancel", {120 * s, 0}) ||
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
-    film_->cancel();
-  if (film_->ended()) {
-    if (const auto error = film_->error())
-      workspace_.complain(*error);
-    else if (film_->written())
-      workspace_.say("Exported " + name + ", " + std::to_string(film_->all()) + " frames.");
-    else
-      workspace_.say("The export was cancelled; nothing was written.");
-    film_.reset();
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
-}
-
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
@@ -416,13 +325,10 @@ void Files::answer(Request request) {
       save(true);
       break;
     case Request::export_picture:
-      ask_export();
+      export_.ask(false, folder());
       break;
     case Request::export_again:
-      if (export_path_.empty())
-        ask_export();
-      else
-        complain(export_to(export_path_, export_scale_));
+      export_.again(folder());
       break;
     case Request::import_cage:
       ask_svg(false);
@@ -461,7 +367,7 @@ void Files::answer(Request request) {
       ask_export_svg();
       break;
     case Request::export_film:
-      ask_export_film();
+      export_.ask(true, folder());
       break;
     case Request::export_surface:
       ask_export_surface();
@@ -484,7 +390,8 @@ void Files::draw(double scale) {
   dialog_.draw(scale);
   draw_question(scale);
   draw_drop_question(scale);
-  draw_film(scale);
+  export_.draw(scale);
+  jobs_.draw(scale);
 }
 
 void Files::draw_drop_question(double scale) {

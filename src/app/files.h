@@ -2,9 +2,7 @@
 // ask the user.
 #pragma once
 
-#include "app/file_dialog.h"
-#include "edit/workspace.h"
-#include "film/film.h"
+#include "app/export_dialog.h"
 #include "scene/preferences.h"
 
 namespace holomorph {
@@ -13,8 +11,10 @@ namespace holomorph {
 /// work is lost.
 class Files {
  public:
-  /// `replaced` is called whenever the workspace has got another document.
-  Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced);
+  /// `replaced` is called whenever the workspace has got another document, `wake` on other threads
+  /// when something has ended there.
+  Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
+        const std::function<void()>& wake);
 
   /// Opens a scene or a picture at once, or after the user has decided about unsaved work. Returns
   /// what is wrong, or "".
@@ -37,9 +37,12 @@ class Files {
   void keep_preferences();
   /// Draws the dialog or question that is open.
   void draw(double scale);
-  bool asking() const { return dialog_.open() || question_ || film_ || dropped_; }
+  bool asking() const {
+    return dialog_.open() || export_.open() || question_ || dropped_ || jobs_.running();
+  }
   /// Whether something goes on that is to be seen though nothing happens.
-  bool busy() const { return film_ != nullptr; }
+  bool busy() const { return jobs_.running(); }
+  Jobs& jobs() { return jobs_; }
   bool has_quit() const { return quit_; }
 
  private:
@@ -49,12 +52,11 @@ class Files {
   void recover(const Path& autosave);
   std::string save_to(const Path& path, const Then& then);
   void save(bool as, const Then& then = {});
-  std::string export_to(const Path& path, double scale);
   /// Shows a problem that no dialog is there to show.
   void complain(const std::string& problem);
   /// A name in the folder of the document, or where files were chosen last.
   Path beside_document(const std::string& name) const;
-  void ask_export();
+  Path folder() const { return beside_document("").parent_path(); }
   void ask_svg(bool pose);
   std::string import_svg(const Path& path, bool pose);
   std::string import_outline(const Path& path);
@@ -64,23 +66,17 @@ class Files {
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
-  void ask_export_film();
-  std::string export_film(const Path& path, double scale);
-  std::vector<Path> files_of_film(const Path& path) const;
-  void draw_film(double scale);
   void draw_question(double scale);
 
   Workspace& workspace_;
   Preferences& preferences_;
   std::function<void()> replaced_;
-  FileDialog dialog_;
+  Jobs jobs_;
+  FileChooser dialog_;
+  ExportDialog export_;
   std::vector<Recovery> recoverable_;
   Then after_question_;
-  std::unique_ptr<FilmJob> film_;
-  Path film_path_;
   std::optional<Path> dropped_;  ///< a picture of which it is not decided yet where it goes
-  Path export_path_;
-  double export_scale_ = 1;
   bool question_ = false, quit_ = false, autosave_failed_ = false;
 };
 

@@ -324,7 +324,12 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, b
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const auto section = [&](const char* title, bool opens, auto draw) {
     ImGui::SetNextItemOpen(opens, ImGuiCond_Appearing);
-    if (!ImGui::CollapsingHeader(title)) return;
+    // A quiet line: what is in it matters more.
+    ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    const bool open = ImGui::CollapsingHeader(title);
+    ImGui::PopStyleColor(2);
+    if (!open) return;
     ImGui::PushID(title);
     draw();
     ImGui::PopID();

@@ -72,15 +72,13 @@ void layer_row(Workspace& workspace, Naming& naming, size_t layer, float s) {
   } else {
     const std::string title = title_of_layer(workspace.document.scene(), layer);
     const bool edited = layer == edited_layer(workspace.document.scene());
-    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     if (ImGui::Selectable((title + "###row").c_str(), edited, ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetFrameHeight()})) {
+                          {0, ImGui::GetTextLineHeight()})) {
       if (ImGui::IsMouseDoubleClicked(0))
         naming = {state.id, title, true};
       else
         workspace.choose_layer(layer);
     }
-    ImGui::PopStyleVar();
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
                                      : "Click to edit this layer, double-click to rename it");
@@ -122,11 +120,13 @@ void layer_section(Workspace& workspace, double scale) {
   static Naming naming;
   const size_t count = layer_count(workspace.document.scene());
   // As many as fit without pushing everything else away.
-  const float row = ImGui::GetFrameHeightWithSpacing();
-  ImGui::BeginChild("rows", {0, row * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+  ImGui::BeginChild(
+      "rows", {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
   for (size_t i = layer_count(workspace.document.scene()); i-- > 0;)
     if (i < layer_count(workspace.document.scene())) layer_row(workspace, naming, i, s);
   ImGui::EndChild();
+  ImGui::PopStyleVar();
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {
     const Action& action = action_named(id);
     ImGui::BeginDisabled(!action.enabled(workspace));

@@ -345,8 +345,10 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   const bool shows_progress = ::isatty(STDERR_FILENO);
   int frames = 0;
   heed_interrupts();
+  FilmOptions options;
+  options.picture.scale = command.scale;
   write_film(
-      command.out, loaded.scene, loaded.image(), {command.scale},
+      command.out, loaded.scene, loaded.image(), options,
       [&](int done, int all) {
         if (shows_progress) std::fprintf(stderr, "\rframe %d of %d ", done, all);
         frames = all;

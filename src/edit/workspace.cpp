@@ -243,6 +243,14 @@ void Workspace::go_to(size_t entry) {
   prune_selection();
 }
 
+void Workspace::perform(const std::string& title, const Job::Work& work,
+                        const std::function<void()>& then) {
+  if (beside) return beside(title, work, then);
+  Job::Progress progress;
+  work(progress);
+  then();
+}
+
 void Workspace::erase(const Selection& handles, Refit refit) {
   const std::string what = "Delete " + kind_of(handles);
   try {

@@ -9,6 +9,7 @@
 #include "edit/timeline.h"
 #include "edit/viewport.h"
 #include "scene/document.h"
+#include "scene/job.h"
 #include "scene/layer_maps.h"
 
 namespace holomorph {
@@ -90,6 +91,8 @@ struct Workspace {
   bool auto_cage_curved = false;
   std::optional<Selection> carried_on;  ///< whose step commit_or_amend may carry further
   Request request = Request::none;
+  /// Does work that may take long on another thread and `then` on this one; the window sets it.
+  std::function<void(const std::string& title, Job::Work work, std::function<void()> then)> beside;
   std::vector<Toast> toasts;  ///< taken over by the window
 
   /// The edited layer's map.
@@ -154,6 +157,9 @@ struct Workspace {
   /// The same for what is done in many small pieces: with the selection unchanged it carries the
   /// last step further, if that has the same label.
   void commit_or_amend(const std::string& label, Scene scene, From from = From::shown);
+  /// Work that may take long, and then what is done with it: beside the window, or at once where
+  /// there is none. Throws Error then.
+  void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
   /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
   void erase(const Selection& handles, Refit refit = Refit::curve);
   /// Drops handles that an edit took away.

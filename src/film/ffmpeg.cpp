@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "film/film_writer.h"
+#include "raster/compose.h"
 
 extern char** environ;
 
@@ -59,7 +60,8 @@ class FfmpegWriter final : public FilmWriter {
   }
 
   void add(const Image& frame) override {
-    const Image flat = opaque_ ? over_white(frame) : frame;
+    Image flat = frame;
+    if (opaque_) lay_on(flat, {255, 255, 255});
     for (size_t sent = 0; sent < flat.pixels.size();) {
       const ssize_t count =
           ::send(socket_, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
@@ -125,18 +127,6 @@ class FfmpegWriter final : public FilmWriter {
     const std::string said = all.substr(0, all.find('\n'));
     throw Error(ErrorKind::failed,
                 out_.string() + ": ffmpeg failed" + (said.empty() ? "" : ": " + said));
-  }
-
-  static Image over_white(const Image& frame) {
-    Image flat = frame;
-    for (size_t i = 0; i < flat.pixels.size(); i += 4) {
-      const int alpha = flat.pixels[i + 3];
-      for (size_t c = 0; c < 3; ++c)
-        flat.pixels[i + c] = static_cast<std::uint8_t>(
-            (flat.pixels[i + c] * alpha + 255 * (255 - alpha) + 127) / 255);
-      flat.pixels[i + 3] = 255;
-    }
-    return flat;
   }
 
   Path out_, part_;

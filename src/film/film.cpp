@@ -12,12 +12,18 @@ bool write_film(const Path& out, const Scene& scene, const Image* source,
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "the scene has no keyframes, so there is no film in it");
-  const int frames = last_frame_of(scene) + 1;
+  const int last = options.last < 0 ? last_frame_of(scene) : options.last,
+            frames = last - options.first + 1;
+  if (options.first < 0 || frames < 1 || last > last_frame_of(scene))
+    throw Error(ErrorKind::bad_input,
+                "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", and not " +
+                    std::to_string(options.first) + " to " + std::to_string(last));
   std::vector<double> times;
-  for (int i = 0; i < frames; ++i) times.push_back(i / scene.animation.frames_per_second);
+  for (int i = options.first; i <= last; ++i)
+    times.push_back(i / scene.animation.frames_per_second);
   PictureMaker maker(scene, source, others);
-  PictureOptions picture{options.view, options.scale, options.crop};
-  if (!options.crop) {
+  PictureOptions picture = options.picture;
+  if (!picture.crop && !picture.shows) {
     picture.shows = maker.shown_at(times, [&] { return progress(0, frames); });
     if (!picture.shows) return false;
   }
@@ -34,38 +40,6 @@ bool write_film(const Path& out, const Scene& scene, const Image* source,
   if (!progress(frames, frames)) return false;
   writer->finish();
   return true;
-}
-
-FilmJob::FilmJob(Path out, Scene scene, std::shared_ptr<const Image> source, FilmOptions options,
-                 Pictures others)
-    : out_(std::move(out)),
-      thread_([this, scene = std::move(scene), source = std::move(source), options,
-               others = std::move(others)] {
-        try {
-          const auto go_on = [this](int done, int all) {
-            done_ = done;
-            all_ = all;
-            return !cancelled_;
-          };
-          written_ = write_film(out_, scene, source.get(), options, go_on, others);
-        } catch (const Error& error) {
-          const std::lock_guard lock(mutex_);
-          error_ = error;
-        } catch (const std::exception& error) {
-          const std::lock_guard lock(mutex_);
-          error_ = Error(ErrorKind::failed, std::string("the film failed: ") + error.what());
-        }
-        ended_ = true;
-      }) {}
-
-FilmJob::~FilmJob() {
-  cancel();
-  thread_.join();
-}
-
-std::optional<Error> FilmJob::error() const {
-  const std::lock_guard lock(mutex_);
-  return error_;
 }
 
 }  // namespace holomorph

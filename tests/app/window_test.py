@@ -784,6 +784,11 @@ class WindowTest(unittest.TestCase):
             self.save_as(editor, path)
             self.assertEqual(load(path)["cage"]["pose"][0][0], [321.5, y])
 
+    def press_in_dialog(self, editor, down):
+        """A click in the window's middle column, so many px below its middle, where dialogs are."""
+        editor.press(640, 400 + down)  # the window has 1280 x 800 px
+        time.sleep(0.5)
+
     def field_after(self, picture, _label):
         """The middle of the first number field below the selection's heading: the inspector's only wide dark
         boxes in its left half; the first section of method `cage` has a combo alone."""
@@ -827,6 +832,8 @@ class WindowTest(unittest.TestCase):
             editor.wait(lambda s: s["modified"], "another edit")
             editor.drop(self.picture, 500, 300)
             time.sleep(0.5)
+            self.screenshot(editor, "drop-question")
+            self.press_in_dialog(editor, 47)  # Open it instead
             self.screenshot(editor, "drop-unsaved")
             self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")
             editor.key("Return")  # Save

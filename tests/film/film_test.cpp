@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "scene/job.h"
 #include "scene/keyframes.h"
 #include "support/folder.h"
 
@@ -74,27 +75,56 @@ TEST_CASE("A folder in the place of a frame is said before any frame is replaced
 TEST_CASE("A film on its own thread tells how far it is, and ends when it is cancelled") {
   const Folder folder;
   const Path out = folder.path / "film.apng";
-  const auto image = std::make_shared<const Image>(grey());
+  const Image image = grey();
+  const auto film_into = [&](const Path& path) {
+    return [&image, path](Job::Progress& progress) {
+      write_film(path, film_scene(), &image, {},
+                 [&](int done, int all) { return progress.at(done, all); });
+    };
+  };
   {
-    FilmJob job(out, film_scene(), image, {});
+    std::atomic<bool> woken = false;
+    Job job("Film", film_into(out), [&] { woken = true; });
     while (!job.ended()) std::this_thread::yield();
-    CHECK(job.written());
+    CHECK(std::filesystem::exists(out));
     CHECK(job.done() == 13);
+    CHECK(job.all() == 13);
     CHECK_FALSE(job.error());
+    while (!woken) std::this_thread::yield();
   }
   std::filesystem::remove(out);
   {
-    FilmJob job(folder.path / "none" / "film.apng", film_scene(), image, {});
-    while (!job.ended()) std::this_thread::yield();
+    Job job("Film", film_into(folder.path / "none" / "film.apng"));
+    CHECK(job.ends_within(60000));
     REQUIRE(job.error());
-    CHECK_FALSE(job.written());
   }
-  { FilmJob cancelled(out, film_scene(), image, {}); }
+  { Job cancelled("Film", film_into(out)); }
   if (std::filesystem::exists(out)) {  // it was ready before: then whole
     const std::string bytes = read_file(out);
     CHECK(bytes.substr(bytes.size() - 8, 4) == "IEND");
   }
   Scene still = film_scene();
   still.keyframes.clear();
-  CHECK_THROWS_AS(write_film(out, still, image.get(), {}, [](int, int) { return true; }), Error);
+  CHECK_THROWS_AS(write_film(out, still, &image, {}, [](int, int) { return true; }), Error);
+}
+
+TEST_CASE("A part of the frames is that part of the film") {
+  const Folder folder;
+  const Image image = grey();
+  const auto go_on = [](int, int) { return true; };
+  FilmOptions options;
+  write_film(folder.path / "all.png", film_scene(), &image, options, go_on);
+  options.first = 4;
+  options.last = 6;
+  options.picture.shows = PictureMaker(film_scene(), &image).rectangle();
+  write_film(folder.path / "part.png", film_scene(), &image, options, go_on);
+  CHECK(folder.names().size() == 13 + 3);
+  PictureOptions still;
+  still.shows = options.picture.shows;
+  still.time = 5 / film_scene().animation.frames_per_second;
+  CHECK(read_file(numbered(folder.path / "part.png", 1)) ==
+        encode_png(picture_of(film_scene(), &image, still).image));
+  options.last = 13;
+  CHECK_THROWS_WITH(write_film(folder.path / "no.png", film_scene(), &image, options, go_on),
+                    Catch::Contains("0 to 12"));
 }

@@ -18,14 +18,19 @@ bool has_cage_selection(const Workspace& w) {
 }
 
 void make_cage(Workspace& w) {
-  Cage cage = auto_cage(*w.document.image(),
-                        {w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved});
-  if (w.commit("Cage from picture", with_cage(w.document.scene(), std::move(cage)),
-               From::document)) {
-    w.posture = Posture::pose;
-    w.tool = ToolId::select;
-    w.selection.clear();
-  }
+  const auto cage = std::make_shared<Cage>();
+  const auto image = w.document.pictures().shared(w.document.scene());
+  const AutoCageOptions options{w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved};
+  w.perform(
+      "Making the cage", [=](Job::Progress&) { *cage = auto_cage(*image, options); },
+      [&w, cage] {
+        if (!w.commit("Cage from picture", with_cage(w.document.scene(), std::move(*cage)),
+                      From::document))
+          return;
+        w.posture = Posture::pose;
+        w.tool = ToolId::select;
+        w.selection.clear();
+      });
 }
 
 void switch_posture(Workspace& w) {

@@ -22,7 +22,7 @@ std::vector<Action> file_actions() {
        has_content,
        ask<Request::save_as>},
       {"file.export",
-       "Export PNG...",
+       "Export...",
        kExport,
        "File",
        {{'E', kCtrl}},

@@ -1,0 +1,320 @@
+// Settings stay as they were from one export to the next one of the same document.
+#include "app/export_dialog.h"
+
+#include <imgui.h>
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+#include <utility>
+
+#include "app/theme.h"
+
+namespace holomorph {
+namespace {
+
+constexpr const char* kRegions[] = {"All of it", "The picture's rectangle",
+                                    "What the canvas shows"};
+
+/// The extension, and whether it is a film's.
+struct Format {
+  std::string label, extension;
+  bool film = false;
+};
+
+std::vector<Format> formats(bool plays) {
+  std::vector<Format> all{{"PNG picture", ".png", false}};
+  if (plays)
+    for (const FilmFormat& format : film_formats())
+      all.push_back({format.label, format.extension, true});
+  return all;
+}
+
+bool is_of(const ExportSettings& settings, const Format& format) {
+  return settings.film == format.film &&
+         lower_case(settings.path.extension().string()) == format.extension;
+}
+
+}  // namespace
+
+void ExportDialog::ask(bool film, const Path& folder) {
+  const Document& document = workspace_.document;
+  if (last_) {
+    settings_ = *last_;
+  } else {
+    const Path source = document.path().empty() ? document.image_path() : document.path();
+    const std::string stem = source.empty() ? "picture" : source.stem().string();
+    settings_ = {};
+    settings_.path = folder / (stem + (film ? ".webp" : "-bent.png"));
+  }
+  const int last = last_frame_of(document.scene());
+  settings_.last = last;
+  settings_.first = std::clamp(settings_.first, 0, last);
+  if (film != settings_.film) {
+    settings_.film = film;
+    settings_.path.replace_extension(film ? ".webp" : ".png");
+  }
+  name_ = settings_.path.string();
+  message_.clear();
+  confirming_ = false;
+  open_ = opening_ = true;
+}
+
+void ExportDialog::again(const Path& folder) {
+  if (!last_) return ask(false, folder);
+  if (const std::string problem = start(*last_); !problem.empty())
+    workspace_.complain(Error(ErrorKind::failed, problem));
+}
+
+/// The part of the plane that is exported; none where it follows from the maps.
+std::optional<Box> ExportDialog::region_box() const {
+  if (settings_.region == ExportSettings::Region::canvas) {
+    const Viewport& view = workspace_.viewport;
+    Box box;
+    box.include(view.plane_at_px({view.left, view.top}));
+    box.include(view.plane_at_px({view.left + view.width, view.top + view.height}));
+    return box;
+  }
+  if (settings_.region != ExportSettings::Region::picture) return {};
+  const Document& document = workspace_.document;
+  const Box box = PictureMaker(document.scene(), document.image(), document.pictures()).rectangle();
+  return box.empty() ? std::nullopt : std::optional(box);
+}
+
+std::string ExportDialog::result_text() const {
+  const std::optional<Box> box = region_box();
+  const Box shown = box ? *box : workspace_.content_box();
+  char text[160];
+  const int frames = settings_.last - settings_.first + 1;
+  int used = std::snprintf(text, sizeof text, "%s%.0f x %.0f pixels",
+                           box              ? ""
+                           : settings_.film ? "At least "
+                                            : "About ",
+                           std::ceil(shown.width() * settings_.scale),
+                           std::ceil(shown.height() * settings_.scale));
+  if (settings_.film) {
+    const double rate = workspace_.document.scene().animation.frames_per_second;
+    std::snprintf(text + used, sizeof text - static_cast<size_t>(used),
+                  ", %d frame%s, %.2f s at %.5g a second", frames, frames == 1 ? "" : "s",
+                  frames / rate, rate);
+  }
+  return text;
+}
+
+std::vector<Path> ExportDialog::files() const {
+  return settings_.film ? files_of_film(settings_.path, settings_.last - settings_.first + 1)
+                        : std::vector{settings_.path};
+}
+
+std::string ExportDialog::start(const ExportSettings& settings) {
+  settings_ = settings;
+  const Document& document = workspace_.document;
+  try {
+    if (settings.film) film_format_of(settings.path);
+    for (const Path& file : files()) check_not_a_source(file, document.sources());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  Scene scene = document.scene();
+  if (settings.background) scene.background = *settings.background;
+  PictureOptions options;
+  options.scale = settings.scale;
+  options.view = scene.has_cage() ? workspace_.view : View::image;
+  options.automatic_range = workspace_.automatic_range;
+  options.shows = region_box();
+  options.time = workspace_.time_of_layers();
+  struct Work {
+    Scene scene;
+    Pictures pictures;
+    ExportSettings settings;
+    PictureOptions options;
+    std::string done;
+  };
+  const auto work =
+      std::make_shared<Work>(Work{std::move(scene), document.pictures(), settings, options, ""});
+  const auto export_it = [work](Job::Progress& progress) {
+    const auto& [scene, pictures, settings, options, done] = *work;
+    const Image* image = pictures.of(scene);
+    const std::string name = settings.path.filename().string();
+    if (settings.film) {
+      FilmOptions film{options, settings.first, settings.last, settings.loops};
+      write_film(
+          settings.path, scene, image, film,
+          [&](int done, int all) { return progress.at(done, all); }, pictures);
+      work->done = "Exported " + name + ", " + std::to_string(settings.last - settings.first + 1) +
+                   " frames.";
+      return;
+    }
+    const RasterResult result = picture_of(scene, image, options, pictures);
+    if (progress.cancelled()) return;
+    const std::string bytes = encode_png(result.image);
+    if (progress.cancelled()) return;
+    write_file(settings.path, bytes);
+    work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " x " +
+                 std::to_string(result.image.height) + " pixels.";
+  };
+  last_ = settings;
+  return jobs_.run("Exporting " + settings.path.filename().string(), export_it,
+                   [this, work] { workspace_.say(work->done); });
+}
+
+void ExportDialog::accept() {
+  Path path = name_;
+  if (path.empty()) return;
+  if (path.is_relative()) path = settings_.path.parent_path() / path;
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    message_ = path.string() + " is a folder; add a name.";
+    return;
+  }
+  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
+  const std::string extension = settings_.path.extension().string(),
+                    typed = lower_case(path.extension().string());
+  const auto found = std::ranges::find(known, typed, &Format::extension);
+  const bool same = std::ranges::any_of(known, [&](const Format& format) {
+    return format.extension == typed && format.film == settings_.film;
+  });
+  if (found == known.end())
+    path += extension;
+  else if (!same)
+    settings_.film = found->film;
+  settings_.path = path;
+  name_ = path.string();
+  if (!confirming_) {
+    std::vector<Path> there = files();
+    std::erase_if(there, [](const Path& file) { return !std::filesystem::exists(file); });
+    if (!there.empty()) {
+      confirming_ = opening_ = true;
+      message_ = there[0].filename().string() +
+                 (there.size() == 1 ? " exists already. Enter or Replace puts this in its place."
+                                    : " and " + std::to_string(there.size() - 1) +
+                                          " more exist already. Enter or Replace puts these in "
+                                          "their places.");
+      return;
+    }
+  }
+  confirming_ = false;
+  message_ = start(settings_);
+  open_ = !message_.empty();
+}
+
+void ExportDialog::draw_file(double scale) {
+  const float s = static_cast<float>(scale);
+  if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-110 * s);
+  const bool entered = ImGui::InputTextWithHint(
+      "##name", "File", &name_,
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  if (ImGui::IsItemEdited()) confirming_ = false;
+  ImGui::SameLine();
+  if (ImGui::Button("Choose...", {-1, 0})) {
+    std::vector<std::string> extensions;
+    for (const Format& format : formats(plays(workspace_.document.scene())))
+      if (std::ranges::find(extensions, format.extension) == extensions.end())
+        extensions.push_back(format.extension);
+    // The extension of what is chosen now is the one to be added.
+    std::ranges::stable_partition(extensions, [&](const std::string& extension) {
+      return extension == settings_.path.extension().string();
+    });
+    chooser_.ask(
+        {FileQuestion::Mode::save, "Export into", "Choose", extensions, Path(name_), false},
+        [this](const Path& path, double) {
+          name_ = path.string();
+          const std::string kind = lower_case(path.extension().string());
+          if (kind != ".png") settings_.film = true;
+          settings_.path = path;
+          confirming_ = true;  // it was asked
+          return std::string();
+        });
+  }
+  if (entered) accept();
+}
+
+void ExportDialog::draw_format(float s) {
+  std::string preview = settings_.path.extension().string();
+  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
+  for (const Format& format : known)
+    if (is_of(settings_, format)) preview = format.label;
+  ImGui::SetNextItemWidth(300 * s);
+  if (!ImGui::BeginCombo("format", preview.c_str())) return;
+  for (const Format& format : known)
+    if (ImGui::Selectable(format.label.c_str(), is_of(settings_, format))) {
+      settings_.film = format.film;
+      settings_.path = Path(name_).replace_extension(format.extension);
+      name_ = settings_.path.string();
+      confirming_ = false;
+    }
+  ImGui::EndCombo();
+}
+
+void ExportDialog::draw_look(float s) {
+  float percent = static_cast<float>(100 * settings_.scale);
+  ImGui::SetNextItemWidth(300 * s);
+  if (ImGui::SliderFloat("scale", &percent, 10, 400, "%.0f %%",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    settings_.scale = std::round(percent) / 100;
+  int region = static_cast<int>(settings_.region);
+  ImGui::SetNextItemWidth(300 * s);
+  if (ImGui::Combo("region", &region, kRegions, 3))
+    settings_.region = static_cast<ExportSettings::Region>(region);
+  int background = settings_.background ? 1 + static_cast<int>(settings_.background->kind) : 0;
+  ImGui::SetNextItemWidth(300 * s);
+  if (ImGui::Combo("background", &background,
+                   "As in the scene\0Transparent\0A colour\0The original\0")) {
+    if (background == 0)
+      settings_.background.reset();
+    else
+      settings_.background = {
+          static_cast<Background::Kind>(background - 1),
+          settings_.background ? settings_.background->color : Background{}.color};
+  }
+  if (!settings_.background || settings_.background->kind != Background::Kind::color) return;
+  float color[3];
+  for (size_t k = 0; k < 3; ++k)
+    color[k] = static_cast<float>(settings_.background->color[k]) / 255;
+  ImGui::SetNextItemWidth(300 * s);
+  if (ImGui::ColorEdit3("colour", color, ImGuiColorEditFlags_DisplayHex))
+    for (size_t k = 0; k < 3; ++k)
+      settings_.background->color[k] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
+}
+
+void ExportDialog::draw_frames(float s) {
+  const int last = last_frame_of(workspace_.document.scene());
+  int range[2] = {settings_.first, settings_.last};
+  ImGui::SetNextItemWidth(300 * s);
+  if (ImGui::DragIntRange2("frames", &range[0], &range[1], 0.2f, 0, last, "from %d", "to %d",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+    settings_.first = std::clamp(range[0], 0, last);
+    settings_.last = std::clamp(range[1], settings_.first, last);
+  }
+  ImGui::Checkbox("loops", &settings_.loops);
+}
+
+void ExportDialog::draw(double scale) {
+  if (!open_ || chooser_.open()) return;  // while a file is chosen this waits behind
+  const float s = static_cast<float>(scale);
+  ImGui::OpenPopup("Export###export");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(620 * s, display.x - 20), 0});
+  if (!ImGui::BeginPopupModal("Export###export", nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  draw_file(scale);
+  draw_format(s);
+  draw_look(s);
+  if (settings_.film) draw_frames(s);
+  ImGui::Dummy({0, 4 * s});
+  wrapped_text(message_.empty() ? result_text() : message_);
+  ImGui::Dummy({0, 4 * s});
+  if (ImGui::Button(confirming_ && !message_.empty() ? "Replace" : "Export", {120 * s, 0}))
+    accept();
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {120 * s, 0}) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    open_ = false;
+  if (!open_ || chooser_.open()) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,41 @@
+// Where the user says which file: the desktop's own dialog where there is one, the browser in this
+// window otherwise.
+#pragma once
+
+#include <memory>
+
+#include "app/file_dialog.h"
+#include "scene/job.h"
+
+namespace holomorph {
+
+/// Asks one question at a time; the answer comes through the callback, once.
+class FileChooser {
+ public:
+  using Answer = FileDialog::Answer;
+
+  /// `wake` is called on another thread when the desktop's dialog was answered.
+  explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// Questions that ask more than a file are always asked in this window.
+  void ask(FileQuestion question, Answer answer);
+  void start_in(const Path& folder) { browser_.start_in(folder); }
+  const Path& folder() const { return browser_.folder(); }
+  bool open() const { return browser_.open() || native_; }
+  void draw(double scale);
+  /// Whether to use the desktop's dialogs.
+  void use_native(bool use) { uses_native_ = use; }
+
+ private:
+  void take_native();
+
+  FileDialog browser_;
+  std::function<void()> wake_;
+  bool uses_native_ = true;
+  FileQuestion question_;
+  Answer answer_;
+  std::shared_ptr<std::string> chosen_;
+  std::unique_ptr<Job> native_;
+};
+
+}  // namespace holomorph

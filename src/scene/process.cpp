@@ -1,0 +1,101 @@
+// POSIX calls: nothing here goes through a shell.
+#include "scene/process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+extern char** environ;
+
+namespace holomorph {
+namespace {
+
+/// A started program and this end of the socket that is its input and output.
+struct Child {
+  pid_t pid = 0;
+  int socket = -1;
+};
+
+std::optional<Child> started(const std::vector<std::string>& words) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return {};
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  Child child;
+  const int wrong =
+      ::posix_spawnp(&child.pid, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  child.socket = ends[0];
+  if (wrong == 0) return child;
+  ::close(child.socket);
+  return {};
+}
+
+}  // namespace
+
+bool has_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::optional<Finished> run_program(const std::vector<std::string>& words, const std::string& input,
+                                    const std::function<bool()>& go_on, size_t limit) {
+  const std::optional<Child> child = started(words);
+  if (!child) return {};
+  Finished finished;
+  size_t sent = 0;
+  bool good = true, told_end = false;
+  while (good) {
+    if (sent == input.size() && !told_end) {
+      ::shutdown(child->socket, SHUT_WR);
+      told_end = true;
+    }
+    pollfd wait{child->socket, static_cast<short>(sent < input.size() ? POLLIN | POLLOUT : POLLIN),
+                0};
+    if (::poll(&wait, 1, 40) < 0 && errno != EINTR) good = false;
+    if (wait.revents & POLLOUT) {
+      const ssize_t count = ::send(child->socket, input.data() + sent, input.size() - sent,
+                                   MSG_NOSIGNAL | MSG_DONTWAIT);
+      sent = count > 0                           ? sent + static_cast<size_t>(count)
+             : errno == EAGAIN || errno == EINTR ? sent
+                                                 : input.size();  // it does not listen any more
+    }
+    if (wait.revents & (POLLIN | POLLHUP)) {
+      std::array<char, 65536> part;
+      const ssize_t count = ::recv(child->socket, part.data(), part.size(), MSG_DONTWAIT);
+      if (count == 0) break;
+      if (count > 0) finished.output.append(part.data(), static_cast<size_t>(count));
+      if (count < 0 && errno != EAGAIN && errno != EINTR) break;
+    }
+    good = good && go_on() && finished.output.size() <= limit;
+  }
+  ::close(child->socket);
+  if (!good) ::kill(child->pid, SIGTERM);
+  int status = 0;
+  while (::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!good) return {};
+  finished.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  return finished;
+}
+
+}  // namespace holomorph
