@@ -8,6 +8,8 @@
 #include "app/canvas.h"
 #include "app/comparison_panel.h"
 #include "app/files.h"
+#include "app/keys_window.h"
+#include "app/palette.h"
 #include "app/panels.h"
 #include "app/state_file.h"
 #include "app/surface_pane.h"
@@ -23,10 +25,15 @@ class Editor {
  public:
   explicit Editor(const EditorOptions& options)
       : preferences_(load_preferences()),
-        window_(1280, 800, preferences_.ui_scale, preferences_.light_theme),
+        window_(1280, 800, preferences_.ui_scale, preferences_.theme),
         comparison_([this] { window_.wake(); }),
         files_(
-            workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); }) {
+            workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); }),
+        keys_(workspace_, files_.chooser(), [this] {
+          preferences_.keys = changed_keys();
+          files_.keep_preferences();
+        }) {
+    use_keys(preferences_.keys);
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
     tools_.push_back(pin_tool());
@@ -61,7 +68,7 @@ class Editor {
  private:
   void frame() {
     if (std::exchange(restyle_, false)) {
-      window_.set_style(preferences_.ui_scale, preferences_.light_theme);
+      window_.set_style(preferences_.ui_scale, preferences_.theme);
       fit_ = true;
     }
     window_.begin_frame();
@@ -139,11 +146,21 @@ class Editor {
     was_active_ = ImGui::IsAnyItemActive();
     const bool popup =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    const bool modal = files_.asking() || palette_ || help_ || popup;
+    const bool modal = files_.asking() || palette_.open() || keys_.open() || popup;
     for (const Shortcut& key : window_.take_keys())
-      if (!typing && !modal) take_key(key);
-    workspace_.hide_overlays = !typing && window_.is_down('H');
-    workspace_.show_original = !typing && window_.is_down('\\');
+      if (keys_.waits_for_key())
+        keys_.take(key);
+      else if (!typing && !modal)
+        take_key(key);
+    workspace_.hide_overlays = !typing && is_held("hold.overlays");
+    workspace_.show_original = !typing && is_held("hold.original");
+    if (!typing && is_held("hold.alt")) ImGui::GetIO().KeyAlt = true;
+  }
+
+  /// Whether a key is down that does something while it is held.
+  bool is_held(const char* id) const {
+    return std::ranges::any_of(action_named(id).keys,
+                               [&](const Shortcut& key) { return window_.is_down(key); });
   }
 
   void take_key(const Shortcut& key) {
@@ -188,10 +205,12 @@ class Editor {
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (space && !std::exchange(space_, true)) space_pans_ = files_.asking() || palette_ || help_;
+    if (space && !std::exchange(space_, true))
+      space_pans_ = files_.asking() || palette_.open() || keys_.open();
     space_pans_ = space_pans_ || panning_;
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
-      holomorph::run(action_named("time.play"), workspace_);
+      if (const Action* action = action_for(Key::space, workspace_))
+        holomorph::run(*action, workspace_);
     if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
     if (panning_ || input.wheel != 0 || input.pressed) opened_ = false;
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
@@ -229,12 +248,10 @@ class Editor {
 
   void answer(Request request) {
     files_.answer(request);
-    if (request == Request::help) help_ = true;
+    if (request == Request::help) keys_.show();
+    if (request == Request::context_menu) ImGui::OpenPopup("context");
     if (request == Request::compare) comparison_.start(workspace_.document.scene());
-    if (request == Request::palette) {
-      palette_ = palette_opening_ = true;
-      palette_text_.clear();
-    }
+    if (request == Request::palette) palette_.show();
   }
 
   void answer(const PanelAnswer& wanted) {
@@ -265,7 +282,7 @@ class Editor {
   }
 
   void draw_canvas() {
-    const CanvasColors colors = canvas_colors(window_.light());
+    const CanvasColors colors = canvas_colors(window_.theme());
     canvas_.draw(workspace_, {window_.framebuffer_width(), window_.framebuffer_height(),
                               static_cast<double>(window_.framebuffer_width()) / window_.width(),
                               colors.canvas, colors.backdrop});
@@ -273,7 +290,7 @@ class Editor {
 
   void draw_panels(const Input& input) {
     const double scale = window_.scale();
-    const OverlayStyle style{canvas_colors(window_.light()), scale};
+    const OverlayStyle style{canvas_colors(window_.theme()), scale};
     answer(draw_menu_bar(workspace_, preferences_));
     StatusLine status;
     if (workspace_.document.empty()) {
@@ -286,7 +303,7 @@ class Editor {
                     style);
       draw_toolbar(workspace_, scale);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
-      draw_inspector(workspace_, canvas_.edited().heat_scale(), scale, window_.light());
+      draw_inspector(workspace_, canvas_.edited().heat_scale(), scale, window_.theme());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
       if (workspace_.timeline.visible) timeline_.draw(workspace_, scale);
       draw_context_menu(workspace_);
@@ -306,10 +323,8 @@ class Editor {
     if (workspace_.map().error() && workspace_.map().error()->where())
       draw_marker(workspace_, *workspace_.map().error()->where(), style);
     files_.draw(scale);
-    if (help_) help_ = draw_help(scale);
-    if (palette_)
-      palette_ =
-          draw_palette(workspace_, palette_text_, std::exchange(palette_opening_, false), scale);
+    keys_.draw(scale);
+    palette_.draw(workspace_, scale);
   }
 
   Preferences preferences_;
@@ -321,15 +336,16 @@ class Editor {
   std::vector<Sample> samples_;
   Toasts toasts_;
   std::optional<StateFile> state_file_;
-  std::string title_, palette_text_;
+  std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, was_active_ = false,
        restyle_ = false;
-  bool help_ = false, palette_ = false, palette_opening_ = false;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
   SurfacePane surface_pane_;
   TimelinePanel timeline_;
   Files files_;
+  KeysWindow keys_;
+  Palette palette_;
 };
 
 }  // namespace

@@ -381,6 +381,7 @@ void Files::answer(Request request) {
     case Request::none:
     case Request::help:
     case Request::palette:
+    case Request::context_menu:
     case Request::compare:
       break;
   }

@@ -43,6 +43,7 @@ class Files {
   /// Whether something goes on that is to be seen though nothing happens.
   bool busy() const { return jobs_.running(); }
   Jobs& jobs() { return jobs_; }
+  FileChooser& chooser() { return dialog_; }
   bool has_quit() const { return quit_; }
 
  private:

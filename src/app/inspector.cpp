@@ -312,7 +312,7 @@ void history_section(Workspace& workspace) {
 
 }  // namespace
 
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, bool light) {
+void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, Theme theme) {
   const PanelSizes sizes = PanelSizes::at(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(
@@ -340,7 +340,7 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, b
     convergence_section(workspace, scale);
   });
   if (workspace.map().has_map())
-    section("Folds", true, [&] { injectivity_section(workspace, light); });
+    section("Folds", true, [&] { injectivity_section(workspace, theme); });
   section("Selection", true, [&] { selection_section(workspace); });
   section("Layers", true, [&] { layer_section(workspace, scale); });
   section("Cage", false, [&] { cage_section(workspace); });

@@ -70,10 +70,10 @@ void convergence_section(Workspace& workspace, double scale) {
   ImGui::TextDisabled("energy %.3g", map.energies[static_cast<size_t>(shown)]);
 }
 
-void injectivity_section(Workspace& workspace, bool light) {
+void injectivity_section(Workspace& workspace, Theme theme) {
   if (!workspace.map().has_map()) return;
   const Injectivity& found = workspace.map().injectivity();
-  const ImVec4 warning = ImGui::ColorConvertU32ToFloat4(canvas_colors(light).warning);
+  const ImVec4 warning = ImGui::ColorConvertU32ToFloat4(canvas_colors(theme).warning);
   const auto show = [&](Complex where, const char* text) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x +

@@ -22,11 +22,36 @@ void stroke(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU3
   list.AddPolyline(line.data(), static_cast<int>(line.size()), color, flags, 1.8f * width);
 }
 
+/// What is at rest is dashed: colours alone tell it to not everyone.
+void dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
+            const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale), period = 12 * s, drawn = 8 * s;
+  float at = 0;  // along the dashes' period
+  for (size_t i = 0; i < line.size(); ++i) {
+    const ImVec2 a = line[i], b = line[(i + 1) % line.size()];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0) || length > 1e5f) continue;
+    const auto place = [&](float t) {
+      return ImVec2(a.x + (b.x - a.x) * t / length, a.y + (b.y - a.y) * t / length);
+    };
+    for (float t = -at; t < length; t += period) {
+      const float from = std::max(t, 0.0f), to = std::min(t + drawn, length);
+      if (to > from) list.AddLine(place(from), place(to), color, 1.8f * s);
+    }
+    at = std::fmod(at + length, period);
+  }
+}
+
 void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                const OverlayStyle& style) {
   std::vector<ImVec2> line;
   for (const Complex& z : outline_of(cage, 24)) line.push_back(px(workspace, z));
-  if (line.size() > 1) stroke(list, line, true, color, style);
+  if (line.size() < 2) return;
+  if (workspace.posture == Posture::pose) return stroke(list, line, true, color, style);
+  const float width = static_cast<float>(style.scale);
+  list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
+                   ImDrawFlags_Closed, 3.5f * width);
+  dashes(list, line, color, style);
 }
 
 /// From each vertex to its tangents; all of the control polygon for higher degrees.

@@ -61,9 +61,15 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {
       ImGui::Separator();
-      if (ImGui::MenuItem("Light theme", "", preferences.light_theme)) {
-        preferences.light_theme = !preferences.light_theme;
-        answer.style_changed = true;
+      if (ImGui::BeginMenu("Theme")) {
+        for (const auto& [theme, label] :
+             {std::pair(Theme::dark, "Dark"), std::pair(Theme::light, "Light"),
+              std::pair(Theme::contrast, "High contrast")})
+          if (ImGui::MenuItem(label, "", preferences.theme == theme)) {
+            preferences.theme = theme;
+            answer.style_changed = true;
+          }
+        ImGui::EndMenu();
       }
       if (ImGui::BeginMenu("Size of the interface")) {
         for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
@@ -174,7 +180,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   std::string hint, note;
   ImVec4 note_color;
   if (map.error()) {
-    ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "%s", map.error()->what());
+    ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 %s", map.error()->what());
     if (const auto where = map.error()->where()) {
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) workspace.viewport.center = *where;
@@ -186,10 +192,10 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
       note = "\uf00c " + map.map().note;
       note_color = proved_color();
     } else if (map.has_map() && state == SampledMap::Status::infeasible) {
-      note = map.map().note;
+      note = "\uf071 " + map.map().note;
       note_color = {1.0f, 0.45f, 0.4f, 1};
     } else if (const auto fold = map.injectivity().fold) {
-      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "The picture folds over itself");
+      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 The picture folds over itself");
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) {
         workspace.viewport.center = *fold;
@@ -301,7 +307,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   ImGui::TextDisabled("or drop a file on this window");
   if (!recoverable.empty()) {
     ImGui::Dummy({0, 8 * s});
-    ImGui::PushStyleColor(ImGuiCol_Text, canvas_colors(preferences.light_theme).warning);
+    ImGui::PushStyleColor(ImGuiCol_Text, canvas_colors(preferences.theme).warning);
     ImGui::TextUnformatted("Work that was not saved:");
     ImGui::PopStyleColor();
     for (const auto& [path, label] : recoverable) {

@@ -35,7 +35,7 @@ struct PanelSizes {
 /// One menu per name in the action table. Returns recent files to open and style changes.
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences);
 void draw_toolbar(Workspace& workspace, double scale);
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, bool light);
+void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, Theme theme);
 
 /// What the status bar says besides the workspace.
 struct StatusLine {
@@ -62,10 +62,5 @@ void points_slider(Workspace& workspace, float width);
 
 /// The two buttons for a picture without a cage.
 void draw_cage_offer(Workspace& workspace, double scale);
-
-/// The overlay of keys and mouse (F1), and the search over all actions. Both return false when
-/// closed.
-bool draw_help(double scale);
-bool draw_palette(Workspace& workspace, std::string& text, bool opening, double scale);
 
 }  // namespace holomorph

@@ -43,7 +43,32 @@ void add_fonts(float size) {
 
 }  // namespace
 
-void apply_theme(double scale, bool light) {
+namespace {
+
+/// White on black, every field with an edge, what is chosen in one bright colour.
+void add_contrast(ImGuiStyle& style) {
+  ImVec4* c = style.Colors;
+  const unsigned accent = 0x00dcff;
+  style.FrameBorderSize = style.PopupBorderSize = style.WindowBorderSize = 1;
+  for (const int back :
+       {ImGuiCol_WindowBg, ImGuiCol_MenuBarBg, ImGuiCol_PopupBg, ImGuiCol_FrameBg, ImGuiCol_Button,
+        ImGuiCol_ChildBg, ImGuiCol_TitleBg, ImGuiCol_TitleBgActive})
+    c[back] = rgb(0x000000);
+  for (const int line : {ImGuiCol_Border, ImGuiCol_Separator, ImGuiCol_Text})
+    c[line] = rgb(0xffffff);
+  c[ImGuiCol_TextDisabled] = rgb(0xd0d0d0);
+  c[ImGuiCol_CheckMark] = rgb(accent);
+  for (const int chosen : {ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive,
+                           ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive, ImGuiCol_FrameBgHovered,
+                           ImGuiCol_FrameBgActive, ImGuiCol_TextSelectedBg})
+    c[chosen] = rgb(0x005f8a);
+  c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = c[ImGuiCol_PlotHistogram] = rgb(0x0090c0);
+}
+
+}  // namespace
+
+void apply_theme(double scale, Theme theme) {
+  const bool light = theme == Theme::light;
   const float s = static_cast<float>(scale);
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
@@ -85,6 +110,7 @@ void apply_theme(double scale, bool light) {
   c[ImGuiCol_HeaderActive] = rgb(accent, 0.5f);
   c[ImGuiCol_Separator] = rgb(light ? 0xd3d4d9 : 0x3a3c43);
   c[ImGuiCol_TextSelectedBg] = rgb(accent, 0.35f);
+  if (theme == Theme::contrast) add_contrast(style);
   add_fonts(static_cast<float>(static_cast<int>(16 * scale + 0.5)));
 }
 
@@ -92,7 +118,8 @@ ImFont* title_font() {
   return ImGui::GetIO().Fonts->Fonts.back();
 }
 
-CanvasColors canvas_colors(bool light) {
+CanvasColors canvas_colors(Theme theme) {
+  const bool light = theme == Theme::light;
   CanvasColors colors;
   colors.canvas = light ? Color{0.82f, 0.82f, 0.84f} : Color{0.10f, 0.105f, 0.115f};
   colors.backdrop = light ? Color{0.93f, 0.93f, 0.94f} : Color{0.19f, 0.195f, 0.21f};
@@ -106,6 +133,19 @@ CanvasColors canvas_colors(bool light) {
   colors.panel = light ? IM_COL32(255, 255, 255, 235) : IM_COL32(43, 44, 49, 240);
   colors.warning = light ? IM_COL32(200, 40, 40, 255) : IM_COL32(255, 110, 100, 255);
   colors.accent = light ? IM_COL32(47, 111, 222, 255) : IM_COL32(91, 155, 255, 255);
+  if (theme == Theme::contrast) {
+    colors.canvas = {0, 0, 0};
+    colors.backdrop = {0.13f, 0.13f, 0.13f};
+    colors.pose = IM_COL32(90, 255, 150, 255);
+    colors.rest = IM_COL32(255, 140, 120, 255);
+    colors.pin = IM_COL32(255, 210, 0, 255);
+    colors.hover = IM_COL32(255, 255, 0, 255);
+    colors.outline = IM_COL32(0, 0, 0, 255);
+    colors.text = IM_COL32(255, 255, 255, 255);
+    colors.panel = IM_COL32(0, 0, 0, 255);
+    colors.warning = IM_COL32(255, 150, 140, 255);
+    colors.accent = IM_COL32(0, 220, 255, 255);
+  }
   return colors;
 }
 

@@ -6,11 +6,12 @@
 #include <string>
 
 #include "core/heat.h"
+#include "scene/preferences.h"
 
 namespace holomorph {
 
 /// Sets ImGui's fonts and style.
-void apply_theme(double scale, bool light);
+void apply_theme(double scale, Theme theme);
 
 /// The large font of titles.
 ImFont* title_font();
@@ -25,6 +26,6 @@ struct CanvasColors {
   Color canvas, backdrop;
   ImU32 pose, rest, pin, selected, hover, outline, text, panel, warning, accent;
 };
-CanvasColors canvas_colors(bool light);
+CanvasColors canvas_colors(Theme theme);
 
 }  // namespace holomorph

@@ -41,7 +41,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                      (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
-    ImGui::TextUnformatted(toast.text.c_str());
+    ImGui::TextUnformatted((toast.problem ? "\uf071  " + toast.text : toast.text).c_str());
     ImGui::PopTextWrapPos();
     if (toast.where) {
       if (ImGui::SmallButton("Show me")) workspace.viewport.center = *toast.where;

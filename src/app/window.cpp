@@ -80,7 +80,7 @@ bool has_display() {
   return false;
 }
 
-Window::Window(int width, int height, double ui_scale, bool light) {
+Window::Window(int width, int height, double ui_scale, Theme theme) {
   std::string reason = "unknown reason";
   glfwSetErrorCallback(nullptr);
   if (!glfwInit())
@@ -156,7 +156,7 @@ Window::Window(int width, int height, double ui_scale, bool light) {
   ImGui::GetIO().MouseDoubleClickTime = 0.45f;
   ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  set_style(ui_scale, light);
+  set_style(ui_scale, theme);
 }
 
 Window::~Window() {
@@ -167,13 +167,13 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::set_style(double ui_scale, bool light) {
+void Window::set_style(double ui_scale, Theme theme) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
   wanted_scale_ = ui_scale;
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
-  light_ = light;
-  apply_theme(scale_, light);
+  theme_ = theme;
+  apply_theme(scale_, theme);
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again from the new fonts with the next frame
   ImGui_ImplOpenGL3_CreateFontsTexture();
   wake();
@@ -196,7 +196,7 @@ void Window::wake() {
 }
 
 void Window::begin_frame() {
-  if (std::exchange(moved_display_, false)) set_style(wanted_scale_, light_);
+  if (std::exchange(moved_display_, false)) set_style(wanted_scale_, theme_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   pump_events();

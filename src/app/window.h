@@ -9,6 +9,7 @@
 
 #include "edit/input.h"
 #include "scene/file.h"
+#include "scene/preferences.h"
 
 struct GLFWwindow;
 
@@ -18,7 +19,7 @@ namespace holomorph {
 /// OpenGL 3.3.
 class Window {
  public:
-  Window(int width, int height, double ui_scale, bool light);
+  Window(int width, int height, double ui_scale, Theme theme);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -34,9 +35,9 @@ class Window {
   void end_frame();
 
   /// Fonts and sizes for a scale (0: the display's) and colours for a theme.
-  void set_style(double ui_scale, bool light);
+  void set_style(double ui_scale, Theme theme);
   double scale() const { return scale_; }
-  bool light() const { return light_; }
+  Theme theme() const { return theme_; }
 
   /// Key presses since the last call, repeats included.
   std::vector<Shortcut> take_keys();
@@ -68,7 +69,8 @@ class Window {
   std::atomic<bool> woken_{false};
   int owed_frames_ = 3;
   double scale_ = 1, wanted_scale_ = 0;
-  bool light_ = false, close_ = false, moved_display_ = false;
+  Theme theme_ = Theme::dark;
+  bool close_ = false, moved_display_ = false;
   std::vector<Shortcut> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;

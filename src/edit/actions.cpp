@@ -7,15 +7,21 @@
 
 namespace holomorph {
 
-const std::vector<Action>& actions() {
-  static const std::vector<Action> all = [] {
-    std::vector<Action> rows;
-    for (const auto group :
-         {file_actions, edit_actions, cage_actions, layer_actions, time_actions, view_actions})
-      for (Action& action : group()) rows.push_back(std::move(action));
-    return rows;
-  }();
+std::vector<Action> actions_as_built() {
+  std::vector<Action> rows;
+  for (const auto group : {file_actions, edit_actions, cage_actions, layer_actions, time_actions,
+                           view_actions, held_actions})
+    for (Action& action : group()) rows.push_back(std::move(action));
+  return rows;
+}
+
+std::vector<Action>& mutable_actions() {
+  static std::vector<Action> all = actions_as_built();
   return all;
+}
+
+const std::vector<Action>& actions() {
+  return mutable_actions();
 }
 
 const Action& action_named(const std::string& id) {
@@ -28,12 +34,12 @@ const Action& action_named(const std::string& id) {
 const Action* action_for(const Shortcut& shortcut, const Workspace& workspace) {
   for (const Action& action : actions())
     for (const Shortcut& key : action.keys)
-      if (key == shortcut && action.enabled(workspace)) return &action;
+      if (key == shortcut && action.run && action.enabled(workspace)) return &action;
   return nullptr;
 }
 
 void run(const Action& action, Workspace& workspace) {
-  if (!action.enabled(workspace)) return;
+  if (!action.run || !action.enabled(workspace)) return;
   try {
     action.run(workspace);
   } catch (const Error& error) {

@@ -12,12 +12,15 @@ struct Action {
   const char* menu;  ///< the menu that lists it
   std::vector<Shortcut> keys;
   bool (*enabled)(const Workspace&);
-  void (*run)(Workspace&);
+  void (*run)(Workspace&);                      ///< null for what a key does while it is held
   bool (*checked)(const Workspace&) = nullptr;  ///< for what can be on or off
 };
 
-/// The table, in menu order.
+/// The table, in menu order, with the keys in use; see keymap.h.
 const std::vector<Action>& actions();
+std::vector<Action>& mutable_actions();
+/// The table with its own keys.
+std::vector<Action> actions_as_built();
 /// The action of this id; it must exist.
 const Action& action_named(const std::string& id);
 /// The enabled action that a key press runs, if any.

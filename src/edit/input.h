@@ -41,6 +41,7 @@ enum class Key : int {
   end,
   insert,
   f1,  ///< and so on to f12
+  f10 = f1 + 9,
   f12 = f1 + 11
 };
 

@@ -34,6 +34,7 @@ enum class Request {
   quit,
   help,
   palette,
+  context_menu,
   compare
 };
 

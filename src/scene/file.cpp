@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace holomorph {
 
@@ -113,6 +114,14 @@ std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+bool has_words(const std::string& text, const std::string& words) {
+  const std::string all = lower_case(text);
+  std::istringstream each(lower_case(words));
+  for (std::string word; each >> word;)
+    if (all.find(word) == std::string::npos) return false;
+  return true;
 }
 
 std::string sha256_hex(const std::string& bytes) {

@@ -40,6 +40,8 @@ Error about(const Path& file, const Error& error);
 
 /// ASCII capitals made small: for extensions and searches.
 std::string lower_case(std::string text);
+/// Whether a text has all of these words, in lower or upper case.
+bool has_words(const std::string& text, const std::string& words);
 
 /// The SHA-256 of bytes as 64 lower-case hexadecimal digits.
 std::string sha256_hex(const std::string& bytes);

@@ -1,15 +1,25 @@
 // What the program remembers between sessions, and where its own files lie.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "scene/file.h"
 
 namespace holomorph {
 
+/// Keys in words by the ids of what they do.
+using KeyNames = std::map<std::string, std::vector<std::string>>;
+
+enum class Theme { dark, light, contrast };
+
 struct Preferences {
-  bool light_theme = false;
-  double ui_scale = 0;  ///< 0: the display's
+  Theme theme = Theme::dark;
+  double ui_scale = 0;         ///< 0: the display's
+  bool native_dialogs = true;  ///< where the desktop has any
+  bool hints = true;           ///< the first steps are shown
+  KeyNames keys;               ///< that differ from the program's own
   std::vector<Path> recent;
   bool operator==(const Preferences&) const = default;
 };
@@ -20,6 +30,10 @@ Preferences load_preferences();
 void save_preferences(const Preferences& preferences);
 /// Puts a path first among the recent ones, which stay at most ten.
 void remember(Preferences& preferences, const Path& path);
+
+/// Keys as JSON text, for exchange, and back. Throws Error{bad_input} naming what is wrong.
+std::string json_of_keys(const KeyNames& keys);
+KeyNames keys_of_json(const std::string& text, const std::string& name);
 
 /// $XDG_STATE_HOME/holomorph/autosave.
 Path autosave_folder();

@@ -11,6 +11,8 @@ std::vector<Action> cage_actions();
 std::vector<Action> layer_actions();
 std::vector<Action> time_actions();
 std::vector<Action> view_actions();
+/// What keys do while they are held; the window asks for them.
+std::vector<Action> held_actions();
 
 inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false},
     kCtrlShift{true, true, false};

@@ -145,6 +145,13 @@ std::vector<Action> view_actions() {
        {'-', {'-', kCtrl}},
        has_content,
        [](Workspace& w) { zoom_by(w, 0.8); }},
+      {"edit.context_menu",
+       "Menu of what is selected",
+       "",
+       "Edit",
+       {{Key::f10, kShift}},
+       has_content,
+       ask<Request::context_menu>},
       {"help.palette",
        "Find an action...",
        kSearch,
@@ -159,6 +166,20 @@ std::vector<Action> view_actions() {
        {Key::f1, '?', {'?', kShift}},
        always,
        ask<Request::help>},
+  };
+}
+
+std::vector<Action> held_actions() {
+  return {
+      {"hold.overlays", "Hold: hide cage and pins", "", "", {'H'}, always, nullptr},
+      {"hold.original", "Hold: show the original picture", "", "", {'\\'}, always, nullptr},
+      {"hold.alt",
+       "Hold: as Alt, where the desktop takes Alt itself",
+       "",
+       "",
+       {'Q'},
+       always,
+       nullptr},
   };
 }
 

@@ -1,0 +1,150 @@
+// A row for each action of the table; a click on its keys waits for others.
+#include "app/keys_window.h"
+
+#include <imgui.h>
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+#include <utility>
+
+#include "app/theme.h"
+
+namespace holomorph {
+namespace {
+
+void wrapped_cell(const std::string& text) {
+  ImGui::TableNextColumn();
+  wrapped_text(text);
+}
+
+}  // namespace
+
+void KeysWindow::assign(const std::vector<Shortcut>& keys) {
+  const std::vector<std::string> robbed = set_keys(waiting_, keys);
+  for (const std::string& label : robbed) workspace_.say("'" + label + "' has lost this key.");
+  waiting_.clear();
+  changed_();
+}
+
+void KeysWindow::take(const Shortcut& key) {
+  if (key == Shortcut(Key::escape)) return waiting_.clear();
+  if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
+  std::vector<Shortcut> keys;
+  if (adds_) keys = action_named(waiting_).keys;
+  keys.push_back(key);
+  assign(keys);
+}
+
+void KeysWindow::export_keys() {
+  chooser_.ask({FileQuestion::Mode::save,
+                "Export the keys",
+                "Export",
+                {".json", ".md"},
+                Path("holomorph-keys.json"),
+                false},
+               [this](const Path& path, double) -> std::string {
+                 try {
+                   write_file(path, lower_case(path.extension().string()) == ".md"
+                                        ? keys_markdown()
+                                        : json_of_keys(all_keys()));
+                   workspace_.say("Exported " + path.filename().string() + ".");
+                 } catch (const Error& error) {
+                   return error.what();
+                 }
+                 return "";
+               });
+}
+
+void KeysWindow::import_keys() {
+  chooser_.ask({FileQuestion::Mode::open, "Import keys", "Open", {".json"}, {}, false},
+               [this](const Path& path, double) -> std::string {
+                 try {
+                   const auto unknown =
+                       use_keys(keys_of_json(read_file(path), path.filename().string()));
+                   if (!unknown.empty())
+                     workspace_.say("Not known here and left out: " + unknown[0] +
+                                    (unknown.size() > 1
+                                         ? " and " + std::to_string(unknown.size() - 1) + " more."
+                                         : "."));
+                   changed_();
+                 } catch (const Error& error) {
+                   return error.what();
+                 }
+                 return "";
+               });
+}
+
+void KeysWindow::draw_row(const Action& action, float s) {
+  ImGui::TableNextRow();
+  ImGui::PushID(action.id.c_str());
+  ImGui::TableNextColumn();
+  const bool waits = waiting_ == action.id;
+  const std::string keys = waits ? "Press a key..." : keys_text(action);
+  if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
+    waiting_ = waits ? "" : action.id;
+    adds_ = ImGui::GetIO().KeyShift;
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", waits ? "Del: no key. Esc: as it was"
+                                  : "Click and press another key; Shift-click adds one");
+  if (has_own_keys(action)) {
+    ImGui::SameLine(0, 4 * s);
+    if (ImGui::Button("\uf0e2", {30 * s, 0})) {
+      reset_keys(action.id);
+      changed_();
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
+  }
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  wrapped_text(action.label);
+  ImGui::PopID();
+}
+
+void KeysWindow::draw(double scale) {
+  if (!open_ || chooser_.open()) return;
+  const float s = static_cast<float>(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(800 * s, display.x - 20), std::min(640 * s, display.y - 40)});
+  ImGui::Begin(
+      "Keys and mouse", &open_,
+      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
+  if (std::exchange(opening_, false)) {
+    ImGui::SetWindowFocus();
+    ImGui::SetKeyboardFocusHere();
+  }
+  ImGui::SetNextItemWidth(-340 * s);
+  ImGui::InputTextWithHint("##search", "Search keys and what they do", &search_);
+  ImGui::SameLine();
+  if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
+  ImGui::SameLine();
+  if (ImGui::Button("Import...", {100 * s, 0})) import_keys();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(changed_keys().empty());
+  if (ImGui::Button("Reset all", {-1, 0})) {
+    use_keys({});
+    changed_();
+  }
+  ImGui::EndDisabled();
+  ImGui::BeginChild("rows");
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+    for (const Gesture& gesture : gestures()) {
+      if (!has_words(std::string(gesture.what) + " " + gesture.does, search_)) continue;
+      ImGui::TableNextRow();
+      wrapped_cell(gesture.what);
+      wrapped_cell(gesture.does);
+    }
+    for (const Action& action : actions())
+      if (has_words(action.label + " " + keys_text(action), search_)) draw_row(action, s);
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+  if (!waits_for_key() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open_ = false;
+  if (!open_) waiting_.clear();
+  ImGui::End();
+}
+
+}  // namespace holomorph

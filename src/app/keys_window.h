@@ -1,0 +1,36 @@
+// Keys and mouse (F1): searched, changed and exchanged.
+#pragma once
+
+#include "app/file_chooser.h"
+#include "edit/keymap.h"
+
+namespace holomorph {
+
+class KeysWindow {
+ public:
+  /// `changed` is called when the keys are other ones.
+  KeysWindow(Workspace& workspace, FileChooser& chooser, std::function<void()> changed)
+      : workspace_(workspace), chooser_(chooser), changed_(std::move(changed)) {}
+
+  void show() { open_ = opening_ = true; }
+  bool open() const { return open_; }
+  /// Whether the next key is to be an action's, and takes it.
+  bool waits_for_key() const { return !waiting_.empty(); }
+  void take(const Shortcut& key);
+  void draw(double scale);
+
+ private:
+  void draw_row(const Action& action, float s);
+  void export_keys();
+  void import_keys();
+  void assign(const std::vector<Shortcut>& keys);
+
+  Workspace& workspace_;
+  FileChooser& chooser_;
+  std::function<void()> changed_;
+  std::string search_, waiting_;  ///< the action whose key is being chosen
+  bool adds_ = false;             ///< to the keys that it has
+  bool open_ = false, opening_ = false;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,122 @@
+// The table in use is the one of actions(); the one that the program was built with is kept beside
+// it.
+#include "edit/keymap.h"
+
+#include <algorithm>
+
+namespace holomorph {
+namespace {
+
+const std::vector<Shortcut>& own_keys(const std::string& id) {
+  static const std::vector<Action> table = actions_as_built();
+  return std::ranges::find(table, id, &Action::id)->keys;
+}
+
+std::vector<std::string> names_of(const std::vector<Shortcut>& keys) {
+  std::vector<std::string> names;
+  for (const Shortcut& key : keys) names.push_back(text_of(key));
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> use_keys(const KeyNames& changes) {
+  std::vector<std::string> unknown;
+  for (Action& action : mutable_actions()) action.keys = own_keys(action.id);
+  for (const auto& [id, names] : changes) {
+    const auto action = std::ranges::find(mutable_actions(), id, &Action::id);
+    if (action == mutable_actions().end()) {
+      unknown.push_back(id);
+      continue;
+    }
+    action->keys.clear();
+    for (const std::string& name : names)
+      if (const auto key = shortcut_named(name))
+        action->keys.push_back(*key);
+      else
+        unknown.push_back(name);
+  }
+  return unknown;
+}
+
+KeyNames changed_keys() {
+  KeyNames changes;
+  for (const Action& action : actions())
+    if (has_own_keys(action)) changes[action.id] = names_of(action.keys);
+  return changes;
+}
+
+KeyNames all_keys() {
+  KeyNames keys;
+  for (const Action& action : actions()) keys[action.id] = names_of(action.keys);
+  return keys;
+}
+
+std::vector<std::string> set_keys(const std::string& id, const std::vector<Shortcut>& keys) {
+  std::vector<std::string> robbed;
+  for (Action& action : mutable_actions()) {
+    if (action.id == id) continue;
+    const size_t taken = std::erase_if(action.keys, [&](const Shortcut& key) {
+      return std::ranges::find(keys, key) != keys.end();
+    });
+    if (taken > 0) robbed.push_back(action.label);
+  }
+  std::ranges::find(mutable_actions(), id, &Action::id)->keys = keys;
+  return robbed;
+}
+
+void reset_keys(const std::string& id) {
+  set_keys(id, own_keys(id));
+}
+
+bool has_own_keys(const Action& action) {
+  return action.keys != own_keys(action.id);
+}
+
+std::string keys_text(const Action& action) {
+  std::string text;
+  for (const Shortcut& key : action.keys)
+    if (const std::string name = text_of(key);
+        (", " + text + ", ").find(", " + name + ", ") == std::string::npos)
+      text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+const std::vector<Gesture>& gestures() {
+  static const std::vector<Gesture> all{
+      {"Drag a point or pin", "move it; Shift keeps the axis"},
+      {"Drag on empty canvas", "select with a box; Shift adds"},
+      {"Double-click an edge", "insert a cage point"},
+      {"Alt-click a point or pin", "delete it"},
+      {"Drag the box of what is selected",
+       "scale; the knob turns; Shift free or 15 degrees, Alt from the middle"},
+      {"Ctrl-drag points, pins, strokes", "record their motion as keyframes, by the clock"},
+      {"Ctrl-click a cage point", "smooth or corner; drag its tangents, Alt breaks them"},
+      {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
+      {"Wheel on the ring", "scale the picture around the pin"},
+      {"Drag a stroke", "move it; at an end, or with Ctrl, bend it"},
+      {"Shift-drag with a stroke selected", "draw its new place"},
+      {"Drag the outline (outline tool)", "bend it; with Ctrl move all of it"},
+      {"Drag a corner's ring or arm (angle tool)",
+       "turn it; open or shut it; Shift: 15 degree steps"},
+      {"Drag an edge (angle tool)", "let it bend, or keep it straight"},
+      {"Drag on the timeline", "go to a time; move a key, Alt between frames"},
+      {"Middle drag, Space-drag", "pan"},
+      {"Wheel", "zoom at the cursor"},
+      {"Right click", "menu of what is under the cursor"},
+      {"Ctrl-click a number field", "type into it"},
+      {"Enter, Backspace, Esc", "while drawing: close, take a point back, cancel"}};
+  return all;
+}
+
+std::string keys_markdown() {
+  std::string text = "| Mouse | |\n|---|---|\n";
+  for (const Gesture& gesture : gestures())
+    text += std::string("| ") + gesture.what + " | " + gesture.does + " |\n";
+  text += "\n| Keys | |\n|---|---|\n";
+  for (const Action& action : actions())
+    if (!action.keys.empty()) text += "| `" + keys_text(action) + "` | " + action.label + " |\n";
+  return text;
+}
+
+}  // namespace holomorph
