@@ -36,7 +36,7 @@ std::string name_of_key(int key) {
 std::string text_of(const Shortcut& shortcut) {
   std::string text;
   if (shortcut.mods.ctrl) text += "Ctrl+";
-  if (shortcut.mods.shift && shortcut.key != '?') text += "Shift+";
+  if (shortcut.mods.shift) text += "Shift+";
   if (shortcut.mods.alt) text += "Alt+";
   return text + name_of_key(shortcut.key);
 }
@@ -51,7 +51,6 @@ std::optional<Shortcut> shortcut_named(const std::string& text) {
       *held = true;
       rest = rest.substr(std::string(prefix).size());
     }
-  if (rest == "?") shortcut.mods.shift = true;
   if (rest.size() == 1 && rest[0] > ' ' && rest[0] < 127) {
     shortcut.key = rest[0];
     return shortcut;

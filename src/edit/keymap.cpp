@@ -75,10 +75,13 @@ bool has_own_keys(const Action& action) {
 
 std::string keys_text(const Action& action) {
   std::string text;
-  for (const Shortcut& key : action.keys)
-    if (const std::string name = text_of(key);
-        (", " + text + ", ").find(", " + name + ", ") == std::string::npos)
-      text += (text.empty() ? "" : ", ") + name;
+  for (const Shortcut& key : action.keys) {
+    Shortcut plain = key;
+    plain.mods.shift = false;
+    const bool named = key.mods.shift && key.key < 'A' &&
+                       std::ranges::find(action.keys, plain) != action.keys.end();
+    if (!named) text += (text.empty() ? "" : ", ") + text_of(key);
+  }
   return text;
 }
 

@@ -20,7 +20,7 @@ std::vector<std::string> set_keys(const std::string& id, const std::vector<Short
 void reset_keys(const std::string& id);
 bool has_own_keys(const Action& action);
 
-/// "Ctrl+Shift+Z, Ctrl+Y"; keys that differ in Shift alone and read the same are named once.
+/// "Ctrl+Shift+Z, Ctrl+Y"; signs that are reached with and without Shift are named once.
 std::string keys_text(const Action& action);
 
 /// A mouse gesture in words: what to do, and what it does.
