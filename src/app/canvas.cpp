@@ -55,10 +55,19 @@ void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
 }
 
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
+  const double split = workspace.split.value_or(0);
+  draw_part(workspace, at, split, 1, workspace.show_original);
+  if (split > 0) draw_part(workspace, at, 0, split, true);
+}
+
+void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
+                       bool original) {
   const Scene& scene = workspace.document.scene();
   // The views of a map are about the edited layer's, and so is its rest.
   const bool alone = workspace.view != View::image || workspace.posture == Posture::rest;
   Frame frame = frame_at(workspace.viewport, at);
+  frame.from = from;
+  frame.to = to;
   if (scene.background.kind == Background::Kind::color) frame.backdrop = color_of(scene.background);
   edited_ = &painter_of(scene);
   std::vector<const Scene*> drawn;
@@ -82,17 +91,17 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
     return draw(scene, frame);
   }
   if (scene.background.kind == Background::Kind::original && !alone) {
-    Frame original = frame;
-    original.shows = Shows::original;
+    Frame as_it_was = frame;
+    as_it_was.shows = Shows::original;
     for (const Scene* layer : drawn) {
-      draw(*layer, original);
-      original.over = true;
+      draw(*layer, as_it_was);
+      as_it_was.over = true;
     }
   }
   const std::vector<OnionSkin> skins = workspace.onion_skins();
   for (const Scene* layer : drawn) {
     Frame drawing = frame;
-    if (workspace.show_original || (layer == &scene && workspace.at_rest()))
+    if (original || (layer == &scene && workspace.at_rest()))
       drawing.placement = Placement::at_rest;
     if (layer == &scene) {
       drawing.wireframe = workspace.show_mesh;

@@ -37,6 +37,9 @@ class Canvas {
   const LayerPainter& edited() const { return *edited_; }
 
  private:
+  /// From one part of the canvas' width to another.
+  void draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
+                 bool original);
   LayerPainter& painter_of(const Scene& layer);
   void take_picture(Workspace& workspace, const Scene& layer);
 

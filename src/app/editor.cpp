@@ -57,10 +57,14 @@ class Editor {
     while (!files_.has_quit()) {
       const bool playing =
           workspace_.playback.playing || workspace_.timeline.playing || files_.busy();
-      if (window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25))
-        frame();
-      else if (playing || toasts_.expire())
-        window_.wake();
+      const bool happened = window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25);
+      if (happened) frame();
+      if (now_ms() - watched_ms_ > 500) {
+        watched_ms_ = now_ms();
+        files_.watch_pictures();
+        if (!workspace_.toasts.empty()) window_.wake();
+      }
+      if (!happened && (playing || toasts_.expire())) window_.wake();
     }
     return 0;
   }
@@ -77,6 +81,7 @@ class Editor {
     take_events();
     Input input = take_input();
     if (input.wheel != 0 && current_tool().scroll(input, workspace_)) input.wheel = 0;
+    drag_split(input);
     navigate(input);
     use_tool(input);
     open_context_menu(input);
@@ -154,7 +159,7 @@ class Editor {
         take_key(key);
     workspace_.hide_overlays = !typing && is_held("hold.overlays");
     workspace_.show_original = !typing && is_held("hold.original");
-    if (!typing && is_held("hold.alt")) ImGui::GetIO().KeyAlt = true;
+    window_.stand_in_for_alt(!typing && is_held("hold.alt"));
   }
 
   /// Whether a key is down that does something while it is held.
@@ -197,6 +202,22 @@ class Editor {
     input.wheel = input.inside ? io.MouseWheel : 0;
     input.position = workspace_.viewport.plane_at_px(input.px);
     return input;
+  }
+
+  /// The line between before and after.
+  void drag_split(Input& input) {
+    std::optional<double>& split = workspace_.split;
+    if (!split || !input.down) dragging_split_ = false;
+    if (!split) return;
+    const Viewport& view = workspace_.viewport;
+    const double off = input.px.real() - view.left - *split * view.width;
+    const bool over = input.inside && std::abs(off) < 0.6 * workspace_.handle_px;
+    if (over && input.pressed) dragging_split_ = true;
+    if (dragging_split_) split = std::clamp((input.px.real() - view.left) / view.width, 0.02, 0.98);
+    if (over || dragging_split_) {
+      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+      input.inside = input.pressed = input.double_clicked = false;
+    }
   }
 
   void navigate(Input& input) {
@@ -337,8 +358,9 @@ class Editor {
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_;
-  bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, was_active_ = false,
-       restyle_ = false;
+  bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
+       was_active_ = false, restyle_ = false;
+  double watched_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
   SurfacePane surface_pane_;

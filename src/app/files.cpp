@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "app/clipboard.h"
 #include "core/error.h"
 #include "edit/tool.h"
 #include "raster/picture.h"
@@ -98,17 +99,83 @@ std::string Files::add_layer(const Path& path) {
         *added = is_scene_name(path) ? load_scene(path) : scene_of_image(path);
       },
       [this, added, path] {
-        Document& document = workspace_.document;
-        Scene scene = document.scene();
-        for (Scene& layer : layers_of(added->scene)) {
-          if (layer.image)
-            document.put_picture(layer.image->file, *added->pictures.find(layer.image->file));
-          scene = with_layer_added(std::move(scene), std::move(layer));
-        }
-        if (workspace_.commit_layers("Add " + path.stem().string(), std::move(scene)))
-          workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
+        add_layers_of(*added, "Add " + path.stem().string());
         remember(preferences_, std::filesystem::absolute(path).lexically_normal());
         keep_preferences();
+      });
+}
+
+void Files::add_layers_of(const LoadedScene& added, const std::string& label) {
+  Document& document = workspace_.document;
+  const bool first = document.empty();
+  Scene scene = document.scene();
+  for (Scene& layer : layers_of(added.scene)) {
+    if (layer.image) document.put_picture(*layer.image, *added.pictures.find(*layer.image));
+    scene = first && !scene.image ? std::move(layer) : with_layer_added(std::move(scene), layer);
+  }
+  if (!workspace_.commit_layers(label, std::move(scene))) return;
+  if (first)
+    replaced_();
+  else
+    workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
+}
+
+void Files::copy_picture() {
+  const Document& document = workspace_.document;
+  PictureOptions options;
+  options.view = document.scene().has_cage() ? workspace_.view : View::image;
+  options.automatic_range = workspace_.automatic_range;
+  options.time = workspace_.time_of_layers();
+  const auto copy = [scene = document.scene(), pictures = document.pictures(),
+                     options](Job::Progress& progress) {
+    const RasterResult result = picture_of(scene, pictures.of(scene), options, pictures);
+    if (!progress.cancelled())
+      put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
+  };
+  complain(jobs_.run("Copying the picture", copy,
+                     [this] { workspace_.say("The picture is on the clipboard."); }));
+}
+
+void Files::paste_picture() {
+  const auto pasted = std::make_shared<LoadedScene>();
+  const auto paste = [pasted](Job::Progress& progress) {
+    *pasted = scene_of_pasted(picture_on_clipboard([&] { return !progress.cancelled(); }));
+  };
+  complain(jobs_.run("Pasting a picture", paste,
+                     [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
+}
+
+void Files::watch_pictures() {
+  if (reading_again_) {
+    if (!reading_again_->ended()) return;
+    const auto error = std::exchange(reading_again_, nullptr)->error();
+    for (auto& [reference, picture] : *changed_)
+      workspace_.document.put_picture(reference, std::move(picture));
+    if (error)
+      workspace_.complain(*error);
+    else if (!changed_->empty())
+      workspace_.say(Path(changed_->front().first.file).filename().string() +
+                     " was changed by another program and is read again.");
+    return;
+  }
+  const Pictures& pictures = workspace_.document.pictures();
+  std::vector<ImageReference> changed = pictures.changed();
+  if (changed.empty() || changed != changing_) {
+    changing_ = std::move(changed);  // it may still be being written
+    return;
+  }
+  changed_ = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
+  for (const ImageReference& reference : changed) {
+    // What cannot be read stays as it is, until it changes again.
+    std::error_code ignored;
+    Picture same = *pictures.find(reference);
+    same.changed = std::filesystem::last_write_time(reference.file, ignored);
+    workspace_.document.put_picture(reference, std::move(same));
+  }
+  reading_again_ =
+      std::make_unique<Job>("Reading again", [changed, result = changed_](Job::Progress&) {
+        for (const ImageReference& reference : changed)
+          result->push_back({reference, read_picture(reference)});
       });
 }
 
@@ -116,16 +183,20 @@ std::string Files::replace_picture(const Path& path) {
   const auto picture = std::make_shared<Picture>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [picture, path](Job::Progress&) { *picture = read_picture(path); },
+      [picture, path](Job::Progress&) {
+        ImageReference reference;
+        reference.file = std::filesystem::absolute(path).lexically_normal().string();
+        *picture = read_picture(reference);
+      },
       [this, picture, path] {
         Scene scene = workspace_.document.scene();
         const std::optional<ImageReference> before = scene.image;
-        scene.image = reference_to(path, *picture);
+        scene.image = reference_to(path, "", *picture);
         if (before &&
             (before->width != scene.image->width || before->height != scene.image->height))
           workspace_.say(
               "The new picture has another size; cage, pins and strokes stay where they are.");
-        workspace_.document.put_picture(scene.image->file, std::move(*picture));
+        workspace_.document.put_picture(*scene.image, std::move(*picture));
         workspace_.commit("Replace picture", std::move(scene), From::document);
       });
 }
@@ -362,6 +433,12 @@ void Files::answer(Request request) {
                    {},
                    false},
                   [this](const Path& path, double) { return replace_picture(path); });
+      break;
+    case Request::copy_picture:
+      copy_picture();
+      break;
+    case Request::paste_picture:
+      paste_picture();
       break;
     case Request::export_svg:
       ask_export_svg();

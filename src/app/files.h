@@ -32,6 +32,8 @@ class Files {
   void discard(const Path& autosave);
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
+  /// Reads pictures again that another program has changed; called now and then.
+  void watch_pictures();
   /// Keeps the autosave true; called once a frame.
   void autosave();
   void keep_preferences();
@@ -64,6 +66,9 @@ class Files {
   std::string add_layer(const Path& path);
   std::string replace_picture(const Path& path);
   void draw_drop_question(double scale);
+  void add_layers_of(const LoadedScene& added, const std::string& label);
+  void copy_picture();
+  void paste_picture();
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
@@ -77,6 +82,10 @@ class Files {
   ExportDialog export_;
   std::vector<Recovery> recoverable_;
   Then after_question_;
+  /// What has changed when it was looked at last: a file is read when it is left alone.
+  std::vector<ImageReference> changing_;
+  std::shared_ptr<std::vector<std::pair<ImageReference, Picture>>> changed_;
+  std::unique_ptr<Job> reading_again_;
   std::optional<Path> dropped_;  ///< a picture of which it is not decided yet where it goes
   bool question_ = false, quit_ = false, autosave_failed_ = false;
 };

@@ -6,6 +6,7 @@
 #include "app/panels.h"
 #include "edit/corner_edits.h"
 #include "edit/curve_edits.h"
+#include "edit/transform_box.h"
 #include "scene/auto_cage.h"
 
 namespace holomorph {
@@ -214,6 +215,39 @@ void many_handles(Workspace& workspace) {
   });
 }
 
+/// A number that is 0 (or 100 %) again after each step: what is done is relative.
+template <class Edit>
+void step_number(const char* label, double neutral, const char* format, Workspace& workspace,
+                 const char* step, Edit edit) {
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID(label);
+  float number = storage.GetFloat(id, static_cast<float>(neutral));
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (ImGui::DragFloat(label, &number, 0.5f, 0, 0, format) && std::isfinite(number)) {
+    storage.SetFloat(id, number);
+    workspace.preview = edit(workspace.unedited(), static_cast<double>(number));
+  }
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+    workspace.commit(step, *workspace.preview);
+  if (!ImGui::IsItemActive()) storage.SetFloat(id, static_cast<float>(neutral));
+}
+
+/// Turning and scaling by numbers, about the middle of what is selected.
+void turn_and_scale(Workspace& workspace) {
+  const Selection selection = workspace.selection;
+  const Posture posture = workspace.posture;
+  step_number("degrees more", 0, "%.1f", workspace, "Turn", [&](const Scene& s, double degrees) {
+    const double angle = degrees * kPi / 180;
+    return transformed(s, selection, Affine::turning(angle, center_of(s, selection, posture)),
+                       angle, posture);
+  });
+  step_number("size", 100, "%.1f %%", workspace, "Scale", [&](const Scene& s, double percent) {
+    const double scale = std::max(percent, 1.0) / 100;
+    return transformed(s, selection,
+                       Affine::scaling(scale, scale, center_of(s, selection, posture)), 0, posture);
+  });
+}
+
 void selection_section(Workspace& workspace) {
   if (workspace.selection.empty()) {
     ImGui::TextDisabled("Nothing is selected.");
@@ -224,6 +258,8 @@ void selection_section(Workspace& workspace) {
   } else {
     many_handles(workspace);
   }
+  if (workspace.selection.size() > 1 || workspace.selection.begin()->kind == Handle::Kind::stroke)
+    turn_and_scale(workspace);
   for (const char* id : {"edit.reset", "edit.delete"}) {
     const Action& action = action_named(id);
     if (ImGui::Button(action.label.c_str())) run(action, workspace);

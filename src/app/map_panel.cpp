@@ -93,7 +93,14 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     ImGui::Text("\uf00c Nothing folds");
   } else {
     ImGui::TextColored(warning, turns < 0 ? "\uf071 Lies on its back" : "\uf071 Folds");
-    if (found.fold) show(*found.fold, "The picture folds over itself here.");
+    if (!found.folds_at.empty()) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Show me")) run(action_named("view.fold"), workspace);
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", label_with_keys(action_named("view.fold")).c_str());
+      if (found.folds_at.size() > 1)
+        ImGui::TextColored(warning, "in %d places", static_cast<int>(found.folds_at.size()));
+    }
   }
   ImGui::TextDisabled("Boundary turns %.2f times", turns);
   if (ImGui::IsItemHovered())

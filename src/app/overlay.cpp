@@ -266,9 +266,34 @@ void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle
 
 }  // namespace
 
+void draw_split(const Workspace& workspace, const OverlayStyle& style) {
+  if (!workspace.split) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const Viewport& view = workspace.viewport;
+  const float s = static_cast<float>(style.scale), top = static_cast<float>(view.top),
+              bottom = static_cast<float>(view.top + view.height),
+              x = static_cast<float>(view.left + *workspace.split * view.width);
+  list.AddLine({x, top}, {x, bottom}, style.colors.outline, 4 * s);
+  list.AddLine({x, top}, {x, bottom}, style.colors.selected, 2 * s);
+  const float middle = (top + bottom) / 2;
+  list.AddRectFilled({x - 5 * s, middle - 18 * s}, {x + 5 * s, middle + 18 * s},
+                     style.colors.outline, 5 * s);
+  list.AddRectFilled({x - 3.5f * s, middle - 16.5f * s}, {x + 3.5f * s, middle + 16.5f * s},
+                     style.colors.selected, 3.5f * s);
+  const float height = ImGui::GetTextLineHeight();
+  for (const auto& [text, left] : {std::pair("Before", true), {"After", false}}) {
+    const float width = ImGui::CalcTextSize(text).x, pad = 8 * s,
+                at = left ? x - width - 3 * pad : x + pad;
+    list.AddRectFilled({at, bottom - height - 3 * pad}, {at + width + 2 * pad, bottom - pad},
+                       style.colors.panel, 4 * s);
+    list.AddText({at + pad, bottom - height - 2 * pad}, style.colors.text, text);
+  }
+}
+
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  draw_split(workspace, style);
   const Scene& scene = workspace.scene();
   if (workspace.hide_overlays || workspace.show_original || !scene.layer.visible) return;
   const Posture posture = workspace.posture;

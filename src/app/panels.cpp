@@ -117,6 +117,10 @@ void draw_toolbar(Workspace& workspace, double scale) {
                                          "tool.outline",
                                          "tool.angle",
                                          "",
+                                         "edit.soft",
+                                         "edit.symmetry",
+                                         "edit.snap",
+                                         "",
                                          "cage.from_picture",
                                          "cage.rest",
                                          "",
@@ -194,13 +198,10 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     } else if (map.has_map() && state == SampledMap::Status::infeasible) {
       note = "\uf071 " + map.map().note;
       note_color = {1.0f, 0.45f, 0.4f, 1};
-    } else if (const auto fold = map.injectivity().fold) {
+    } else if (!map.injectivity().folds_at.empty()) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 The picture folds over itself");
       ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) {
-        workspace.viewport.center = *fold;
-        workspace.toasts.push_back({"The picture folds over itself here.", true, fold});
-      }
+      if (ImGui::SmallButton("Show me")) run(action_named("view.fold"), workspace);
       ImGui::SameLine();
     }
   }

@@ -9,7 +9,7 @@ namespace holomorph {
 void StateFile::write(const Workspace& workspace, const PartsState& parts) {
   static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline", "angle"};
   const Viewport& view = workspace.viewport;
-  char text[1700];
+  char text[1900];
   std::snprintf(
       text, sizeof text,
       "{\"left\": %.17g, \"top\": %.17g, \"width\": %.17g, \"height\": %.17g,\n"
@@ -24,7 +24,9 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       "  \"zeros\": %d, \"compared_rows\": %d, \"on_surface\": %s, \"exporting\": %s, \"yaw\": "
       "%.6f, "
       "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
-      "\"runs\": %s}\n",
+      "\"runs\": %s, \"layers\": %d, \"edited_layer\": %d, \"locked\": %s, \"visible\": %s, "
+      "\"split\": "
+      "%.4f}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.posture == Posture::rest ? "rest" : "pose",
@@ -47,7 +49,11 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       parts.on_surface ? "true" : "false", parts.exporting ? "true" : "false", parts.yaw,
       parts.distance, static_cast<int>(workspace.scene().corners.size()),
       static_cast<int>(workspace.document.scene().keyframes.size()), workspace.timeline.time,
-      workspace.timeline.shows ? "true" : "false", workspace.timeline.playing ? "true" : "false");
+      workspace.timeline.shows ? "true" : "false", workspace.timeline.playing ? "true" : "false",
+      static_cast<int>(layer_count(workspace.document.scene())),
+      static_cast<int>(edited_layer(workspace.document.scene())),
+      workspace.document.scene().layer.locked ? "true" : "false",
+      workspace.document.scene().layer.visible ? "true" : "false", workspace.split.value_or(-1));
   if (text == last_) return;
   last_ = text;
   try {

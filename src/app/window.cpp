@@ -203,6 +203,7 @@ void Window::begin_frame() {
   // Tab goes from one number field to the next while one is being typed into; else it is an
   // action's.
   ImGui::GetIO().KeyMap[ImGuiKey_Tab] = ImGui::GetIO().WantTextInput ? GLFW_KEY_TAB : -1;
+  ImGui::GetIO().KeyAlt = ImGui::GetIO().KeyAlt || alt_;
   ImGui::NewFrame();
 }
 

@@ -47,6 +47,8 @@ class Window {
   bool take_close();
   /// Whether a key is held, by what the layout prints on it.
   bool is_down(const Shortcut& key) const;
+  /// Whether Alt counts as held from the next frame on, besides when it is.
+  void stand_in_for_alt(bool held) { alt_ = held; }
   void set_title(const std::string& title);
 
   int width() const;  ///< in window px
@@ -70,7 +72,7 @@ class Window {
   int owed_frames_ = 3;
   double scale_ = 1, wanted_scale_ = 0;
   Theme theme_ = Theme::dark;
-  bool close_ = false, moved_display_ = false;
+  bool alt_ = false, close_ = false, moved_display_ = false;
   std::vector<Shortcut> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;

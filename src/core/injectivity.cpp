@@ -3,22 +3,55 @@
 #include "core/injectivity.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
 
 namespace holomorph {
 namespace {
 
-std::optional<Complex> visible_fold(const Mesh& mesh, const VectorXc& f) {
-  constexpr double kVisible = 1e-4;
-  double turned = 0, total = 0, largest = 0;
-  Complex place;
-  for (const auto& [i, j, k] : mesh.triangles) {
+/// The parts that are turned over, the largest first, each by the middle of its largest triangle;
+/// none when all of them together are less than can be seen.
+Points visible_folds(const Mesh& mesh, const VectorXc& f) {
+  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // of the whole, and of one part
+  double turned = 0, total = 0;
+  std::vector<std::pair<double, const Triangle*>> over;
+  for (const Triangle& t : mesh.triangles) {
+    const auto [i, j, k] = t;
     const double twice = cross(f[j] - f[i], f[k] - f[i]);
     total += std::abs(twice);
     if (twice >= 0) continue;
     turned -= twice;
-    if (-twice > largest) largest = -twice, place = (f[i] + f[j] + f[k]) / 3.0;
+    over.push_back({-twice, &t});
   }
-  return turned > kVisible * total ? std::optional(place) : std::nullopt;
+  if (turned <= kVisible * total) return {};
+  // Triangles with a vertex in common are of one part.
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [area, t] : over)
+    for (const int v : *t) parent[root(v)] = root((*t)[0]);
+  struct Part {
+    double area = 0, largest = 0;
+    Complex at;
+  };
+  std::map<int, Part> parts;
+  for (const auto& [area, t] : over) {
+    const auto [i, j, k] = *t;
+    Part& part = parts[root(i)];
+    part.area += area;
+    if (area > part.largest) part.largest = area, part.at = (f[i] + f[j] + f[k]) / 3.0;
+  }
+  std::vector<Part> sorted;
+  for (const auto& [v, part] : parts) sorted.push_back(part);
+  std::ranges::sort(sorted, std::greater(), &Part::area);
+  Points places;
+  for (const Part& part : sorted)
+    if (places.empty() || part.area > kSpeck * total) places.push_back(part.at);
+  return places;
 }
 
 /// |f_z| - |f_zbar| of the linear map of a triangle, z being its place at rest.
@@ -100,7 +133,7 @@ class Drawn {
 
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   Injectivity found;
-  found.fold = visible_fold(mesh, f);
+  found.folds_at = visible_folds(mesh, f);
   Points image;
   for (const int v : mesh.boundary) image.push_back(f[v]);
   if (image.empty()) return found;
@@ -108,7 +141,7 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   found.boundary_turns = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;
-  if (!found.fold && found.folds()) found.fold = shrunken.at;
+  if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};
   if (const auto crossing = self_crossing(image)) found.crossing = crossing->point;
   return found;
 }

@@ -243,6 +243,25 @@ void Workspace::go_to(size_t entry) {
   prune_selection();
 }
 
+void Workspace::show_next_fold() {
+  const Injectivity& found = map().injectivity();
+  if (found.folds_at.empty()) {
+    if (found.crossing) viewport.center = *found.crossing;
+    return found.crossing ? toasts.push_back({"Nothing folds; two parts lie over each other here.",
+                                              false, found.crossing})
+                          : say("Nothing folds.");
+  }
+  fold_shown = folds_walked == found.folds_at ? (fold_shown + 1) % folds_walked.size() : 0;
+  folds_walked = found.folds_at;
+  posture = Posture::pose;
+  viewport.center = folds_walked[fold_shown];
+  const std::string number = folds_walked.size() == 1
+                                 ? ""
+                                 : " (" + std::to_string(fold_shown + 1) + " of " +
+                                       std::to_string(folds_walked.size()) + ")";
+  toasts.push_back({"The picture folds over itself here" + number + ".", true, viewport.center});
+}
+
 void Workspace::perform(const std::string& title, const Job::Work& work,
                         const std::function<void()>& then) {
   if (beside) return beside(title, work, then);
@@ -339,6 +358,7 @@ void Workspace::open(Document opened) {
   timed.reset();
   timeline.visible = timeline.shows = has_keyframes(document.scene());
   posture = Posture::pose;
+  split.reset();
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
   if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});

@@ -31,6 +31,8 @@ enum class Request {
   export_film,
   add_layer,
   replace_picture,
+  copy_picture,
+  paste_picture,
   quit,
   help,
   palette,
@@ -81,8 +83,11 @@ struct Workspace {
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
   Influence influence;                                ///< of drags
-  bool snaps = false;                                 ///< drags stop where things line up
-  double handle_px = 10;  ///< picking distance in window px, scaled with the display
+  Points folds_walked;                                ///< through these goes show_next_fold
+  size_t fold_shown = 0;
+  std::optional<double> split = {};  ///< left of it, in parts of the canvas, is the original
+  bool snaps = false;                ///< drags stop where things line up
+  double handle_px = 10;             ///< picking distance in window px, scaled with the display
   Playback playback;
   Timeline timeline;
   std::optional<Scene> timed;  ///< the document's scene with its handles as at the shown time
@@ -161,6 +166,8 @@ struct Workspace {
   /// Work that may take long, and then what is done with it: beside the window, or at once where
   /// there is none. Throws Error then.
   void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
+  /// Goes to where the picture folds: the worst place first, then the others.
+  void show_next_fold();
   /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
   void erase(const Selection& handles, Refit refit = Refit::curve);
   /// Drops handles that an edit took away.

@@ -63,7 +63,9 @@ void clear_canvas(const Frame& frame) {
             height = static_cast<int>(frame.canvas_height),
             bottom = frame.window_height - static_cast<int>(frame.canvas_top) - height;
   glViewport(left, bottom, width, height);
-  glScissor(left, bottom, width, height);
+  const int from = static_cast<int>(std::lround(frame.from * width)),
+            to = static_cast<int>(std::lround(frame.to * width));
+  glScissor(left + from, bottom, to - from, height);
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);

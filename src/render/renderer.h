@@ -39,8 +39,9 @@ struct Frame {
   Placement placement = Placement::positions;
   bool wireframe = false;  ///< the mesh's edges over it
   std::vector<Ghost> ghosts = {};
-  bool map_alone = false;  ///< the mesh over nothing, opaque, in place of all of the picture
-  bool over = false;       ///< over what is there: nothing is cleared and there is no backdrop
+  double from = 0, to = 1;  ///< only this part of the canvas' width
+  bool map_alone = false;   ///< the mesh over nothing, opaque, in place of all of the picture
+  bool over = false;        ///< over what is there: nothing is cleared and there is no backdrop
   Shows shows = Shows::map;
   Color background{0.2f, 0.2f, 0.2f},
       backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture

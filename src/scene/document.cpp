@@ -11,6 +11,8 @@
 #include "core/error.h"
 #include "scene/laid_surface.h"
 #include "scene/layers.h"
+#include "scene/ora_image.h"
+#include "scene/preferences.h"
 #include "scene/scene_json.h"
 
 namespace holomorph {
@@ -86,11 +88,11 @@ std::string load_picture(Scene& layer, Pictures& pictures, const std::string& po
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
   try {
-    if (!pictures.find(reference.file)) pictures.put(reference.file, read_picture(reference.file));
+    if (!pictures.find(reference)) pictures.put(reference, read_picture(reference));
   } catch (const Error& error) {
     throw Error(error.kind(), pointer + "/image/file: " + error.what());
   }
-  const Picture& picture = *pictures.find(reference.file);
+  const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
   reference.sha256 = picture.sha256;
   reference.width = picture.image->width;
@@ -139,12 +141,55 @@ void check_not_a_source(const Path& out, const Sources& sources) {
   for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene covers");
 }
 
+namespace {
+
+/// One layer with a picture of a file.
+Scene layer_of_picture(const Path& file, const std::string& entry, Pictures& pictures) {
+  ImageReference wanted;
+  wanted.file = fs::absolute(file).lexically_normal().string();
+  wanted.entry = entry;
+  Picture picture = read_picture(wanted);
+  Scene layer;
+  layer.image = reference_to(file, entry, picture);
+  pictures.put(*layer.image, std::move(picture));
+  return layer;
+}
+
+}  // namespace
+
 LoadedScene scene_of_image(const Path& path) {
-  Picture picture = read_picture(path);
   LoadedScene loaded;
-  loaded.scene.image = reference_to(path, picture);
-  loaded.pictures.put(loaded.scene.image->file, std::move(picture));
+  if (lower_case(path.extension().string()) != ".ora") {
+    loaded.scene = layer_of_picture(path, "", loaded.pictures);
+    return loaded;
+  }
+  std::vector<Scene> layers;
+  for (const OraLayer& each : ora_layers(read_file(path), path.string())) {
+    if (layers.size() == kMostLayers) {
+      loaded.warning = "Only the lowest 100 layers were opened.";
+      break;
+    }
+    Scene layer = layer_of_picture(path, each.entry, loaded.pictures);
+    layer.layer.id = static_cast<int>(layers.size()) + 1;
+    layer.layer.name = each.name;
+    layer.layer.visible = each.visible;
+    layers.push_back(std::move(layer));
+  }
+  size_t edited = layers.size() - 1;
+  while (edited > 0 && !layers[edited].layer.visible) --edited;
+  loaded.scene = scene_of_layers(std::move(layers), edited, {});
   return loaded;
+}
+
+LoadedScene scene_of_pasted(const std::string& png) {
+  decode_image(png, "the clipboard");
+  std::error_code ignored;
+  fs::create_directories(pasted_folder(), ignored);
+  const Path file = pasted_folder() / (sha256_hex(png).substr(0, 16) + ".png");
+  write_file(file, png);
+  LoadedScene pasted = scene_of_image(file);
+  pasted.scene.layer.name = "Pasted";
+  return pasted;
 }
 
 LoadedScene scene_of_surface(const Path& obj) {
@@ -225,9 +270,33 @@ Scene portable(Scene scene, const Path& folder) {
   return scene_of_layers(std::move(layers), edited_layer(scene), scene);
 }
 
+namespace {
+
+/// With the pictures as they are now, and copies of pasted ones beside the scene.
+Scene with_present_pictures(const Scene& scene, const Pictures& pictures, const Path& target) {
+  std::vector<Scene> layers = layers_of(scene);
+  for (Scene& layer : layers) {
+    if (!layer.image) continue;
+    ImageReference& image = *layer.image;
+    if (const Picture* now = pictures.find(image))
+      image = {image.file,         image.entry, now->image->width,
+               now->image->height, now->sha256, image.extra};
+    const Path file = image.file;
+    if (file.parent_path() != pasted_folder()) continue;
+    const Path copy = target.parent_path() /
+                      (target.stem().string() + "-" + file.stem().string().substr(0, 8) + ".png");
+    if (!fs::exists(copy)) write_file(copy, read_file(file));
+    image.file = copy.string();
+  }
+  return scene_of_layers(std::move(layers), edited_layer(scene), scene);
+}
+
+}  // namespace
+
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
-  write_file(target, json_of(portable(scene(), target.parent_path())));
+  write_file(target, json_of(portable(with_present_pictures(scene(), pictures_, target),
+                                      target.parent_path())));
   path_ = target;
   saved_ = history_.current();
 }

@@ -23,6 +23,10 @@ LoadedScene load_scene(const Path& path);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
 
+/// The scene of a picture that comes from no file: it is kept in pasted_folder(). Saving a scene
+/// puts copies of such pictures beside it. Throws Error.
+LoadedScene scene_of_pasted(const std::string& png);
+
 /// The scene as a file in an absolute folder holds it, with paths relative to there; with absolute
 /// ones when the folder is empty.
 Scene portable(Scene scene, const Path& folder);
@@ -37,7 +41,7 @@ Sources sources_of(const Scene& scene, const Path& scene_path);
 /// Throws Error when writing to `out` would replace one of them.
 void check_not_a_source(const Path& out, const Sources& sources);
 
-/// The scene of a picture alone: no cage yet.
+/// The scene of a picture alone, without a cage; of an OpenRaster file with all of its layers.
 LoadedScene scene_of_image(const Path& image);
 
 /// A surface that another program or this one textured: its picture, with the boundary of its
@@ -73,8 +77,8 @@ class Document {
   }
 
   /// Gives a file that a scene is going to name, or that has changed, its picture.
-  void put_picture(const std::string& file, Picture picture) {
-    pictures_.put(file, std::move(picture));
+  void put_picture(const ImageReference& reference, Picture picture) {
+    pictures_.put(reference, std::move(picture));
   }
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.

@@ -1,6 +1,7 @@
-// stb_image behind two functions; other formats by their own libraries.
+// stb_image behind two functions, upright as Exif says; other formats by their own libraries.
 #include "scene/image.h"
 
+#include <libexif/exif-data.h>
 #include <stb_image.h>
 #include <stb_image_write.h>
 
@@ -21,22 +22,62 @@ void check_image_size(int width, int height, const std::string& name) {
 }
 
 const std::vector<std::string>& picture_extensions() {
-  static const std::vector<std::string> all{".png",  ".jpg", ".jpeg", ".webp", ".tif",
-                                            ".tiff", ".bmp", ".tga",  ".gif",  ".psd"};
+  static const std::vector<std::string> all{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff",
+                                            ".bmp", ".tga", ".gif",  ".psd",  ".ora"};
   return all;
 }
+
+namespace {
+
+/// What a photograph says of the way in which the camera was held, 1 to 8 as Exif counts them.
+int orientation_of(const std::string& bytes) {
+  if (!bytes.starts_with("\xff\xd8")) return 1;
+  const std::unique_ptr<ExifData, void (*)(ExifData*)> data(
+      exif_data_new_from_data(reinterpret_cast<const unsigned char*>(bytes.data()),
+                              static_cast<unsigned>(bytes.size())),
+      exif_data_unref);
+  if (!data) return 1;
+  const ExifEntry* entry = exif_content_get_entry(data->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION);
+  if (!entry || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const int orientation = exif_get_short(entry->data, exif_data_get_byte_order(data.get()));
+  return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+/// Turned and mirrored so that its top is up.
+Image upright(Image image, int orientation) {
+  if (orientation == 1) return image;
+  const bool turned = orientation >= 5;
+  Image result(turned ? image.height : image.width, turned ? image.width : image.height);
+  const int w = image.width - 1, h = image.height - 1;
+  for (int r = 0; r < result.height; ++r)
+    for (int c = 0; c < result.width; ++c) {
+      // Where the upright pixel is stored.
+      const auto [column, row] = orientation == 2   ? std::pair(w - c, r)
+                                 : orientation == 3 ? std::pair(w - c, h - r)
+                                 : orientation == 4 ? std::pair(c, h - r)
+                                 : orientation == 5 ? std::pair(r, c)
+                                 : orientation == 6 ? std::pair(r, h - c)
+                                 : orientation == 7 ? std::pair(w - r, h - c)
+                                                    : std::pair(w - r, c);
+      std::memcpy(result.at(c, r), image.at(column, row), 4);
+    }
+  return result;
+}
+
+}  // namespace
 
 Image decode_image(const std::string& bytes, const std::string& name) {
   if (is_webp(bytes)) return decode_webp(bytes, name);
   if (is_tiff(bytes)) return decode_tiff(bytes, name);
+  if (is_ora(bytes)) return decode_ora(bytes, name);
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &channels))
     throw Error(ErrorKind::bad_input,
                 name +
-                    ": this is no picture that can be read (PNG, JPEG, WebP, TIFF, BMP, TGA, GIF "
-                    "or PSD)");
+                    ": this is no picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
+                    "BMP, TGA, GIF or PSD)");
   check_image_size(width, height, name);
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
@@ -45,7 +86,7 @@ Image decode_image(const std::string& bytes, const std::string& name) {
                 name + ": the picture is damaged (" + stbi_failure_reason() + ")");
   Image image(width, height);
   std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size());
-  return image;
+  return upright(std::move(image), orientation_of(bytes));
 }
 
 std::string encode_png(const Image& image) {

@@ -29,8 +29,9 @@ struct Image {
   }
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF and what else stb_image reads. `name` is for messages.
-/// Throws Error{bad_input} for what is no picture, or one of more than 16384 pixels a side.
+/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster and what else stb_image reads; photographs upright.
+/// `name` is for messages. Throws Error{bad_input} for what is no picture, or one of more than
+/// 16384 pixels a side.
 Image decode_image(const std::string& bytes, const std::string& name);
 
 /// How files that decode_image may read are named: lower case, with the dot.

@@ -11,6 +11,10 @@ bool is_tiff(const std::string& bytes);
 Image decode_webp(const std::string& bytes, const std::string& name);
 Image decode_tiff(const std::string& bytes, const std::string& name);
 
+/// OpenRaster: the picture of all layers together, as the file has it. Throws Error{bad_input}.
+bool is_ora(const std::string& bytes);
+Image decode_ora(const std::string& bytes, const std::string& name);
+
 /// Throws Error{bad_input} for more than 16384 pixels a side.
 void check_image_size(int width, int height, const std::string& name);
 

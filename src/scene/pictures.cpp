@@ -1,24 +1,32 @@
-// A file's time tells whether it has changed; its SHA-256 whether that matters.
+// A file's time tells whether it has changed.
 #include "scene/pictures.h"
+
+#include "scene/ora_image.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;
 
-Picture read_picture(const Path& file) {
+Picture read_picture(const ImageReference& reference) {
+  const Path file = reference.file;
   std::error_code ignored;
   const auto changed = fs::last_write_time(file, ignored);  // before: a later change is seen
   const std::string bytes = read_file(file);
-  return {std::make_shared<const Image>(decode_image(bytes, file.string())), sha256_hex(bytes),
-          changed};
+  Image image = reference.entry.empty() ? decode_image(bytes, file.string())
+                                        : decode_ora_layer(bytes, reference.entry, file.string());
+  return {std::make_shared<const Image>(std::move(image)), sha256_hex(bytes), changed};
 }
 
-ImageReference reference_to(const Path& file, const Picture& picture) {
-  return {fs::absolute(file).lexically_normal().string(), picture.image->width,
-          picture.image->height, picture.sha256, ""};
+ImageReference reference_to(const Path& file, const std::string& entry, const Picture& picture) {
+  return {fs::absolute(file).lexically_normal().string(),
+          entry,
+          picture.image->width,
+          picture.image->height,
+          picture.sha256,
+          ""};
 }
 
 std::shared_ptr<const Image> Pictures::shared(const Scene& layer) const {
-  const Picture* found = layer.image ? find(layer.image->file) : nullptr;
+  const Picture* found = layer.image ? find(*layer.image) : nullptr;
   return found ? found->image : nullptr;
 }
 
@@ -26,19 +34,27 @@ const Image* Pictures::of(const Scene& layer) const {
   return shared(layer).get();
 }
 
-const Picture* Pictures::find(const std::string& file) const {
-  const auto found = all_.find(file);
+const Picture* Pictures::find(const ImageReference& reference) const {
+  const auto found = all_.find({reference.file, reference.entry});
   return found == all_.end() ? nullptr : &found->second;
 }
 
-std::vector<std::string> Pictures::changed() const {
-  std::vector<std::string> files;
-  for (const auto& [file, picture] : all_) {
+void Pictures::put(const ImageReference& reference, Picture picture) {
+  all_[{reference.file, reference.entry}] = std::move(picture);
+}
+
+std::vector<ImageReference> Pictures::changed() const {
+  std::vector<ImageReference> all;
+  for (const auto& [name, picture] : all_) {
     std::error_code error;
-    const auto now = fs::last_write_time(file, error);
-    if (!error && now != picture.changed) files.push_back(file);
+    const auto now = fs::last_write_time(name.first, error);
+    if (error || now == picture.changed) continue;
+    ImageReference reference;
+    reference.file = name.first;
+    reference.entry = name.second;
+    all.push_back(std::move(reference));
   }
-  return files;
+  return all;
 }
 
 }  // namespace holomorph

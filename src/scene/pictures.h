@@ -17,24 +17,25 @@ struct Picture {
   std::filesystem::file_time_type changed = {};  ///< when the file was
 };
 
-/// Reads a picture. Throws Error.
-Picture read_picture(const Path& file);
-/// What a scene says of a picture that lies in a file. The path becomes absolute.
-ImageReference reference_to(const Path& file, const Picture& picture);
+/// Reads what a reference names. Throws Error.
+Picture read_picture(const ImageReference& reference);
+/// What a scene says of a picture: its file, whose path becomes absolute, its layer in there if it
+/// is one, and what was read.
+ImageReference reference_to(const Path& file, const std::string& entry, const Picture& picture);
 
-/// Pictures by the absolute paths of their files.
+/// Pictures by what names them: the absolute path of the file, and the layer in there.
 class Pictures {
  public:
   /// The picture of a layer alone; null when it has none, or none that was read.
   const Image* of(const Scene& layer) const;
   std::shared_ptr<const Image> shared(const Scene& layer) const;
-  const Picture* find(const std::string& file) const;
-  void put(const std::string& file, Picture picture) { all_[file] = std::move(picture); }
-  /// The files that have changed on disk since they were read, and are still there.
-  std::vector<std::string> changed() const;
+  const Picture* find(const ImageReference& reference) const;
+  void put(const ImageReference& reference, Picture picture);
+  /// What lies in files that have changed since they were read, and are still there.
+  std::vector<ImageReference> changed() const;
 
  private:
-  std::map<std::string, Picture> all_;
+  std::map<std::pair<std::string, std::string>, Picture> all_;  ///< by file and entry
 };
 
 }  // namespace holomorph

@@ -25,6 +25,10 @@ Path preferences_path() {
 
 }  // namespace
 
+Path pasted_folder() {
+  return folder("XDG_DATA_HOME", ".local/share") / "pasted";
+}
+
 Path autosave_folder() {
   return folder("XDG_STATE_HOME", ".local/state") / "autosave";
 }

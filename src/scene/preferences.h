@@ -37,5 +37,7 @@ KeyNames keys_of_json(const std::string& text, const std::string& name);
 
 /// $XDG_STATE_HOME/holomorph/autosave.
 Path autosave_folder();
+/// $XDG_DATA_HOME/holomorph/pasted: pictures that came from no file.
+Path pasted_folder();
 
 }  // namespace holomorph

@@ -63,7 +63,8 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
   if (!child) return {};
   Finished finished;
   size_t sent = 0;
-  bool good = true, told_end = false;
+  bool good = true, told_end = false, ended = false;
+  int status = 0;
   while (good) {
     if (sent == input.size() && !told_end) {
       ::shutdown(child->socket, SHUT_WR);
@@ -85,13 +86,17 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
       if (count == 0) break;
       if (count > 0) finished.output.append(part.data(), static_cast<size_t>(count));
       if (count < 0 && errno != EAGAIN && errno != EINTR) break;
+    } else if (!ended) {
+      // Some leave a helper behind that keeps this end open (clipboards do).
+      ended = ::waitpid(child->pid, &status, WNOHANG) == child->pid;
+    } else {
+      break;
     }
     good = good && go_on() && finished.output.size() <= limit;
   }
   ::close(child->socket);
-  if (!good) ::kill(child->pid, SIGTERM);
-  int status = 0;
-  while (::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
+  if (!good && !ended) ::kill(child->pid, SIGTERM);
+  while (!ended && ::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (!good) return {};
   finished.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;

@@ -18,6 +18,7 @@ using Extra = std::string;
 /// scene's folder, in a loaded scene absolute.
 struct ImageReference {
   std::string file;
+  std::string entry = {};  ///< which layer of an OpenRaster file: its file in there
   int width = 0, height = 0;
   std::string sha256;
   Extra extra;

@@ -46,6 +46,7 @@ ImageReference read_image(const Reader& reader) {
   ImageReference image;
   image.file = reader["file"].text();
   if (image.file.empty()) reader["file"].fail("the path is empty");
+  if (reader.has("entry")) image.entry = reader["entry"].text();
   if (reader.has("size")) {
     const Reader size = reader["size"].array();
     if (size.size() != 2) size.fail("[width, height] is wanted here");
@@ -53,7 +54,7 @@ ImageReference read_image(const Reader& reader) {
     image.height = size[1].whole(1, 1 << 20);
   }
   if (reader.has("sha256")) image.sha256 = reader["sha256"].text();
-  image.extra = reader.others({"file", "size", "sha256"});
+  image.extra = reader.others({"file", "entry", "size", "sha256"});
   return image;
 }
 
@@ -307,6 +308,7 @@ void write_layer(const Scene& scene, Json& document) {
   if (scene.image) {
     Json image;
     image["file"] = scene.image->file;
+    if (!scene.image->entry.empty()) image["entry"] = scene.image->entry;
     if (scene.image->width > 0)
       image["size"] = Json::array({scene.image->width, scene.image->height});
     if (!scene.image->sha256.empty()) image["sha256"] = scene.image->sha256;

@@ -219,7 +219,7 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   desk.settle();
   const Injectivity& found = desk.workspace.map().injectivity();
   CHECK(found.folds());
-  CHECK(found.fold);
+  CHECK_FALSE(found.folds_at.empty());
   CHECK(found.crossing);
   CHECK(found.boundary_turns == Approx(2).margin(0.01));  // around a zero of f'
   run(action_named("map.fold_free"), desk.workspace);

@@ -24,6 +24,12 @@ Pixel pixel_at(const Image& image, int column, int row) {
   return {p[0], p[1], p[2], p[3]};
 }
 
+ImageReference reference(const char* file) {
+  ImageReference named;
+  named.file = file;
+  return named;
+}
+
 constexpr Pixel kRed{255, 0, 0, 255}, kBlue{0, 0, 255, 255}, kNothing{0, 0, 0, 0};
 
 /// A red picture of 60 x 40 below a blue one of 30 x 20, which is edited; both with a cage.
@@ -35,10 +41,10 @@ struct Two {
   Two() {
     const auto named = [](const char* file, double width, double height) {
       Scene layer = with_cage(Scene{}, shapes::rectangle(width, height));
-      layer.image = ImageReference{file, 0, 0, "", ""};
+      layer.image = reference(file);
       return layer;
     };
-    pictures.put("red", {std::make_shared<const Image>(filled(60, 40, kRed)), ""});
+    pictures.put(reference("red"), {std::make_shared<const Image>(filled(60, 40, kRed)), ""});
     scene = with_layer_added(named("red", 60, 40), named("blue", 30, 20));
   }
   RasterResult drawn(const PictureOptions& options = {}) const {

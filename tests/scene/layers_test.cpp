@@ -170,7 +170,7 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   write_file(folder.path / "b.png", encode_png(Image(5, 4)));
   Document document = Document::open(folder.path / "pictures" / "a.png");
   LoadedScene other = scene_of_image(folder.path / "b.png");
-  document.put_picture(other.scene.image->file, *other.pictures.find(other.scene.image->file));
+  document.put_picture(*other.scene.image, *other.pictures.find(*other.scene.image));
   document.commit("Add", with_layer_added(document.scene(), other.scene));
   CHECK(document.image()->width == 5);
   document.save(folder.path / "pictures" / "s.json");

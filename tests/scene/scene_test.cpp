@@ -91,7 +91,7 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(replaced(kText, "{\"name\": \"x\"}", deep + std::string(200000, ']'))),
              Contains("nested"));
   Scene unspeakable = scene_from_json(kText, "x");
-  unspeakable.image = ImageReference{"caf\xe9.png", 0, 0, "", ""};
+  unspeakable.image = ImageReference{"caf\xe9.png", "", 0, 0, "", ""};
   CHECK_THROWS_AS(json_of(unspeakable), Error);
   std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
   for (int i = 0; i < 6000; ++i) many += "[[0,0]],";

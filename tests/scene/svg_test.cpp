@@ -94,7 +94,7 @@ TEST_CASE("A cage goes through SVG and back to 1e-9, at rest and posed, with and
   scene.pose = shapes::curved_star(9, 2, 0.2, 7);
   scene.pose.segments[3].resize(1);
   for (const int picture : {0, 400}) {
-    if (picture) scene.image = ImageReference{"x.png", picture, picture, "", ""};
+    if (picture) scene.image = ImageReference{"x.png", "", picture, picture, "", ""};
     check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::pose), scene.pose);
     check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::rest), scene.rest);
   }

@@ -15,7 +15,7 @@ std::vector<Action> view_actions();
 std::vector<Action> held_actions();
 
 inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false},
-    kCtrlShift{true, true, false};
+    kCtrlShift{true, true, false}, kCtrlAlt{true, false, true};
 
 inline bool always(const Workspace&) {
   return true;

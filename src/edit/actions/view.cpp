@@ -43,7 +43,8 @@ void frame_selection(Workspace& w) {
 }
 
 // Glyphs of Font Awesome 4.
-constexpr const char *kFilm = "\uf008", *kFit = "\uf065", *kHelp = "\uf059", *kSearch = "\uf002";
+constexpr const char *kHalves = "\uf042", *kFilm = "\uf008", *kFit = "\uf065", *kHelp = "\uf059",
+                     *kSearch = "\uf002";
 
 }  // namespace
 
@@ -84,6 +85,21 @@ std::vector<Action> view_actions() {
          return w.document.scene().has_cage() && w.scene().method == "bounded";
        },
        ask<Request::compare>},
+      {"view.fold",
+       "Go to the worst fold, and on to the next",
+       "",
+       "View",
+       {'W'},
+       [](const Workspace& w) { return w.map().has_map(); },
+       [](Workspace& w) { w.show_next_fold(); }},
+      {"view.before_after",
+       "Before and after, side by side",
+       kHalves,
+       "View",
+       {{'\\', kShift}, {'|', kShift}},
+       has_cage,
+       [](Workspace& w) { w.split = w.split ? std::nullopt : std::optional(0.5); },
+       [](const Workspace& w) { return w.split.has_value(); }},
       {"view.mesh",
        "Mesh",
        "",

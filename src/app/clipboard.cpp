@@ -1,0 +1,44 @@
+// GLFW knows text alone, so that pictures go through the desktop's own tools.
+#include "app/clipboard.h"
+
+#include <cstdlib>
+#include <vector>
+
+#include "core/error.h"
+#include "scene/process.h"
+
+namespace holomorph {
+namespace {
+
+/// The first of these tools that is installed and fits the display.
+std::vector<std::string> tool(std::vector<std::string> wayland, std::vector<std::string> x11) {
+  const char* display = std::getenv("WAYLAND_DISPLAY");
+  if (display && *display && has_program(wayland[0])) return wayland;
+  if (has_program(x11[0])) return x11;
+  throw Error(ErrorKind::failed,
+              "Pictures on the clipboard need the program xclip or, on Wayland, wl-clipboard; "
+              "neither is installed.");
+}
+
+}  // namespace
+
+std::string picture_on_clipboard(const std::function<bool()>& go_on) {
+  const auto finished =
+      run_program(tool({"wl-paste", "--type", "image/png"},
+                       {"xclip", "-selection", "clipboard", "-target", "image/png", "-out"}),
+                  "", go_on);
+  if (!finished || finished->status != 0 || finished->output.empty())
+    throw Error(ErrorKind::bad_input, "There is no picture on the clipboard.");
+  return finished->output;
+}
+
+void put_on_clipboard(const std::string& png, const std::function<bool()>& go_on) {
+  const auto finished =
+      run_program(tool({"wl-copy", "--type", "image/png"},
+                       {"xclip", "-selection", "clipboard", "-target", "image/png", "-in"}),
+                  png, go_on);
+  if (!finished || finished->status != 0)
+    throw Error(ErrorKind::failed, "The picture could not be put on the clipboard.");
+}
+
+}  // namespace holomorph

@@ -1,0 +1,69 @@
+# What the tests of the real window share.
+import json
+import os
+import shutil
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+from PIL import Image
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+OUT = os.path.join(os.path.dirname(PROGRAM), "screenshots")
+
+
+def load(path):
+    with open(path) as file:
+        return json.load(file)
+
+
+class WindowCase(unittest.TestCase):
+    def setUp(self):
+        self.work = tempfile.mkdtemp(prefix="holomorph-work-")
+        self.picture = os.path.join(self.work, "gecko.png")
+        shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.picture)
+        os.makedirs(OUT, exist_ok=True)
+
+    def tearDown(self):
+        shutil.rmtree(self.work)
+
+    def screenshot(self, editor, name):
+        path = os.path.join(OUT, name + ".png")
+        editor.screenshot(path)
+        return numpy.asarray(Image.open(path).convert("RGB")).astype(int)
+
+    def caged(self, size, cage):
+        """A scene file of a picture of this size with a cage."""
+        Image.effect_mandelbrot(size, (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "caged.png"))
+        path = os.path.join(self.work, "caged.json")
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": "caged.png"},
+                       "cage": {"rest": [[p] for p in cage]}}, file)
+        return path
+
+    def save_as(self, editor, path):
+        editor.key("ctrl+shift+s")
+        time.sleep(0.4)
+        editor.key("ctrl+a")
+        editor.type(path)
+        editor.key("Return")
+        editor.wait(lambda s: not s["modified"] and os.path.exists(path), "the saved scene")
+
+    def press_in_dialog(self, editor, down):
+        """A click in the window's middle column, so many px below its middle, where dialogs are."""
+        editor.press(640, 400 + down)  # the window has 1280 x 800 px
+        time.sleep(0.5)
+
+    def by_palette(self, editor, words):
+        """Runs an action by its name."""
+        editor.key("ctrl+shift+p")
+        time.sleep(0.3)
+        editor.type(words)
+        editor.key("Return")
+        time.sleep(0.4)
+
+
+def run_tests():
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2, warnings="ignore")

@@ -1,0 +1,240 @@
+# The real window once more: layers, files that others change, keys and exports, by real input events.
+import json
+import os
+import shutil
+import stat
+import sys
+import time
+import unittest
+
+import numpy
+from PIL import Image
+
+sys.path.insert(0, os.path.dirname(__file__))
+from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
+from driver import Editor  # noqa: E402
+
+RED, BLUE, GREEN = (220, 30, 30), (30, 60, 220), (20, 160, 60)
+
+
+class EditorWindowTest(WindowCase):
+    def plain(self, name, color, size=(300, 200)):
+        path = os.path.join(self.work, name)
+        Image.new("RGBA", size, color + (255,)).save(path)
+        return path
+
+    def color_at(self, editor, x, y):
+        """What the canvas shows at a place of the plane."""
+        px, py = editor.pixel(x, y)
+        return self.screenshot(editor, "color")[py, px]
+
+    def wait_color(self, editor, place, color, what):
+        end = time.time() + 10
+        while time.time() < end:
+            if numpy.abs(self.color_at(editor, *place) - color).max() < 12:
+                return
+            time.sleep(0.1)
+        self.fail(f"{what}: at {place} is {self.color_at(editor, *place)}, not {color}")
+
+    def program(self, name, script):
+        """A stand-in for another program, found before the real one."""
+        folder = os.path.join(self.work, "bin")
+        os.makedirs(folder, exist_ok=True)
+        path = os.path.join(folder, name)
+        with open(path, "w") as file:
+            file.write("#!/bin/sh\n" + script)
+        os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+        self.addCleanup(os.environ.__setitem__, "PATH", os.environ["PATH"])
+        os.environ["PATH"] = folder + ":" + os.environ["PATH"]
+
+    def preferences(self, **values):
+        """A home whose preferences are these."""
+        home = os.path.join(self.work, "home")
+        os.makedirs(home + "/config/holomorph", exist_ok=True)
+        with open(home + "/config/holomorph/preferences.json", "w") as file:
+            json.dump(values, file)
+        return home
+
+    def test_layers_are_added_hidden_locked_ordered_and_saved(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        self.plain("caged.png", RED)
+        blue = self.plain("blue.png", BLUE, (150, 200))
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            self.wait_color(editor, (75, 100), RED, "the lower layer")
+            editor.drop(blue, 400, 400)
+            time.sleep(0.5)
+            self.press_in_dialog(editor, -19)  # Add it as a layer
+            editor.wait(lambda s: s["layers"] == 2 and s["edited_layer"] == 1, "a second layer")
+            self.wait_color(editor, (75, 100), BLUE, "the upper layer")
+            self.wait_color(editor, (225, 100), RED, "the lower one beside it")
+            editor.key("ctrl+h")
+            editor.wait(lambda s: not s["visible"], "a hidden layer")
+            self.wait_color(editor, (75, 100), RED, "what was under it")
+            editor.key("ctrl+h")
+            editor.key("ctrl+Next")
+            editor.wait(lambda s: s["visible"] and s["edited_layer"] == 0, "the layer at the bottom")
+            self.wait_color(editor, (75, 100), RED, "the layer that covers it")
+            editor.key("Prior")
+            editor.wait(lambda s: s["edited_layer"] == 1 and s["cage_points"] == 4, "the layer with the cage")
+            editor.key("ctrl+l")
+            editor.wait(lambda s: s["locked"], "a locked layer")
+            step = editor.state()["step"]
+            editor.drag((10, 10), (60, 60))
+            self.assertEqual(editor.state()["step"], step, "a locked layer is not moved")
+            editor.key("ctrl+l")
+            editor.drag((10, 10), (60, 60))
+            editor.wait(lambda s: s["step"] > step + 1, "a moved point")
+            self.screenshot(editor, "layers")
+            path = os.path.join(self.work, "layers.json")
+            self.save_as(editor, path)
+        saved = load(path)
+        self.assertEqual([layer["image"]["file"] for layer in saved["layers"]], ["blue.png", "caged.png"])
+        self.assertEqual(saved["edited"], 1)
+
+    def test_a_picture_that_another_program_changes_is_read_again(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        self.plain("caged.png", RED)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            editor.drag((10, 10), (60, 40))
+            step = editor.wait(lambda s: s["modified"], "a pose")["step"]
+            self.wait_color(editor, (150, 100), RED, "the picture")
+            self.plain("caged.png", GREEN)
+            self.wait_color(editor, (150, 100), GREEN, "the changed picture")
+            state = editor.state()
+            self.assertEqual((state["step"], state["cage_points"]), (step, 4), "the rig stays")
+            with open(os.path.join(self.work, "caged.png"), "w") as file:
+                file.write("half a pic")  # a program that is still writing
+            time.sleep(2.5)
+            self.wait_color(editor, (150, 100), GREEN, "the picture that could be read")
+            self.plain("caged.png", BLUE)
+            self.wait_color(editor, (150, 100), BLUE, "the next one")
+
+    def test_pictures_come_from_the_clipboard_and_go_there(self):
+        there, copied = os.path.join(self.work, "there.png"), os.path.join(self.work, "copied.png")
+        self.plain("there.png", GREEN, (120, 200))
+        # xclip -out gives a picture, -in takes one and leaves a helper behind, as the real one does.
+        self.program("xclip", f'case "$*" in *-out) cat {there};; *) cat > {copied}.part; mv {copied}.part {copied}; '
+                              f'sleep 30 & esac\n')
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        self.plain("caged.png", RED)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            self.by_palette(editor, "paste a picture")
+            editor.wait(lambda s: s["layers"] == 2, "the pasted layer")
+            self.wait_color(editor, (60, 100), GREEN, "the pasted picture")
+            self.by_palette(editor, "copy the picture")
+            editor.wait(lambda s: os.path.exists(copied), "the copied picture")
+            path = os.path.join(self.work, "pasted.json")
+            self.save_as(editor, path)
+        image = numpy.asarray(Image.open(copied).convert("RGB"))
+        self.assertEqual(image.shape, (200, 300, 3))
+        self.assertEqual([tuple(image[100, x]) for x in (60, 200)], [GREEN, RED])
+        file = load(path)["layers"][1]["image"]["file"]
+        self.assertEqual(os.path.dirname(file), "", "what was pasted lies beside the scene")
+        self.assertTrue(os.path.exists(os.path.join(self.work, file)))
+
+    def test_the_desktops_file_dialog_is_used_where_there_is_one(self):
+        chosen = self.plain("chosen.png", BLUE)
+        log = os.path.join(self.work, "asked")
+        self.program("zenity", f'echo "$@" > {log}; echo {chosen}\n')
+        with Editor(PROGRAM, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            editor.key("ctrl+o")
+            editor.wait(lambda s: not s["empty"], "the chosen picture")
+            with open(log) as file:
+                self.assertIn("*.png", file.read())
+            self.program("zenity", "exit 1\n")  # cancelled
+            editor.key("ctrl+o")
+            time.sleep(0.8)
+            editor.key("ctrl+n")
+            editor.wait(lambda s: s["empty"], "a window that goes on")
+
+    def test_keys_are_changed_and_kept(self):
+        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        home = self.preferences(hints=False)
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            editor.key("F1")
+            time.sleep(0.5)
+            editor.type("checker")
+            picture = self.screenshot(editor, "keys")
+            # The only row's button, below the search field, at the window's left.
+            column = picture[:, 330]
+            rows = [y for y in range(150, 700) if numpy.abs(column[y] - column[700]).max() > 6]
+            editor.press(330, rows[0] + 8)
+            time.sleep(0.3)
+            self.screenshot(editor, "keys-waiting")
+            editor.key("j")
+            time.sleep(0.3)
+            editor.key("Escape")
+            time.sleep(0.3)
+            editor.key("5")
+            time.sleep(0.3)
+            self.assertEqual(editor.state()["view"], "image", "the old key is free")
+            editor.key("j")
+            editor.wait(lambda s: s["view"] == "checker", "the new key")
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
+            editor.key("j")
+            editor.wait(lambda s: s["view"] == "checker", "the new key in the next session")
+
+    def test_a_held_key_stands_in_for_alt(self):
+        scene = self.caged((300, 200), [[10, 10], [150, 5], [290, 10], [290, 190], [10, 190]])
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 5, "the scene")
+            editor.move(150, 5)
+            editor.xdotool("keydown", "q")
+            editor.xdotool("click", 1)
+            editor.xdotool("keyup", "q")
+            editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
+
+    def test_before_and_after_lie_side_by_side(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        half = numpy.zeros((200, 300, 4), numpy.uint8)
+        half[:, :] = RED + (255,)
+        half[100:, :] = BLUE + (255,)  # the lower half
+        Image.fromarray(half).save(os.path.join(self.work, "caged.png"))
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            editor.key("ctrl+a")
+            for _ in range(4):
+                editor.key("shift+Up")  # by 40 in all
+            editor.wait(lambda s: s["modified"], "a moved picture")
+            editor.key("0")
+            editor.key("shift+backslash")
+            editor.wait(lambda s: s["split"] == 0.5, "two halves")
+            self.wait_color(editor, (75, 120), RED, "before")
+            self.wait_color(editor, (225, 120), BLUE, "after")
+            editor.drag((150, 150), (250, 150))
+            editor.wait(lambda s: s["split"] > 0.6, "the dragged line")
+            self.wait_color(editor, (225, 120), RED, "before, as far as the line")
+            self.screenshot(editor, "before-after")
+
+    def test_an_export_shows_what_it_will_be_and_repeats(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        self.plain("caged.png", RED)
+        target = os.path.join(self.work, "out.png")
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            editor.key("ctrl+a")
+            editor.key("shift+Right")
+            editor.wait(lambda s: s["modified"], "a moved picture")
+            self.by_palette(editor, "background: the original")
+            editor.key("ctrl+e")
+            time.sleep(0.6)
+            self.screenshot(editor, "export")
+            editor.key("ctrl+a")
+            editor.type(target)
+            editor.key("Return")
+            editor.wait(lambda s: os.path.exists(target), "the export")
+            image = Image.open(target)
+            self.assertEqual(image.size, (310 - 10, 200))
+            os.remove(target)
+            editor.key("ctrl+shift+e")
+            editor.wait(lambda s: os.path.exists(target), "the export once more")
+
+
+if __name__ == "__main__":
+    run_tests()
