@@ -42,12 +42,13 @@ Color onion_color(bool later) {
 
 LayerPainter& Canvas::painter_of(const Scene& layer) {
   std::unique_ptr<LayerPainter>& painter = painters_[layer.layer.id];
-  if (!painter) painter = std::make_unique<LayerPainter>();
+  if (!painter) painter = std::make_unique<LayerPainter>(wake_);
   return *painter;
 }
 
 void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
   const int factor = painter_of(layer).take_picture(workspace.document.pictures().shared(layer));
+  if (painter_of(layer).grows()) wake_();
   if (factor > 1)
     workspace.say(
         "The picture is larger than this driver's textures: the canvas shows it reduced " +

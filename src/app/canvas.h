@@ -22,6 +22,9 @@ Color onion_color(bool later);
 /// Owns the painters of all layers. Needs a current OpenGL context.
 class Canvas {
  public:
+  /// `wake` is called on another thread when there is something new to draw.
+  explicit Canvas(std::function<void()> wake) : wake_(std::move(wake)) {}
+
   /// The workspace has another document.
   void forget() { painters_.clear(); }
   /// Uploads what changed since the last frame and draws. The maps must be up to date.
@@ -45,6 +48,7 @@ class Canvas {
 
   std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by the layers' ids
   LayerPainter* edited_ = nullptr;
+  std::function<void()> wake_;
 };
 
 }  // namespace holomorph

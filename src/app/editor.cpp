@@ -26,6 +26,7 @@ class Editor {
   explicit Editor(const EditorOptions& options)
       : preferences_(load_preferences()),
         window_(1280, 800, preferences_.ui_scale, preferences_.theme),
+        canvas_([this] { window_.wake(); }),
         comparison_([this] { window_.wake(); }),
         files_(
             workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); }),
@@ -58,7 +59,9 @@ class Editor {
       const bool playing =
           workspace_.playback.playing || workspace_.timeline.playing || files_.busy();
       const bool happened = window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25);
+      const double start = now_ms();
       if (happened) frame();
+      slowest_ms_ = std::max(slowest_ms_, now_ms() - start);
       if (now_ms() - watched_ms_ > 500) {
         watched_ms_ = now_ms();
         files_.watch_pictures();
@@ -107,6 +110,7 @@ class Editor {
     parts.on_surface = workspace_.shows_surface() && surface_pane_.has_picture();
     parts.yaw = surface_pane_.camera().yaw;
     parts.exporting = files_.busy();
+    parts.slowest_ms = slowest_ms_;
     parts.distance = surface_pane_.camera().distance;
     state_file_->write(workspace_, parts);
   }
@@ -360,7 +364,7 @@ class Editor {
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
        was_active_ = false, restyle_ = false;
-  double watched_ms_ = 0;
+  double watched_ms_ = 0, slowest_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
   SurfacePane surface_pane_;

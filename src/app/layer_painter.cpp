@@ -1,14 +1,43 @@
 // Values are compared with what the renderer has: a preparation's number, a picture's address.
 #include "app/layer_painter.h"
 
+#include <utility>
+
 namespace holomorph {
 
+namespace {
+
+/// What takes no time that anyone could notice.
+constexpr size_t kSmallPixels = 1'500'000;
+constexpr size_t kBytesPerFrame = 8 << 20;
+
+}  // namespace
+
 int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
-  if (picture == picture_) return 0;
+  if (picture == picture_) {
+    if (making_ready_ && making_ready_->ended()) {
+      making_ready_.reset();
+      renderer_.begin_picture(ready_);
+      grows_ = true;
+      return std::exchange(ready_, nullptr)->factor;
+    }
+    grows_ = grows_ && renderer_.upload_more(kBytesPerFrame);
+    return 0;
+  }
   picture_ = std::move(picture);
-  return picture_
-             ? renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data())
-             : renderer_.set_picture(0, 0, nullptr);
+  making_ready_.reset();
+  grows_ = false;
+  if (!picture_) return renderer_.set_picture(0, 0, nullptr);
+  if (static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height) <= kSmallPixels)
+    return renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
+  ready_ = std::make_shared<TextureLevels>();
+  making_ready_ = std::make_unique<Job>(
+      "Texture",
+      [picture = picture_, ready = ready_, largest = Renderer::largest_side()](Job::Progress&) {
+        *ready = texture_levels(picture->width, picture->height, picture->pixels.data(), largest);
+      },
+      wake_);
+  return 0;
 }
 
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {

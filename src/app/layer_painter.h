@@ -5,6 +5,7 @@
 
 #include "render/renderer.h"
 #include "scene/image.h"
+#include "scene/job.h"
 #include "scene/live_map.h"
 
 namespace holomorph {
@@ -12,9 +13,15 @@ namespace holomorph {
 /// Owns a renderer and what it was last given. Needs a current OpenGL context.
 class LayerPainter {
  public:
-  /// The picture as it is now, or null. Returns how many times it had to be reduced for this
-  /// driver, 1 when not at all; 0 when it is the one that was there.
+  /// `wake` is called on another thread when there is something new to draw.
+  explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// The picture as it is now, or null. Large ones are made ready on another thread and appear bit
+  /// by bit. Returns how many times it had to be reduced for this driver, 1 when not at all; 0 when
+  /// that has been said or is not known yet.
   int take_picture(std::shared_ptr<const Image> picture);
+  /// Whether the next frame will show more of the picture.
+  bool grows() const { return grows_; }
   /// The map as it is now, and its heat map if `view` is one.
   void take_map(const LiveMap& map, View view, bool automatic_range);
   /// Draws; view and placement are chosen here from the map that was taken.
@@ -29,7 +36,11 @@ class LayerPainter {
  private:
   void update_heat(const LiveMap& map, View view, bool automatic_range);
 
+  std::function<void()> wake_;
   Renderer renderer_;
+  std::shared_ptr<TextureLevels> ready_;  ///< what making_ready_ makes
+  std::unique_ptr<Job> making_ready_;
+  bool grows_ = false;
   std::shared_ptr<const Image> picture_;
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;

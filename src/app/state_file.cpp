@@ -26,7 +26,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
       "\"runs\": %s, \"layers\": %d, \"edited_layer\": %d, \"locked\": %s, \"visible\": %s, "
       "\"split\": "
-      "%.4f}\n",
+      "%.4f, \"slowest_ms\": %.1f}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.posture == Posture::rest ? "rest" : "pose",
@@ -53,7 +53,8 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(layer_count(workspace.document.scene())),
       static_cast<int>(edited_layer(workspace.document.scene())),
       workspace.document.scene().layer.locked ? "true" : "false",
-      workspace.document.scene().layer.visible ? "true" : "false", workspace.split.value_or(-1));
+      workspace.document.scene().layer.visible ? "true" : "false", workspace.split.value_or(-1),
+      parts.slowest_ms);
   if (text == last_) return;
   last_ = text;
   try {

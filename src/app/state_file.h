@@ -11,6 +11,7 @@ struct PartsState {
   int compared_rows = 0;
   bool on_surface = false;       ///< the picture is on the surface in space
   double yaw = 0, distance = 0;  ///< of the camera there
+  double slowest_ms = 0;         ///< frame so far, from its first event to its last pixel
   bool exporting = false;        ///< a film
 };
 

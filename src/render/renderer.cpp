@@ -8,27 +8,6 @@
 namespace holomorph {
 namespace {
 
-/// Averages blocks of factor x factor pixels, weighted by alpha, and premultiplies.
-std::vector<std::uint8_t> premultiplied(int width, int height, const std::uint8_t* pixels,
-                                        int factor) {
-  const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
-  std::vector<std::uint8_t> out(static_cast<size_t>(w) * h * 4);
-  for (int r = 0; r < h; ++r)
-    for (int c = 0; c < w; ++c) {
-      unsigned sum[4] = {0, 0, 0, 0}, count = 0;
-      for (int y = r * factor; y < std::min(height, (r + 1) * factor); ++y)
-        for (int x = c * factor; x < std::min(width, (c + 1) * factor); ++x, ++count) {
-          const std::uint8_t* p = pixels + 4 * (static_cast<size_t>(y) * width + x);
-          for (int k = 0; k < 3; ++k) sum[k] += (p[k] * p[3] + 127) / 255;
-          sum[3] += p[3];
-        }
-      for (int k = 0; k < 4; ++k)
-        out[4 * (static_cast<size_t>(r) * w + c) + k] =
-            static_cast<std::uint8_t>((sum[k] + count / 2) / count);
-    }
-  return out;
-}
-
 std::vector<float> pairs(std::span<const Complex> points) {
   std::vector<float> flat;
   flat.reserve(2 * points.size());
@@ -100,6 +79,8 @@ struct Renderer::Objects {
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0;
   double width = 0, height = 0;  ///< the picture's, in plane units
+  std::shared_ptr<const TextureLevels> levels;  ///< until all of them are uploaded
+  int level = 0, row = 0;                       ///< what is being uploaded
   int columns = 0;
 
   GLint at(const char* name) const { return shaders.at(name); }
@@ -233,23 +214,39 @@ Renderer::~Renderer() {
   glDeleteVertexArrays(1, &gl.ghost_array);
 }
 
-int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
-  Objects& gl = *gl_;
-  gl.width = width;
-  gl.height = height;
-  if (width <= 0 || height <= 0) return 1;
+int Renderer::largest_side() {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  int factor = 1;
-  while ((std::max(width, height) + factor - 1) / factor > largest) ++factor;
-  const std::vector<std::uint8_t> data = premultiplied(width, height, pixels, factor);
-  const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
+  return largest;
+}
+
+int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
+  if (width <= 0 || height <= 0) {
+    begin_picture(nullptr);
+    return 1;
+  }
+  const auto levels = std::make_shared<const TextureLevels>(
+      texture_levels(width, height, pixels, largest_side()));
+  begin_picture(levels);
+  while (upload_more(levels->levels[0].pixels.size())) {
+  }
+  return levels->factor;
+}
+
+void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
+  Objects& gl = *gl_;
+  gl.levels = std::move(levels);
+  gl.width = gl.levels ? gl.levels->width : 0;
+  gl.height = gl.levels ? gl.levels->height : 0;
+  if (!gl.levels) return;
+  // Another texture: the levels of the one before have other sizes.
+  glDeleteTextures(1, &gl.picture);
+  glGenTextures(1, &gl.picture);
   glActiveTexture(GL_TEXTURE0 + kPicture);
   glBindTexture(GL_TEXTURE_2D, gl.picture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, data.data());
-  glGenerateMipmap(GL_TEXTURE_2D);
+  gl.level = static_cast<int>(gl.levels->levels.size());
+  gl.row = 0;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, gl.level - 1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
@@ -259,13 +256,40 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
   }
-  const double left = 0, right = width, bottom = 0, top = height;
-  const float corners[] = {static_cast<float>(left),  static_cast<float>(bottom),
-                           static_cast<float>(right), static_cast<float>(bottom),
-                           static_cast<float>(left),  static_cast<float>(top),
-                           static_cast<float>(right), static_cast<float>(top)};
+  const float right = static_cast<float>(gl.width), top = static_cast<float>(gl.height);
+  const float corners[] = {0, 0, right, 0, 0, top, right, top};
   upload(gl.quad, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
-  return factor;
+  upload_more(1 << 20);
+}
+
+bool Renderer::upload_more(size_t bytes) {
+  Objects& gl = *gl_;
+  if (!gl.levels) return false;
+  glActiveTexture(GL_TEXTURE0 + kPicture);
+  glBindTexture(GL_TEXTURE_2D, gl.picture);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  for (size_t sent = 0; sent < bytes && gl.levels;) {
+    if (gl.row == 0) {
+      --gl.level;
+      const TextureLevel& next = gl.levels->levels[static_cast<size_t>(gl.level)];
+      glTexImage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, next.width, next.height, 0, GL_RGBA,
+                   GL_UNSIGNED_BYTE, nullptr);
+    }
+    const TextureLevel& level = gl.levels->levels[static_cast<size_t>(gl.level)];
+    const size_t row_bytes = 4 * static_cast<size_t>(level.width);
+    const int rows =
+        std::min(level.height - gl.row, static_cast<int>((bytes - sent) / row_bytes) + 1);
+    glTexSubImage2D(GL_TEXTURE_2D, gl.level, 0, gl.row, level.width, rows, GL_RGBA,
+                    GL_UNSIGNED_BYTE, level.pixels.data() + static_cast<size_t>(gl.row) * row_bytes);
+    sent += static_cast<size_t>(rows) * row_bytes;
+    gl.row += rows;
+    if (gl.row < level.height) continue;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, gl.level);
+    gl.row = 0;
+    if (gl.level == 0) gl.levels.reset();
+  }
+  return gl.levels != nullptr;
 }
 
 void Renderer::set_mesh(const Mesh* mesh) {

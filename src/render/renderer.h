@@ -8,6 +8,7 @@
 
 #include "core/heat.h"
 #include "core/mesh.h"
+#include "render/texture_levels.h"
 
 namespace holomorph {
 
@@ -59,6 +60,13 @@ class Renderer {
   /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor
   /// by which it had to be reduced for this driver, 1 when not at all.
   int set_picture(int width, int height, const std::uint8_t* pixels);
+  /// The same bit by bit, so that no frame waits: the picture is there at once, coarsely, and call
+  /// by call of upload_more in more detail. Null takes it away.
+  void begin_picture(std::shared_ptr<const TextureLevels> levels);
+  /// Hands over about so many bytes. Returns whether anything is left.
+  bool upload_more(size_t bytes);
+  /// The largest side of a texture.
+  static int largest_side();
   /// The mesh at rest; positions and operator start afresh. Null takes it away.
   void set_mesh(const Mesh* mesh);
   /// Where the vertices go, by Placement::positions.

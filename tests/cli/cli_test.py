@@ -11,10 +11,11 @@ import sys
 import tempfile
 import time
 import unittest
+import zipfile
 
 import jsonschema
 import numpy
-from PIL import Image
+from PIL import Image, ImageOps
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
@@ -645,6 +646,101 @@ class CommandLine(unittest.TestCase):
             process.send_signal(signal.SIGKILL)
             process.wait()
             self.assertEqual(open(out).read(), whole)
+
+
+    # ---- pictures of other programs ------------------------------------------------------------
+
+    def opened(self, picture):
+        """A picture as the program sees it: rendered at rest."""
+        scene, out = self.path("opened.json"), self.path("opened.png")
+        self.good("new", picture, "--out", scene)
+        self.good("render", scene, "--out", out)
+        return numpy.asarray(Image.open(out).convert("RGBA")).astype(int), json.load(open(scene))
+
+    def test_photographs_are_upright_however_the_camera_was_held(self):
+        stored = Image.new("RGB", (48, 32), (40, 40, 40))
+        stored.paste((250, 20, 20), (0, 0, 16, 16))
+        stored.paste((20, 250, 20), (32, 0, 48, 16))
+        for orientation in range(1, 9):
+            exif = Image.Exif()
+            exif[0x0112] = orientation
+            path = self.path("photo.jpg")
+            stored.save(path, quality=100, subsampling=0, exif=exif)
+            wanted = numpy.asarray(ImageOps.exif_transpose(Image.open(path)).convert("RGBA")).astype(int)
+            seen, _ = self.opened(path)
+            self.assertEqual(seen.shape, wanted.shape, orientation)
+            self.assertLessEqual(numpy.abs(seen - wanted).max(), 12, orientation)
+
+    def open_raster(self, name, stack, pictures, size=(60, 40)):
+        path = self.path(name)
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr(zipfile.ZipInfo("mimetype"), "image/openraster")
+            archive.writestr("stack.xml", f'<image w="{size[0]}" h="{size[1]}"><stack>{stack}</stack></image>')
+            for entry, picture in {"mergedimage.png": Image.new("RGBA", (60, 40)), **pictures}.items():
+                bytes = io.BytesIO()
+                picture.save(bytes, "PNG")
+                archive.writestr(entry, bytes.getvalue())
+        return path
+
+    def test_open_raster_layers_become_layers(self):
+        red, blue = Image.new("RGBA", (60, 40), (200, 0, 0, 255)), Image.new("RGBA", (20, 20), (0, 0, 200, 255))
+        path = self.open_raster("art.ora", """
+            <layer name="hidden" src="data/c.png" visibility="hidden"/>
+            <stack x="5" y="4" opacity="0.5"><layer name="sky &amp; sea" src="data/b.png" x="5" y="6"/></stack>
+            <layer name="ground" src="data/a.png"/>""", {"data/a.png": red, "data/b.png": blue, "data/c.png": blue})
+        seen, scene = self.opened(path)
+        jsonschema.validate(scene, SCHEMA)
+        self.assertEqual([(layer["name"], layer.get("visible", True), layer["image"]["entry"]) for layer in scene["layers"]],
+                         [("ground", True, "data/a.png"), ("sky & sea", True, "data/b.png"), ("hidden", False, "data/c.png")])
+        self.assertEqual(scene["layers"][0]["image"]["file"], "art.ora")
+        self.assertEqual(seen.shape, (40, 60, 4))
+        wanted = numpy.zeros((40, 60, 4), int)
+        wanted[:, :] = (200, 0, 0, 255)
+        wanted[10:30, 10:30] = (100, 0, 100, 255)
+        self.assertLessEqual(numpy.abs(seen - wanted).max(), 1)
+
+    def test_damaged_open_raster_is_said(self):
+        red = Image.new("RGBA", (60, 40), (200, 0, 0, 255))
+        layer = '<layer name="a" src="data/a.png"/>'
+        good = open(self.open_raster("good.ora", layer, {"data/a.png": red}), "rb").read()
+        for name, stack, pictures, size in [("missing", layer, {}, (60, 40)), ("none", "", {}, (60, 40)),
+                                            ("huge", layer, {"data/a.png": red}, (60, 2000000)),
+                                            ("nowhere", layer, {"data/a.png": red}, (0, 0))]:
+            path = self.open_raster(name + ".ora", stack, pictures, size)
+            self.bad("new", path, "--out", self.path("s.json"), says=name + ".ora")
+        for cut in range(60, len(good), 97):
+            with open(self.path("cut.ora"), "wb") as file:
+                file.write(good[:cut])
+            self.bad("new", self.path("cut.ora"), "--out", self.path("s.json"), says="cut.ora")
+        self.assertFalse(os.path.exists(self.path("s.json")))
+
+    # ---- layers and backgrounds ----------------------------------------------------------------
+
+    def test_layers_are_drawn_over_each_other_and_over_the_background(self):
+        for name, color in [("a.png", (200, 0, 0)), ("b.png", (0, 0, 200))]:
+            Image.new("RGBA", (60, 40), color + (255,)).save(self.path(name))
+        square = [[[0, 0]], [[60, 0]], [[60, 40]], [[0, 40]]]
+
+        def moved(by):
+            return [[[x + by, y]] for [[x, y]] in square]
+
+        scene = {"format": "holomorph", "version": 2, "background": "#102030", "edited": 0, "layers": [
+            {"image": {"file": "a.png"}, "cage": {"rest": square, "pose": moved(20)}},
+            {"name": "b", "image": {"file": "b.png"}, "cage": {"rest": square, "pose": moved(40)}}]}
+        jsonschema.validate(scene, SCHEMA)
+        out = self.path("out.png")
+        self.good("render", self.write("s.json", scene), "--out", out)
+        image = numpy.asarray(Image.open(out).convert("RGBA"))
+        self.assertEqual(image.shape, (40, 100, 4))
+        row = [tuple(image[20, x]) for x in (10, 30, 70)]
+        self.assertEqual(row, [(16, 32, 48, 255), (200, 0, 0, 255), (0, 0, 200, 255)])
+        scene["layers"][1]["visible"] = False
+        scene["background"] = "original"
+        self.good("render", self.write("s.json", scene), "--out", out)
+        image = numpy.asarray(Image.open(out).convert("RGBA"))
+        self.assertEqual(image.shape, (40, 80, 4))
+        self.assertTrue((image == (200, 0, 0, 255)).all())
+        self.assertIn("edited", self.bad("info", self.write("s.json", dict(scene, edited=2)), says="/edited").stderr)
 
 
 if __name__ == "__main__":
