@@ -55,6 +55,12 @@ void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
         std::to_string(factor) + " times. Export uses all pixels.");
 }
 
+bool Canvas::make_room() {
+  for (auto& [id, painter] : painters_)
+    if (painter->make_room()) return true;
+  return false;
+}
+
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   const double split = workspace.split.value_or(0);
   draw_part(workspace, at, split, 1, workspace.show_original);

@@ -27,6 +27,8 @@ class Canvas {
 
   /// The workspace has another document.
   void forget() { painters_.clear(); }
+  /// To be called between frames: whether there was something to do that takes as long as one.
+  bool make_room();
   /// Uploads what changed since the last frame and draws. The maps must be up to date.
   void draw(Workspace& workspace, const CanvasFrame& frame);
 

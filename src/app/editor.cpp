@@ -60,7 +60,10 @@ class Editor {
           workspace_.playback.playing || workspace_.timeline.playing || files_.busy();
       const bool happened = window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25);
       const double start = now_ms();
-      if (happened) frame();
+      if (happened && canvas_.make_room())
+        window_.wake();  // and the frame is drawn in the next round
+      else if (happened)
+        frame();
       slowest_ms_ = std::max(slowest_ms_, now_ms() - start);
       if (now_ms() - watched_ms_ > 500) {
         watched_ms_ = now_ms();

@@ -15,14 +15,8 @@ constexpr size_t kBytesPerFrame = 8 << 20;
 
 int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
   if (picture == picture_) {
-    if (making_ready_ && making_ready_->ended()) {
-      making_ready_.reset();
-      renderer_.begin_picture(ready_);
-      grows_ = true;
-      return std::exchange(ready_, nullptr)->factor;
-    }
     grows_ = grows_ && renderer_.upload_more(kBytesPerFrame);
-    return 0;
+    return std::exchange(factor_, 0);
   }
   picture_ = std::move(picture);
   making_ready_.reset();
@@ -38,6 +32,14 @@ int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
       },
       wake_);
   return 0;
+}
+
+bool LayerPainter::make_room() {
+  if (!making_ready_ || !making_ready_->ended()) return false;
+  making_ready_.reset();
+  factor_ = ready_->factor;
+  renderer_.begin_picture(std::exchange(ready_, nullptr));
+  return grows_ = true;
 }
 
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {

@@ -20,6 +20,9 @@ class LayerPainter {
   /// by bit. Returns how many times it had to be reduced for this driver, 1 when not at all; 0 when
   /// that has been said or is not known yet.
   int take_picture(std::shared_ptr<const Image> picture);
+  /// Makes room for a picture that has been made ready, which takes as long as a frame may. Returns
+  /// whether there was one.
+  bool make_room();
   /// Whether the next frame will show more of the picture.
   bool grows() const { return grows_; }
   /// The map as it is now, and its heat map if `view` is one.
@@ -41,6 +44,7 @@ class LayerPainter {
   std::shared_ptr<TextureLevels> ready_;  ///< what making_ready_ makes
   std::unique_ptr<Job> making_ready_;
   bool grows_ = false;
+  int factor_ = 0;  ///< not said yet
   std::shared_ptr<const Image> picture_;
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;

@@ -80,6 +80,7 @@ struct Renderer::Objects {
   GLsizei index_count = 0, vertex_count = 0;
   double width = 0, height = 0;  ///< the picture's, in plane units
   std::shared_ptr<const TextureLevels> levels;  ///< until all of them are uploaded
+  bool stored = false;                          ///< there is room for all of them
   int level = 0, row = 0;                       ///< what is being uploaded
   int columns = 0;
 
@@ -233,6 +234,7 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
   return levels->factor;
 }
 
+// No pixels here: making room takes long enough for one frame.
 void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   Objects& gl = *gl_;
   gl.levels = std::move(levels);
@@ -246,6 +248,11 @@ void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   glBindTexture(GL_TEXTURE_2D, gl.picture);
   gl.level = static_cast<int>(gl.levels->levels.size());
   gl.row = 0;
+  // With room for all levels at once, none of them is moved when a larger one comes.
+  gl.stored = epoxy_has_gl_extension("GL_ARB_texture_storage");
+  if (gl.stored)
+    glTexStorage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, gl.levels->levels[0].width,
+                   gl.levels->levels[0].height);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, gl.level - 1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -259,7 +266,6 @@ void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   const float right = static_cast<float>(gl.width), top = static_cast<float>(gl.height);
   const float corners[] = {0, 0, right, 0, 0, top, right, top};
   upload(gl.quad, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
-  upload_more(1 << 20);
 }
 
 bool Renderer::upload_more(size_t bytes) {
@@ -273,8 +279,9 @@ bool Renderer::upload_more(size_t bytes) {
     if (gl.row == 0) {
       --gl.level;
       const TextureLevel& next = gl.levels->levels[static_cast<size_t>(gl.level)];
-      glTexImage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, next.width, next.height, 0, GL_RGBA,
-                   GL_UNSIGNED_BYTE, nullptr);
+      if (!gl.stored)
+        glTexImage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, next.width, next.height, 0, GL_RGBA,
+                     GL_UNSIGNED_BYTE, nullptr);
     }
     const TextureLevel& level = gl.levels->levels[static_cast<size_t>(gl.level)];
     const size_t row_bytes = 4 * static_cast<size_t>(level.width);

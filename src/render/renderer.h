@@ -60,8 +60,8 @@ class Renderer {
   /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor
   /// by which it had to be reduced for this driver, 1 when not at all.
   int set_picture(int width, int height, const std::uint8_t* pixels);
-  /// The same bit by bit, so that no frame waits: the picture is there at once, coarsely, and call
-  /// by call of upload_more in more detail. Null takes it away.
+  /// The same bit by bit, so that no frame waits: with the first call of upload_more the picture is
+  /// there, coarsely, and call by call in more detail. Null takes it away.
   void begin_picture(std::shared_ptr<const TextureLevels> levels);
   /// Hands over about so many bytes. Returns whether anything is left.
   bool upload_more(size_t bytes);
