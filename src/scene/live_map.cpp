@@ -93,14 +93,17 @@ void LiveMap::work() {
     changed_.wait(lock, [this] { return stop_ || waiting_; });
     if (stop_) return;
     const Scene scene = *std::exchange(waiting_, std::nullopt);
+    const bool with_keys = waiting_keys_;
     const std::shared_ptr<PreparedMap> base = base_;
     const unsigned wanted = wanted_, document = document_;
     working_ = true;
     lock.unlock();
     std::shared_ptr<PreparedMap> result;
     std::optional<Error> failure;
+    Motion motion;
     try {
       result = prepared_map(scene, Precision::single, options_, base.get());
+      if (with_keys) motion.follow(scene, result);
     } catch (const Error& error) {
       failure = error;
     } catch (const std::exception& error) {
@@ -115,6 +118,7 @@ void LiveMap::work() {
     if (document == document_ && (result || wanted == wanted_)) {
       finished_ = true;
       result_ = std::move(result);
+      result_motion_ = std::move(motion);
       result_scene_ = scene;
       failure_ = std::move(failure);
     }
@@ -132,6 +136,7 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   failure_.reset();
   if (!result_) return;
   shown_ = std::move(result_);
+  motion_ = std::exchange(result_motion_, Motion());
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
@@ -223,6 +228,15 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
+/// Whether the maps at keyframes are wanted and would hold up whoever asks. Keys that were asked for
+/// and have none cannot be mapped.
+bool LiveMap::needs_worker(const Scene& scene) const {
+  constexpr double kNoticed = 50;  // ms
+  if (!time_ || !shown_ || busy_ || failed_) return false;
+  if (requested_keys_ && requested_->keyframes == scene.keyframes) return false;
+  return static_cast<double>(motion_.unknown(scene, shown_)) * pose_milliseconds_ > kNoticed;
+}
+
 bool LiveMap::update(const Scene& scene, Wanted wanted, std::optional<double> time) {
   const unsigned before = preparation_;
   time_ = time;
@@ -232,13 +246,15 @@ bool LiveMap::update(const Scene& scene, Wanted wanted, std::optional<double> ti
     clear();
     return changed;
   }
-  if (!requested_ || !same_rest(*requested_, scene)) {
+  if (!requested_ || !same_rest(*requested_, scene) || needs_worker(scene)) {
     requested_ = scene;
+    requested_keys_ = time_.has_value();
     error_.reset();
     failed_ = false;
     const std::lock_guard lock(mutex_);
     ++wanted_;
     waiting_ = scene;
+    waiting_keys_ = requested_keys_;
     busy_ = true;
     changed_.notify_all();
     return before != preparation_;

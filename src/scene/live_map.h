@@ -30,8 +30,8 @@ std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precisio
                                           const MeshOptions& options,
                                           const PreparedMap* previous = nullptr);
 
-/// Follows a scene. update() never waits: while a changed rest is prepared on the worker the last
-/// map stays; errors are kept for showing and leave the last map, too.
+/// Follows a scene. update() never waits: while a changed rest, or the maps of many keyframes, are
+/// prepared on the worker the last map stays; errors are kept for showing and leave it, too.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {});
@@ -82,6 +82,7 @@ class LiveMap {
 
  private:
   void work();
+  bool needs_worker(const Scene& scene) const;
   SampledMap map_at_time(const Scene& scene, Wanted wanted);
   void take_result(const Scene& scene, Wanted wanted);
   bool pose(const Scene& scene, Wanted wanted);
@@ -95,6 +96,7 @@ class LiveMap {
   Injectivity injectivity_;
   Points zero_places_;
   std::optional<Scene> requested_;  ///< the scene whose rest was last asked for
+  bool requested_keys_ = false;     ///< and whether with the maps at its keyframes
   Wanted posed_wanted_;
   std::optional<Scene> posed_;  ///< the scene that map_ shows
   Motion motion_;
@@ -107,6 +109,8 @@ class LiveMap {
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   std::optional<Scene> waiting_;
+  bool waiting_keys_ = false;
+  Motion result_motion_;
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
   std::optional<Scene> result_scene_;

@@ -69,6 +69,15 @@ Points rest_controls(const Cage& rest, Index segment, int degree) {
 
 }  // namespace
 
+size_t Motion::unknown(const Scene& scene, const std::shared_ptr<PreparedMap>& prepared) const {
+  size_t count = 0;
+  for (const size_t i : playing_keys(scene))
+    if (prepared != prepared_ ||
+        std::ranges::find(keys_, scene.keyframes[i].pose, &Key::pose) == keys_.end())
+      ++count;
+  return count;
+}
+
 void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   bool changed = straight_ != scene.animation.straight;
   straight_ = scene.animation.straight;

@@ -20,6 +20,9 @@ class Motion {
   void follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
 
+  /// How many final poses follow() would cost now.
+  size_t unknown(const Scene& scene, const std::shared_ptr<PreparedMap>& prepared) const;
+
   /// Whether there is a map at any time.
   bool plays() const { return !keys_.empty(); }
   const std::optional<Error>& error() const { return error_; }

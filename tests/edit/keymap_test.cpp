@@ -60,12 +60,12 @@ TEST_CASE("A key that is given to an action is its own, and no other's") {
 
 TEST_CASE("Keys survive a file, and what is not known there is left out and said") {
   const OwnKeys own;
-  set_keys("tool.pen", {'W'});
+  set_keys("tool.pen", {'J'});
   const KeyNames keys = all_keys();
   CHECK(keys_of_json(json_of_keys(keys), "keys.json") == keys);
   use_keys({});
   CHECK(use_keys(keys_of_json(json_of_keys(keys), "keys.json")).empty());
-  CHECK(changed_keys() == KeyNames{{"tool.pen", {"W"}}});
+  CHECK(changed_keys() == KeyNames{{"tool.pen", {"J"}}});
   CHECK(use_keys({{"tool.lasso", {"L"}}, {"tool.pen", {"Hyper+P"}}}) ==
         std::vector<std::string>{"tool.lasso", "Hyper+P"});
   for (const char* text : {"", "[]", "{}", R"({"format": "holomorph-keys", "keys": {"a": 1}})"})
