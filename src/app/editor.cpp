@@ -8,6 +8,7 @@
 #include "app/canvas.h"
 #include "app/comparison_panel.h"
 #include "app/files.h"
+#include "app/hints.h"
 #include "app/keys_window.h"
 #include "app/palette.h"
 #include "app/panels.h"
@@ -35,6 +36,7 @@ class Editor {
           files_.keep_preferences();
         }) {
     use_keys(preferences_.keys);
+    files_.chooser().use_native(preferences_.native_dialogs);
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
     tools_.push_back(pin_tool());
@@ -287,6 +289,10 @@ class Editor {
     if (wanted.sample) files_.ask_sample(*wanted.sample);
     if (wanted.recover) files_.ask_recover(*wanted.recover);
     if (wanted.discard) files_.discard(*wanted.discard);
+    if (wanted.preferences_changed) {
+      files_.keep_preferences();
+      files_.chooser().use_native(preferences_.native_dialogs);
+    }
     if (wanted.style_changed) {
       files_.keep_preferences();
       restyle_ = true;
@@ -333,6 +339,10 @@ class Editor {
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
       draw_inspector(workspace_, canvas_.edited().heat_scale(), scale, window_.theme());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
+      if (preferences_.hints && !draw_hints(workspace_, files_.has_kept(), scale)) {
+        preferences_.hints = false;
+        files_.keep_preferences();
+      }
       if (workspace_.timeline.visible) timeline_.draw(workspace_, scale);
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);

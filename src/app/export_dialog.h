@@ -30,6 +30,7 @@ class ExportDialog {
   void again(const Path& folder);
   /// Another document: nothing was exported yet.
   void forget() { last_.reset(); }
+  bool has_exported() const { return last_.has_value(); }
   bool open() const { return open_; }
   void draw(double scale);
 

@@ -47,6 +47,11 @@ class Files {
   Jobs& jobs() { return jobs_; }
   FileChooser& chooser() { return dialog_; }
   bool has_quit() const { return quit_; }
+  /// Whether the document as it is lies in a file, or a picture of it was exported.
+  bool has_kept() const {
+    const Document& document = workspace_.document;
+    return export_.has_exported() || (!document.path().empty() && !document.modified());
+  }
 
  private:
   using Then = std::function<void()>;

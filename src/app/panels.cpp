@@ -71,6 +71,14 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
           }
         ImGui::EndMenu();
       }
+      if (ImGui::MenuItem("First steps", "", preferences.hints)) {
+        preferences.hints = !preferences.hints;
+        answer.preferences_changed = true;
+      }
+      if (ImGui::MenuItem("The desktop's file dialogs", "", preferences.native_dialogs)) {
+        preferences.native_dialogs = !preferences.native_dialogs;
+        answer.preferences_changed = true;
+      }
       if (ImGui::BeginMenu("Size of the interface")) {
         for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
           char label[32];

@@ -23,6 +23,7 @@ struct PanelAnswer {
   std::optional<Path> recover;  ///< an autosave
   std::optional<Path> discard;  ///< an autosave to delete
   bool style_changed = false;   ///< theme or scale in the preferences
+  bool preferences_changed = false;
 };
 
 /// Sizes of the panels in window px for a scale of the display.

@@ -13,6 +13,10 @@ class Editor:
     def __init__(self, program, arguments=(), size="1400x900", home=None):
         self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
         self.home = home or self.folder
+        if not home:  # the first steps would cover what tests click on
+            os.makedirs(self.home + "/config/holomorph")
+            with open(self.home + "/config/holomorph/preferences.json", "w") as file:
+                json.dump({"hints": False}, file)
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp"],

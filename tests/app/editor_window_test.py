@@ -180,6 +180,28 @@ class EditorWindowTest(WindowCase):
             editor.key("j")
             editor.wait(lambda s: s["view"] == "checker", "the new key in the next session")
 
+    def test_the_first_steps_are_ticked_and_go(self):
+        home = self.preferences(native_dialogs=False)
+        with Editor(PROGRAM, [self.picture], home=home) as editor:
+            editor.wait(lambda s: not s["empty"], "the picture")
+            time.sleep(0.5)
+            first = self.screenshot(editor, "hints-1")
+            self.by_palette(editor, "make from")
+            editor.wait(lambda s: s["cage_points"] > 0, "a cage")
+            second = self.screenshot(editor, "hints-2")
+            editor.key("ctrl+a")
+            editor.key("Up")
+            editor.wait(lambda s: s["modified"], "a pose")
+            self.save_as(editor, os.path.join(self.work, "s.json"))
+            time.sleep(5)  # until what was said has gone
+            self.screenshot(editor, "hints-3")
+            corner = (slice(36, 140), slice(64, 400))
+            self.assertGreater((numpy.abs(first[corner] - second[corner]).max(axis=2) > 40).sum(), 40)
+            editor.press(100, 150)  # Done
+            time.sleep(0.5)
+            self.screenshot(editor, "hints-4")
+        self.assertFalse(load(home + "/config/holomorph/preferences.json")["hints"])
+
     def test_a_held_key_stands_in_for_alt(self):
         scene = self.caged((300, 200), [[10, 10], [150, 5], [290, 10], [290, 190], [10, 190]])
         with Editor(PROGRAM, [scene]) as editor:
