@@ -173,6 +173,16 @@ void one_handle(Workspace& workspace, Handle handle) {
     if (handle.control == 0) corner_angles(workspace, handle.index);
     return;
   }
+  int depth = scene.pins[handle.index].depth;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (ImGui::InputInt("depth", &depth)) {
+    Scene after = scene;
+    after.pins[handle.index].depth = std::clamp(depth, -kMostDepth, kMostDepth);
+    workspace.commit_or_amend("Pin depth", std::move(after));
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "Where parts of the picture overlap, what is around a higher pin is drawn on top");
   if (posture == Posture::rest) return;
   if (const auto place = workspace.map().pin_place(scene, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)

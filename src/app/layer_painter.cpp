@@ -60,12 +60,15 @@ void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range)
   }
   const bool timed = map.timed().has_value();
   if (uploaded_ != map.preparation() || timed_ != timed) {
-    if (uploaded_ != map.preparation()) renderer_.set_mesh(map.prepared()->mesh.get());
+    if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
     // On a processor-driven OpenGL the shader's sum is the slower one; in-betweens are no sum.
     by_operator_ = renderer_.set_operator(
         is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
     uploaded_ = map.preparation();
     timed_ = timed;
+  }
+  if (mesh_ != map.drawn()) {  // other depths: the same vertices in another order
+    renderer_.set_triangles((mesh_ = map.drawn())->triangles);
   }
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));

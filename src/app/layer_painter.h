@@ -48,6 +48,7 @@ class LayerPainter {
   std::shared_ptr<const Image> picture_;
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
+  std::shared_ptr<const Mesh> mesh_;
   unsigned uploaded_ = 0;  ///< a preparation's number
   bool timed_ = false;     ///< what was uploaded is no sum of controls
   bool by_operator_ = false;

@@ -94,7 +94,7 @@ void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
 }
 
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
-              const OverlayStyle& style) {
+              bool shows_depth, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = (hovered ? 8.5f : 7.0f) * s;
   list.AddCircleFilled(at, r, style.colors.outline);
   list.AddCircleFilled(at, r - 1.5f * s,
@@ -102,6 +102,13 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
                        : hovered ? style.colors.hover
                                  : style.colors.pin);
   list.AddCircleFilled(at, 2.4f * s, selected ? style.colors.pin : IM_COL32(60, 40, 0, 255));
+  if (shows_depth) {
+    const std::string text = (pin.depth > 0 ? "+" : "") + std::to_string(pin.depth);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), corner(at.x + r, at.y + 0.4f * r);
+    list.AddRectFilled(corner, {corner.x + size.x + 6 * s, corner.y + size.y + 2 * s},
+                       style.colors.panel, 3 * s);
+    list.AddText({corner.x + 3 * s, corner.y + s}, style.colors.text, text.c_str());
+  }
   if (pin.angle) {
     const float angle = static_cast<float>(*pin.angle);
     list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)},
@@ -346,6 +353,8 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }
     if (by_angles && scene.has_cage()) draw_corners(list, workspace, gesture, style);
+    const bool shows_depth =
+        std::ranges::any_of(scene.pins, [](const Pin& pin) { return pin.depth != 0; });
     for (const Handle& handle : handles_of(scene, posture)) {
       if (handle.kind == Handle::Kind::stroke) {
         draw_stroke(list, workspace, handle, gesture.hover == handle, style);
@@ -362,7 +371,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         continue;
       }
       if (handle.kind == Handle::Kind::pin)
-        draw_pin(list, at, scene.pins[handle.index], selected, hovered, style);
+        draw_pin(list, at, scene.pins[handle.index], selected, hovered, shows_depth, style);
       else
         draw_cage_handle(list, at, handle.control == 0, selected, hovered, color, style);
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&

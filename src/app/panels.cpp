@@ -262,9 +262,9 @@ bool begin_combo(const char* label, const char* preview) {
 
 void draw_context_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("context")) return;
-  for (const char* id :
-       {"edit.delete", "edit.reset", "edit.free_angle", "cage.corner", "cage.raise", "cage.lower",
-        "edit.select_all", "view.frame", "view.fit", "cage.rest"})
+  for (const char* id : {"edit.delete", "edit.reset", "edit.pin_up", "edit.pin_down",
+                         "edit.free_angle", "cage.corner", "cage.raise", "cage.lower",
+                         "edit.select_all", "view.frame", "view.fit", "cage.rest"})
     if (const Action& action = action_named(id); action.enabled(workspace))
       action_item(action, workspace);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();

@@ -295,7 +295,7 @@ void Workspace::prune_selection() {
 
 std::optional<Complex> Workspace::rest_at(Complex z) const {
   if (!map().has_map()) return {};
-  const Mesh& mesh = *map().prepared()->mesh;
+  const Mesh& mesh = *map().drawn();
   const std::span<const Complex> positions =
       at_rest() ? std::span<const Complex>(mesh.vertices)
                 : std::span<const Complex>(map().map().f.data(),
@@ -307,7 +307,7 @@ std::optional<Complex> Workspace::rest_at(Complex z) const {
 
 Complex Workspace::posed_at(Complex rest) const {
   if (!map().has_map()) return rest;
-  const Mesh& mesh = *map().prepared()->mesh;
+  const Mesh& mesh = *map().drawn();
   const VectorXc& f = map().map().f;
   const auto found = locate(mesh, mesh.vertices, rest);
   return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;

@@ -37,7 +37,8 @@ class PictureMaker::LayerMaker {
       job.heat = heat_values(options.view, distortion_of(map));
       job.scale = heat_scale(options.view, job.heat, options.automatic_range);
     }
-    job.mesh = prepared_->mesh.get();
+    if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, layer_);
+    job.mesh = drawn_.get();
     job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
     return rasterized(job);
   }
@@ -90,6 +91,7 @@ class PictureMaker::LayerMaker {
   const Scene& layer_;
   const Image* source_;
   std::shared_ptr<PreparedMap> prepared_;
+  std::shared_ptr<const Mesh> drawn_;
   Motion motion_;
 };
 

@@ -78,7 +78,7 @@ struct Renderer::Objects {
          feedback = 0, ghost = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0;
-  double width = 0, height = 0;  ///< the picture's, in plane units
+  double width = 0, height = 0;                 ///< the picture's, in plane units
   std::shared_ptr<const TextureLevels> levels;  ///< until all of them are uploaded
   bool stored = false;                          ///< there is room for all of them
   int level = 0, row = 0;                       ///< what is being uploaded
@@ -226,8 +226,8 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
     begin_picture(nullptr);
     return 1;
   }
-  const auto levels = std::make_shared<const TextureLevels>(
-      texture_levels(width, height, pixels, largest_side()));
+  const auto levels =
+      std::make_shared<const TextureLevels>(texture_levels(width, height, pixels, largest_side()));
   begin_picture(levels);
   while (upload_more(levels->levels[0].pixels.size())) {
   }
@@ -288,7 +288,8 @@ bool Renderer::upload_more(size_t bytes) {
     const int rows =
         std::min(level.height - gl.row, static_cast<int>((bytes - sent) / row_bytes) + 1);
     glTexSubImage2D(GL_TEXTURE_2D, gl.level, 0, gl.row, level.width, rows, GL_RGBA,
-                    GL_UNSIGNED_BYTE, level.pixels.data() + static_cast<size_t>(gl.row) * row_bytes);
+                    GL_UNSIGNED_BYTE,
+                    level.pixels.data() + static_cast<size_t>(gl.row) * row_bytes);
     sent += static_cast<size_t>(rows) * row_bytes;
     gl.row += rows;
     if (gl.row < level.height) continue;
@@ -312,9 +313,14 @@ void Renderer::set_mesh(const Mesh* mesh) {
   upload(gl.rest, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STATIC_DRAW);
   upload(gl.position, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STREAM_DRAW);
   upload(gl.value, GL_ARRAY_BUFFER, values.data(), values.size() * sizeof(float), GL_STREAM_DRAW);
-  glBindVertexArray(gl.vertex_array);
-  upload(gl.triangles, GL_ELEMENT_ARRAY_BUFFER, mesh->triangles.data(),
-         mesh->triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
+  set_triangles(mesh->triangles);
+}
+
+void Renderer::set_triangles(const std::vector<Triangle>& triangles) {
+  check(static_cast<GLsizei>(3 * triangles.size()) == gl_->index_count, "the same triangles");
+  glBindVertexArray(gl_->vertex_array);
+  upload(gl_->triangles, GL_ELEMENT_ARRAY_BUFFER, triangles.data(),
+         triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
   glBindVertexArray(0);
 }
 

@@ -69,6 +69,8 @@ class Renderer {
   static int largest_side();
   /// The mesh at rest; positions and operator start afresh. Null takes it away.
   void set_mesh(const Mesh* mesh);
+  /// The mesh's triangles in another order: later ones are drawn on top.
+  void set_triangles(const std::vector<Triangle>& triangles);
   /// Where the vertices go, by Placement::positions.
   void set_positions(std::span<const Complex> positions);
   /// Position of each vertex's value on the heat scale, in [0, 1].

@@ -26,6 +26,40 @@ std::vector<int> posed_degrees(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+std::vector<Depth> depths_of(const Scene& scene) {
+  std::vector<Depth> depths;
+  if (!method_named(scene.method).uses_pins) return depths;
+  for (const Pin& pin : scene.pins) depths.push_back({pin.rest, pin.depth});
+  return depths;
+}
+
+bool differ(const std::vector<Depth>& depths) {
+  return std::ranges::any_of(depths, [&](const Depth& d) { return d.height != depths[0].height; });
+}
+
+std::shared_ptr<const Mesh> ordered(std::shared_ptr<const Mesh> mesh,
+                                    const std::vector<Depth>& depths) {
+  if (!differ(depths)) return mesh;
+  auto drawn = std::make_shared<Mesh>(*mesh);
+  drawn->triangles = draw_order(*mesh, depths);
+  return drawn;
+}
+
+}  // namespace
+
+std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh, const Scene& scene) {
+  return ordered(std::move(mesh), depths_of(scene));
+}
+
+void LiveMap::order(const Scene& scene) {
+  std::vector<Depth> depths = depths_of(scene);
+  if (drawn_ && depths == depths_) return;
+  depths_ = std::move(depths);
+  drawn_ = ordered(shown_->mesh, depths_);
+}
+
 bool same_rest(const Scene& a, const Scene& b) {
   if (a.method != b.method || a.parameters != b.parameters || a.rest != b.rest) return false;
   if (posed_degrees(a) != posed_degrees(b)) return false;
@@ -136,6 +170,7 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   failure_.reset();
   if (!result_) return;
   shown_ = std::move(result_);
+  drawn_.reset();
   motion_ = std::exchange(result_motion_, Motion());
   posed_.reset();
   map_ = SampledMap{};
@@ -163,6 +198,7 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
     return false;
   }
   pose_milliseconds_ = now_ms() - start;
+  order(scene);
   describe();
   posed_ = scene;
   posed_wanted_ = wanted;
@@ -211,6 +247,7 @@ void LiveMap::describe() {
 
 void LiveMap::clear() {
   shown_.reset();
+  drawn_.reset();
   map_ = SampledMap{};
   posed_.reset();
   timed_.reset();
@@ -228,8 +265,8 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-/// Whether the maps at keyframes are wanted and would hold up whoever asks. Keys that were asked for
-/// and have none cannot be mapped.
+/// Whether the maps at keyframes are wanted and would hold up whoever asks. Keys that were asked
+/// for and have none cannot be mapped.
 bool LiveMap::needs_worker(const Scene& scene) const {
   constexpr double kNoticed = 50;  // ms
   if (!time_ || !shown_ || busy_ || failed_) return false;

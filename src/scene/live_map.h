@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/draw_order.h"
 #include "core/error.h"
 #include "core/injectivity.h"
 #include "core/mesh.h"
@@ -23,6 +24,10 @@ struct PreparedMap {
   std::vector<std::optional<Location>> pins;  ///< of the rest's pins; none outside the mesh
   double milliseconds = 0;                    ///< what preparing took
 };
+
+/// The mesh as it is to be drawn: its triangles from the lowest to the highest, by the depths of
+/// the scene's pins; the same one where these do not differ.
+std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh, const Scene& scene);
 
 /// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh
 /// of the same cage, the method's precomputation. Throws Error.
@@ -52,6 +57,8 @@ class LiveMap {
   void finish(const Scene& scene, Wanted wanted);
 
   const PreparedMap* prepared() const { return shown_.get(); }
+  /// The prepared mesh as it is drawn and picked in.
+  const std::shared_ptr<const Mesh>& drawn() const { return drawn_; }
   /// The map at mesh->vertices; empty until there is one.
   const SampledMap& map() const { return map_; }
   bool has_map() const { return shown_ && map_.f.size() > 0; }
@@ -87,10 +94,13 @@ class LiveMap {
   void take_result(const Scene& scene, Wanted wanted);
   bool pose(const Scene& scene, Wanted wanted);
   void describe();
+  void order(const Scene& scene);
 
   MeshOptions options_;
   std::function<void()> wake_;
   std::shared_ptr<PreparedMap> shown_;
+  std::shared_ptr<const Mesh> drawn_;
+  std::vector<Depth> depths_;  ///< that it is ordered by
   SampledMap map_;
   std::optional<Error> error_;
   Injectivity injectivity_;

@@ -40,6 +40,7 @@ struct Pin {
   std::optional<double> angle;
   Extra extra;
   double scale = 1;  ///< acts with an angle only
+  int depth = 0;     ///< what lies around a higher one is drawn over the rest
   bool operator==(const Pin&) const = default;
 };
 
@@ -78,6 +79,7 @@ struct AnimationSettings {
   bool straight = false;  ///< in-betweens blend places instead of shapes, to compare
   bool operator==(const AnimationSettings&) const = default;
 };
+inline constexpr int kMostDepth = 1000;                        ///< of a pin, up or down
 inline constexpr double kLongestTime = 3600;                   ///< seconds
 inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< a second
 inline constexpr int kMostTurns = 150;                         ///< on the way to a keyframe

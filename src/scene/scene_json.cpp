@@ -37,7 +37,8 @@ Pin read_pin(const Reader& reader) {
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
   if (reader.has("angle")) pin.angle = reader["angle"].number();
   if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
-  pin.extra = reader.others({"rest", "pose", "angle", "scale"});
+  if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMostDepth, kMostDepth);
+  pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth"});
   return pin;
 }
 
@@ -328,6 +329,7 @@ void write_layer(const Scene& scene, Json& document) {
       item["pose"] = point_json(pin.pose);
       if (pin.angle) item["angle"] = *pin.angle;
       if (pin.scale != 1) item["scale"] = pin.scale;
+      if (pin.depth != 0) item["depth"] = pin.depth;
       add_extra(item, pin.extra);
       document["pins"].push_back(std::move(item));
     }

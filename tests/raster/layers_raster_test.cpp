@@ -156,3 +156,27 @@ TEST_CASE("Layers of other heights share one grid of pixels at any scale") {
   CHECK(pixel_at(image, 1, 12) == kBlue);
   CHECK(pixel_at(image, 20, 2) == kRed);
 }
+
+TEST_CASE("Where a picture lies over itself, the higher pin's part is on top") {
+  // A bar, red at the left and blue at the right, that folds back onto itself by its pins.
+  Image bar = filled(300, 40, kRed);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 150; column < 300; ++column)
+      std::copy(kBlue.begin(), kBlue.end(), bar.at(column, row));
+  Scene scene = with_cage(Scene{}, shapes::rectangle(300, 40));
+  scene.method = "arap";
+  scene.pins = {{{10, 20}, {10, 20}, {}, {}},
+                {{120, 20}, {120, 20}, {}, {}},
+                {{180, 20}, {120, 80}, {}, {}},
+                {{290, 20}, {60, 20}, {}, {}}};
+  const auto seen = [&](int left, int right) {
+    scene.pins[0].depth = scene.pins[1].depth = left;
+    scene.pins[2].depth = scene.pins[3].depth = right;
+    const RasterResult result = picture_of(scene, &bar);
+    const int row = result.image.height - 1 - static_cast<int>(20 - result.corner.imag());
+    return pixel_at(result.image, static_cast<int>(60 - result.corner.real()), row);
+  };
+  CHECK(seen(0, 5) == kBlue);
+  CHECK(seen(5, 0) == kRed);
+  CHECK(seen(0, -5) == kRed);
+}

@@ -106,6 +106,26 @@ constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kSnap = "\uf076"
 
 }  // namespace
 
+namespace {
+
+bool has_pin(const Workspace& w) {
+  return std::ranges::any_of(w.selection,
+                             [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });
+}
+
+template <int by>
+void change_depth(Workspace& w) {
+  Scene scene = w.scene();
+  for (const Handle& handle : w.selection)
+    if (handle.kind == Handle::Kind::pin && exists(scene, handle, w.posture)) {
+      int& depth = scene.pins[static_cast<size_t>(handle.index)].depth;
+      depth = std::clamp(depth + by, -kMostDepth, kMostDepth);
+    }
+  w.commit_or_amend(by > 0 ? "Pin up" : "Pin down", std::move(scene));
+}
+
+}  // namespace
+
 std::vector<Action> edit_actions() {
   std::vector<Action> all{
       {"edit.undo", "Undo", kUndo, "Edit", {{'Z', kCtrl}}, can_undo, undo},
@@ -172,6 +192,20 @@ std::vector<Action> edit_actions() {
          if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
          w.commit("Remove outline", scene, From::document);
        }},
+      {"edit.pin_up",
+       "Pin up: what is around it over the rest",
+       "",
+       "Edit",
+       {{Key::page_up, kShift}},
+       has_pin,
+       change_depth<1>},
+      {"edit.pin_down",
+       "Pin down: what is around it under the rest",
+       "",
+       "Edit",
+       {{Key::page_down, kShift}},
+       has_pin,
+       change_depth<-1>},
       {"edit.free_angle", "Let pin turn freely", "", "Edit", {}, has_turned_pin, free_pin_angles},
       {"tool.select",
        "Select and move",
