@@ -43,6 +43,7 @@ class Editor {
     tools_.push_back(stroke_tool());
     tools_.push_back(outline_tool());
     tools_.push_back(angle_tool());
+    tools_.push_back(brush_tool());
     workspace_.maps.on_ready([this] { window_.wake(); });
     workspace_.beside = [this](const std::string& title, Job::Work work,
                                std::function<void()> then) {

@@ -256,6 +256,44 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   }
 }
 
+/// What is painted: plus signs where the picture is stiff, rings where it is soft, the larger the
+/// more; and the brush.
+void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+                    const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  const std::vector<Dab>& dabs = gesture.dabs ? *gesture.dabs : workspace.scene().stiffness;
+  if (workspace.map().has_map() && !dabs.empty()) {
+    constexpr size_t kMarks = 1500;
+    const Points& rest = workspace.map().drawn()->vertices;
+    const size_t step = rest.size() / kMarks + 1;
+    for (size_t i = 0; i < rest.size(); i += step) {
+      const double level = stiffness_level(dabs, rest[i]);
+      if (std::abs(level) < 0.05) continue;
+      const ImVec2 at =
+          px(workspace,
+             workspace.at_rest() ? rest[i] : workspace.map().map().f[static_cast<Index>(i)]);
+      const float r = static_cast<float>(level > 0 ? 2 + 2 * level / kMostStiffness
+                                                   : 2 + 2 * level / kLeastStiffness) *
+                      s;
+      if (level > 0) {
+        list.AddRectFilled({at.x - r - s, at.y - 1.6f * s}, {at.x + r + s, at.y + 1.6f * s},
+                           style.colors.outline);
+        list.AddRectFilled({at.x - 1.6f * s, at.y - r - s}, {at.x + 1.6f * s, at.y + r + s},
+                           style.colors.outline);
+        list.AddLine({at.x - r, at.y}, {at.x + r, at.y}, style.colors.selected, 1.4f * s);
+        list.AddLine({at.x, at.y - r}, {at.x, at.y + r}, style.colors.selected, 1.4f * s);
+      } else {
+        list.AddCircle(at, r, style.colors.outline, 0, 3 * s);
+        list.AddCircle(at, r, style.colors.pin, 0, 1.4f * s);
+      }
+    }
+  }
+  if (!gesture.brush) return;
+  const float radius = static_cast<float>(workspace.brush_radius * workspace.viewport.zoom);
+  list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.outline, 64, 3 * s);
+  list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
+}
+
 /// The cages of the keys before and after the time, in the colours of their pictures.
 void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -379,6 +417,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         draw_smooth_mark(list, at, style);
     }
   }
+  if (gesture.shows_dabs) draw_stiffness(list, workspace, gesture, style);
   if (workspace.show_cage) draw_influence(list, workspace, gesture, style);
   draw_gesture(list, workspace, gesture, style);
 }

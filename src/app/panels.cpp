@@ -124,6 +124,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
                                          "tool.stroke",
                                          "tool.outline",
                                          "tool.angle",
+                                         "tool.brush",
                                          "",
                                          "edit.soft",
                                          "edit.symmetry",

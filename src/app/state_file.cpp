@@ -7,7 +7,8 @@
 namespace holomorph {
 
 void StateFile::write(const Workspace& workspace, const PartsState& parts) {
-  static constexpr const char* kTools[] = {"select", "pen", "pin", "stroke", "outline", "angle"};
+  static constexpr const char* kTools[] = {"select",  "pen",   "pin",  "stroke",
+                                           "outline", "angle", "brush"};
   const Viewport& view = workspace.viewport;
   char text[1900];
   std::snprintf(

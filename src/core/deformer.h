@@ -11,6 +11,7 @@
 
 #include "core/cauchy_array.h"
 #include "core/mesh.h"
+#include "core/stiffness.h"
 
 namespace holomorph {
 
@@ -71,6 +72,7 @@ struct Rest {
   std::vector<Points> strokes = {};  ///< open curves, two different points each at least
   Points outline = {};               ///< closed; where the cage's shape is to go, or none
   std::vector<Index> corners = {};   ///< the cage's vertices with angles, in order; none: all
+  std::vector<Dab> stiffness = {};   ///< of the picture; none: the same everywhere
   Points samples;                    ///< where the map is wanted, inside or on the cage
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
@@ -173,7 +175,7 @@ struct Method {
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
-  bool uses_strokes = false, uses_outline = false, uses_corners = false;
+  bool uses_strokes = false, uses_outline = false, uses_corners = false, uses_stiffness = false;
 };
 
 /// The table of methods, in menu order.

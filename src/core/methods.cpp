@@ -31,6 +31,7 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_strokes) rest.strokes.clear();
   if (!method.uses_outline) rest.outline.clear();
   if (!method.uses_corners) rest.corners.clear();
+  if (!method.uses_stiffness) rest.stiffness.clear();
   return rest;
 }
 

@@ -26,6 +26,9 @@ struct ToolOverlay {
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
   std::optional<BoxMark> box;        ///< around what is selected
   std::vector<Guide> guides;         ///< what is lined up with
+  bool shows_dabs = false;           ///< what is painted: `dabs`, or the scene's
+  std::optional<std::vector<Dab>> dabs;
+  std::optional<Complex> brush;  ///< where the brush is
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -55,6 +58,7 @@ std::unique_ptr<Tool> pin_tool();
 std::unique_ptr<Tool> stroke_tool();
 std::unique_ptr<Tool> outline_tool();
 std::unique_ptr<Tool> angle_tool();
+std::unique_ptr<Tool> brush_tool();
 
 /// Moving handles with the pointer: threshold, axis constraint, preview and one commit. With Ctrl,
 /// a drag of the pose is recorded as motion, and a click makes a vertex smooth or a corner. Shared

@@ -49,7 +49,7 @@ struct Playback {
 /// Shows the next iteration when it is due. Returns whether it did, or ended.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
-enum class ToolId { select, pen, pin, stroke, outline, angle };
+enum class ToolId { select, pen, pin, stroke, outline, angle, brush };
 
 /// A short message over the canvas; `where` can be shown.
 struct Toast {
@@ -92,6 +92,7 @@ struct Workspace {
   Timeline timeline;
   std::optional<Scene> timed;  ///< the document's scene with its handles as at the shown time
   std::optional<Pose> copied;  ///< a pose
+  double brush_radius = 60;    ///< plane units
   int auto_cage_vertices = 30;
   double auto_cage_margin = -1;
   bool auto_cage_curved = false;

@@ -73,6 +73,7 @@ bool same_rest(const Scene& a, const Scene& b) {
   if (method.uses_outline && a.outline != b.outline) return false;
   const auto same_corner = [](const Corner& c, const Corner& d) { return c.vertex == d.vertex; };
   if (method.uses_corners && !std::ranges::equal(a.corners, b.corners, same_corner)) return false;
+  if (method.uses_stiffness && a.stiffness != b.stiffness) return false;
   if (method.uses_strokes && !std::ranges::equal(a.strokes, b.strokes, same_stroke)) return false;
   return true;
 }

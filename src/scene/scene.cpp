@@ -17,6 +17,7 @@ Rest rest_of(const Scene& scene, Precision precision) {
   for (const Stroke& stroke : scene.strokes) rest.strokes.push_back(stroke.rest);
   for (const Corner& corner : scene.corners) rest.corners.push_back(corner.vertex);
   rest.outline = scene.outline;
+  rest.stiffness = scene.stiffness;
   rest.parameters = scene.parameters;
   rest.other_parameters = scene.other_parameters;
   rest.precision = precision;

@@ -127,6 +127,7 @@ struct Scene {
   Points outline;  ///< closed; where method `outline` takes the cage's shape
   std::optional<SurfaceReference> surface = {};
   std::vector<Corner> corners = {};  ///< by increasing vertex
+  std::vector<Dab> stiffness = {};   ///< painted, where the method knows it
   /// By increasing time. Those that have another structure than the scene by now are kept, but do
   /// not play.
   std::vector<Keyframe> keyframes = {};

@@ -189,6 +189,14 @@ void write_value(const Json& value, int depth, std::string& out) {
   }
 }
 
+/// [x, y, radius, level].
+Dab read_dab(const Reader& reader) {
+  if (reader.array().size() != 4) reader.fail("[x, y, radius, level] is wanted here");
+  const double x = reader[size_t{0}].within(-kLargestCoordinate, kLargestCoordinate),
+               y = reader[1].within(-kLargestCoordinate, kLargestCoordinate);
+  return {{x, y}, reader[2].within(kLeastBrush, kMostBrush), reader[3].within(-10, 10)};
+}
+
 /// What belongs to one layer; `scene` has the animation's settings.
 void read_layer(const Reader& reader, Scene& scene) {
   if (reader.has("image")) scene.image = read_image(reader["image"]);
@@ -209,6 +217,11 @@ void read_layer(const Reader& reader, Scene& scene) {
       scene.corners.push_back(read_corner(corners[i], scene));
     if (!scene.corners.empty() && scene.corners.size() < 3)
       corners.fail("there must be three corners at least, or none: all vertices");
+  }
+  if (reader.has("stiffness")) {
+    const Reader dabs = reader["stiffness"].array();
+    if (dabs.size() > kMostDabs) dabs.fail("more than 5000 touches of the brush");
+    for (size_t i = 0; i < dabs.size(); ++i) scene.stiffness.push_back(read_dab(dabs[i]));
   }
   if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
@@ -262,7 +275,7 @@ Scene read_layers(const Reader& reader) {
     if (item.has("locked")) layer.layer.locked = item["locked"].truth();
     layer.layer.extra =
         item.others({"name", "visible", "locked", "image", "cage", "pins", "strokes", "corners",
-                     "outline", "surface", "method", "keyframes"});
+                     "stiffness", "outline", "surface", "method", "keyframes"});
     layers.push_back(std::move(layer));
   }
   const int last = static_cast<int>(list.size()) - 1;
@@ -348,6 +361,9 @@ void write_layer(const Scene& scene, Json& document) {
     document["corners"] = Json::array();
     for (const Corner& corner : scene.corners) document["corners"].push_back(corner_json(corner));
   }
+  for (const Dab& dab : scene.stiffness)
+    document["stiffness"].push_back(
+        Json::array({dab.at.real(), dab.at.imag(), dab.radius, dab.level}));
   if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
   if (scene.surface) {
     Json surface;

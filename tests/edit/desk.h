@@ -19,6 +19,7 @@ struct Desk {
     tools.push_back(stroke_tool());
     tools.push_back(outline_tool());
     tools.push_back(angle_tool());
+    tools.push_back(brush_tool());
     workspace.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
     if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
     settle();

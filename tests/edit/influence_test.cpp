@@ -183,3 +183,57 @@ TEST_CASE("Tangents and strokes go with the box") {
   CHECK(std::abs(turned.strokes[0].pose[1] - Complex(-40, 100)) < 1e-9);
   CHECK(turned.strokes[0].rest == scene.strokes[0].rest);
 }
+
+TEST_CASE("The brush paints what is under it at rest, as one step, in the method that knows it") {
+  Desk desk(kSquare);
+  Workspace& w = desk.workspace;
+  desk.drag({200, 200}, {260, 200});
+  desk.settle();
+  run(action_named("tool.brush"), w);
+  w.brush_radius = 20;
+  const size_t steps = desk.steps();
+  desk.draw({{40, 100}, {60, 100}, {80, 100}, {100, 100}});
+  CHECK(desk.steps() == steps + 1);
+  CHECK(w.scene().method == "arap");
+  const std::vector<Dab> painted = w.scene().stiffness;
+  REQUIRE(painted.size() >= 3);
+  for (const Dab& dab : painted) {
+    CHECK(dab.level > 0);
+    CHECK(dab.radius == 20);
+  }
+  desk.settle();
+  desk.draw({{60, 100}, {80, 100}}, {true, false, false});
+  CHECK(w.scene().stiffness.back().level < 0);
+  desk.settle();
+  desk.draw({{20, 100}, {40, 100}, {60, 100}, {80, 100}, {100, 100}, {120, 100}}, kShift);
+  CHECK(w.scene().stiffness.size() < painted.size());
+  run(action_named("edit.undo"), w);
+  run(action_named("edit.undo"), w);
+  CHECK(w.scene().stiffness == painted);
+  const double radius = w.brush_radius;
+  run(action_named("edit.soft_more"), w);
+  CHECK(w.brush_radius > radius);
+  CHECK_FALSE(w.influence.soft);
+  run(action_named("edit.remove_stiffness"), w);
+  CHECK(w.scene().stiffness.empty());
+  desk.press({60, 100});
+  desk.tool().key(Key::escape, w);
+  desk.release({60, 100});
+  CHECK(w.scene().stiffness.empty());
+}
+
+TEST_CASE("Pins go up and down together") {
+  Desk desk(kSquare);
+  Scene scene = desk.scene();
+  scene.method = "pins";
+  scene.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
+  desk.workspace.commit("Pins", scene);
+  desk.workspace.selection = {{Handle::Kind::pin, 0, 0}};
+  const size_t steps = desk.steps();
+  for (int i = 0; i < 3; ++i) run(action_named("edit.pin_up"), desk.workspace);
+  CHECK(desk.scene().pins[0].depth == 3);
+  CHECK(desk.scene().pins[1].depth == 0);
+  CHECK(desk.steps() == steps + 1);
+  run(action_named("edit.pin_down"), desk.workspace);
+  CHECK(desk.scene().pins[0].depth == 2);
+}

@@ -103,6 +103,7 @@ TEST_CASE("Files keep layers, and scenes of one plain layer are written as befor
   scene.extra = R"({"mood":"glad"})";
   scene.background.kind = Background::Kind::original;
   scene = with_key(scene, 0.5);
+  scene.stiffness = {{{30, 20}, 15, 0.5}, {{40.25, 20}, 15, -0.5}};
   CHECK(scene_from_json(json_of(scene), "s.json") == scene);
   CHECK(json_of(scene).find("\"version\": 2") != std::string::npos);
   const Scene plain = with_cage(Scene{}, shapes::rectangle(90, 60));
@@ -113,6 +114,7 @@ TEST_CASE("Files keep layers, and scenes of one plain layer are written as befor
                                       {Background::Kind::color, {250, 0, 16}}}) {
     Scene on = plain;
     on.background = background;
+    on.pins = {{{10, 10}, {10, 10}, {}, {}}, {{20, 10}, {20, 10}, {}, {}, 1, -3}};
     CHECK(scene_from_json(json_of(on), "s.json") == on);
   }
 }

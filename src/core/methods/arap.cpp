@@ -2,7 +2,8 @@
 // Sorkine, Alexa 2007, with one turn per triangle).
 //
 // With f_z and f_zbar of a triangle the energy is the sum of area (|f_z - R|^2 + |f_zbar|^2),
-// |R| = 1: R = f_z / |f_z|, then one sparse solve for f, and so on.
+// |R| = 1: R = f_z / |f_z|, then one sparse solve for f, and so on. Where the picture is stiff a
+// triangle's part of the sum counts more.
 #include <Eigen/SparseCholesky>
 
 #include "core/arithmetic.h"
@@ -24,20 +25,25 @@ class ArapDeformer final : public Deformer {
     size_ = box_of(mesh_.vertices).diagonal();
     std::vector<Eigen::Triplet<double>> rigid;
     std::vector<Eigen::Triplet<Complex>> angles;
-    double diagonal = 0;
-    for (const Triangle& t : mesh_.triangles)
+    double diagonal = 0, stiffest = 1;
+    for (const Triangle& t : mesh_.triangles) {
+      const Complex middle =
+          (mesh_.vertices[t[0]] + mesh_.vertices[t[1]] + mesh_.vertices[t[2]]) / 3.0;
+      stiffness_.push_back(std::pow(10, stiffness_level(rest.stiffness, middle)));
+      stiffest = std::max(stiffest, stiffness_.back());
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
           const Complex ea = opposite(t, a), eb = opposite(t, b);
-          const double area = area_of(t);
+          const double area = area_of(t) / stiffness_.back();
           const double weight = dot(ea, eb) / (8 * area);
           rigid.push_back({t[a], t[b], weight});
-          if (a == b) diagonal += weight;
+          if (a == b) diagonal += weight / stiffness_.back();
           // conj(f_zbar's weight of a) times that of b; a little of the rest makes it definite.
           constexpr double kLittle = 1e-3;
           angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kLittle * weight});
         }
-    hold_ = kHold * diagonal / static_cast<double>(n);
+    }
+    hold_ = kHold * stiffest * diagonal / static_cast<double>(n);
     for (const Location& at : handles_.locations())
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
@@ -121,10 +127,11 @@ class ArapDeformer final : public Deformer {
     int iteration = 0;
     for (double moved = 1; iteration < most && moved > kSettled * size_; ++iteration) {
       VectorXc right = VectorXc::Zero(f_.size());
-      for (const Triangle& t : mesh_.triangles) {
+      for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        const Triangle& t = mesh_.triangles[i];
         const Complex fz = derivatives_of(t).fz;
         const double size = std::abs(fz);
-        const Complex turn = 0.25 * (size > 0 ? fz / size : Complex(1));
+        const Complex turn = 0.25 * stiffness_[i] * (size > 0 ? fz / size : Complex(1));
         for (int a = 0; a < 3; ++a) right[t[a]] += times(kI * opposite(t, a), turn);
       }
       add_targets(targets, right);
@@ -205,6 +212,7 @@ class ArapDeformer final : public Deformer {
   Rest rest_;
   const Mesh& mesh_;
   HandlePoints handles_;
+  std::vector<double> stiffness_;  ///< of each triangle
   double size_ = 1, hold_ = 1;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
@@ -220,15 +228,18 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method arap_method() {
-  return {"arap",
-          "As rigid as possible",
-          "Pins hold; everything else keeps its size and shape as well as it can. Without pins the "
-          "cage's points hold.",
-          {},
-          true,
-          false,
-          false,
-          prepare};
+  Method method{"arap",
+                "As rigid as possible",
+                "Pins hold; everything else keeps its size and shape as well as it can, the better "
+                "the stiffer "
+                "it is painted (B). Without pins the cage's points hold.",
+                {},
+                true,
+                false,
+                false,
+                prepare};
+  method.uses_stiffness = true;
+  return method;
 }
 
 }  // namespace holomorph

@@ -25,6 +25,10 @@ void nudge(Workspace& w) {
 
 template <int up, int down>
 void reach(Workspace& w) {
+  if (w.tool == ToolId::brush) {
+    w.brush_radius = std::clamp(w.brush_radius * up / down, kLeastBrush, kMostBrush);
+    return;
+  }
   w.influence.soft = true;
   w.influence.reach = std::clamp(w.influence.reach * up / down, kLeastReach, kMostReach);
 }
@@ -102,7 +106,7 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
 constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kSnap = "\uf076", *kUndo = "\uf0e2",
                      *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040",
                      *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf14e",
-                     *kStroke = "\uf1fc", *kReset = "\uf0e2";
+                     *kShield = "\uf132", *kStroke = "\uf1fc", *kReset = "\uf0e2";
 
 }  // namespace
 
@@ -160,8 +164,20 @@ std::vector<Action> edit_actions() {
        has_cage,
        [](Workspace& w) { w.influence.soft = !w.influence.soft; },
        [](const Workspace& w) { return w.influence.soft; }},
-      {"edit.soft_less", "Softness reaches less far", "", "Edit", {'['}, has_cage, reach<4, 5>},
-      {"edit.soft_more", "Softness reaches farther", "", "Edit", {']'}, has_cage, reach<5, 4>},
+      {"edit.soft_less",
+       "Softness, or the brush, reaches less far",
+       "",
+       "Edit",
+       {'['},
+       has_cage,
+       reach<4, 5>},
+      {"edit.soft_more",
+       "Softness, or the brush, reaches farther",
+       "",
+       "Edit",
+       {']'},
+       has_cage,
+       reach<5, 4>},
       {"edit.symmetry",
        "Symmetry: the other side goes along, mirrored",
        kSymmetry,
@@ -179,6 +195,17 @@ std::vector<Action> edit_actions() {
        [](Workspace& w) { w.snaps = !w.snaps; },
        [](const Workspace& w) { return w.snaps; }},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
+      {"edit.remove_stiffness",
+       "Remove the painted stiffness",
+       "",
+       "Edit",
+       {},
+       [](const Workspace& w) { return !w.scene().stiffness.empty(); },
+       [](Workspace& w) {
+         Scene scene = w.document.scene();
+         scene.stiffness.clear();
+         w.commit("Remove stiffness", std::move(scene), From::document);
+       }},
       {"edit.remove_outline",
        "Remove the outline",
        "",
@@ -248,6 +275,14 @@ std::vector<Action> edit_actions() {
        always,
        choose<ToolId::angle>,
        chosen<ToolId::angle>},
+      {"tool.brush",
+       "Stiffness: paint what keeps its shape",
+       kShield,
+       "Tools",
+       {'B'},
+       always,
+       choose<ToolId::brush>,
+       chosen<ToolId::brush>},
   };
   add_nudges<-1, 0>(all, "left", Key::left);
   add_nudges<1, 0>(all, "right", Key::right);
