@@ -29,6 +29,7 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("First steps", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
   int number = 1;
   bool next = true;  // the first that is not done says how
   for (const Step& step : steps) {
@@ -44,7 +45,8 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
     ++number;
   }
   const bool all = next;
-  if (all) ImGui::TextUnformatted("F1 shows all keys, Ctrl+Shift+P finds everything.");
+  if (all) ImGui::TextWrapped("F1 shows all keys, Ctrl+Shift+P finds everything.");
+  ImGui::PopTextWrapPos();
   const bool closed = ImGui::SmallButton(all ? "Done" : "Do not show this again");
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -114,8 +114,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
   ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar),
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                      {4 * s, 0});  // low buttons keep their icons whole
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});  // low buttons keep their icons whole
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 5 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   static constexpr const char* kIds[] = {"tool.select",
@@ -143,10 +142,16 @@ void draw_toolbar(Workspace& workspace, double scale) {
   const long lines = std::ranges::count(kIds, std::string_view(),
                                         [](const char* id) { return std::string_view(id); });
   const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
-              room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s;
-  const ImVec2 button(40 * s, std::min(38 * s, room / buttons - ImGui::GetStyle().ItemSpacing.y));
+              room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s,
+              gap = ImGui::GetStyle().ItemSpacing.y;
+  // Where they would become too low for their icons they stand in two columns.
+  const bool pairs = room / buttons - gap < 24 * s;
+  const float rows = pairs ? std::ceil(buttons / 2) + static_cast<float>(lines) / 2 : buttons;
+  const ImVec2 button((pairs ? 18.5f : 40) * s, std::min(38 * s, room / rows - gap));
+  bool left = true;  // the next one stands at the left
   for (const char* id : kIds) {
     if (!*id) {
+      left = true;
       ImGui::Dummy({0, 2 * s});
       ImGui::Separator();
       ImGui::Dummy({0, 2 * s});
@@ -156,6 +161,8 @@ void draw_toolbar(Workspace& workspace, double scale) {
     const bool on = action.checked && action.checked(workspace),
                enabled = action.enabled(workspace);
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    if (!left && pairs) ImGui::SameLine(0, 3 * s);
+    left = !left;
     ImGui::BeginDisabled(!enabled);
     const std::string face = std::string(*action.icon ? action.icon : "\uf0b2") + "###" + id;
     if (ImGui::Button(face.c_str(), button)) run(action, workspace);

@@ -12,9 +12,10 @@ struct TextureLevel {
 };
 
 struct TextureLevels {
-  int width = 0, height = 0;         ///< the picture's own size
-  int factor = 1;                    ///< by which it had to be reduced
-  std::vector<TextureLevel> levels;  ///< the largest first, each half of the one before, down to 1 x 1
+  int width = 0, height = 0;  ///< the picture's own size
+  int factor = 1;             ///< by which it had to be reduced
+  std::vector<TextureLevel>
+      levels;  ///< the largest first, each half of the one before, down to 1 x 1
 };
 
 /// Of a picture of straight-alpha RGBA, rows from the top, which may not be empty; no level is
