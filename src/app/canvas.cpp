@@ -62,6 +62,11 @@ bool Canvas::make_room() {
 }
 
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
+  if (std::exchange(forgets_, false)) painters_.clear();
+  std::erase_if(painters_, [&](const auto& entry) {
+    return layer_of_id(workspace.document.scene(), entry.first) ==
+           layer_count(workspace.document.scene());
+  });
   const double split = workspace.split.value_or(0);
   draw_part(workspace, at, split, 1, workspace.show_original);
   if (split > 0) draw_part(workspace, at, 0, split, true);

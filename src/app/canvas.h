@@ -26,7 +26,7 @@ class Canvas {
   explicit Canvas(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   /// The workspace has another document.
-  void forget() { painters_.clear(); }
+  void forget() { forgets_ = true; }
   /// To be called between frames: whether there was something to do that takes as long as one.
   bool make_room();
   /// Uploads what changed since the last frame and draws. The maps must be up to date.
@@ -50,6 +50,7 @@ class Canvas {
 
   std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by the layers' ids
   LayerPainter* edited_ = nullptr;
+  bool forgets_ = false;  ///< with the next frame: this one may still be asked about
   std::function<void()> wake_;
 };
 

@@ -152,8 +152,11 @@ class Editor {
   }
 
   void take_events() {
-    for (const Path& path : window_.take_drops()) files_.drop(path);
-    if (window_.take_close()) workspace_.request = Request::quit;
+    // One question at a time: what comes meanwhile waits.
+    if (!files_.asking()) {
+      for (const Path& path : window_.take_drops()) files_.drop(path);
+      if (window_.take_close()) workspace_.request = Request::quit;
+    }
     // A number that is being dragged in the inspector takes the keys, too.
     const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
     if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
@@ -174,8 +177,11 @@ class Editor {
 
   /// Whether a key is down that does something while it is held.
   bool is_held(const char* id) const {
-    return std::ranges::any_of(action_named(id).keys,
-                               [&](const Shortcut& key) { return window_.is_down(key); });
+    const ImGuiIO& io = ImGui::GetIO();
+    const Modifiers held{io.KeyCtrl, io.KeyShift, io.KeyAlt && !window_.stands_in_for_alt()};
+    return std::ranges::any_of(action_named(id).keys, [&](const Shortcut& key) {
+      return window_.is_down(key) && key.mods == held;
+    });
   }
 
   void take_key(const Shortcut& key) {
@@ -260,12 +266,8 @@ class Editor {
         if (tool->id() == last_tool_) tool->cancel(workspace_);
       last_tool_ = workspace_.tool;
     }
-    const LayerState& layer = workspace_.document.scene().layer;
-    if (input.pressed && (layer.locked || !layer.visible)) {
-      workspace_.say(layer.locked ? "The layer is locked. Ctrl+L unlocks it."
-                                  : "The layer is hidden. Ctrl+H shows it.");
+    if (input.pressed && !workspace_.require_open_layer())
       input.pressed = input.double_clicked = input.inside = false;
-    }
     current_tool().input(input, workspace_);
   }
 

@@ -5,6 +5,7 @@
 // After imgui.h, which it does not include itself.
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/theme.h"
@@ -41,14 +42,15 @@ void ExportDialog::ask(bool film, const Path& folder) {
   if (last_) {
     settings_ = *last_;
   } else {
-    const Path source = document.path().empty() ? document.image_path() : document.path();
+    const Path source = document.path().empty() ? document.first_picture() : document.path();
     const std::string stem = source.empty() ? "picture" : source.stem().string();
     settings_ = {};
     settings_.path = folder / (stem + (film ? ".webp" : "-bent.png"));
   }
   const int last = last_frame_of(document.scene());
-  settings_.last = last;
-  settings_.first = std::clamp(settings_.first, 0, last);
+  const bool had_all = !last_ || last_all_;
+  settings_.last = had_all ? last : std::clamp(settings_.last, 0, last);
+  settings_.first = std::clamp(settings_.first, 0, settings_.last);
   if (film != settings_.film) {
     settings_.film = film;
     settings_.path.replace_extension(film ? ".webp" : ".png");
@@ -61,7 +63,11 @@ void ExportDialog::ask(bool film, const Path& folder) {
 
 void ExportDialog::again(const Path& folder) {
   if (!last_) return ask(false, folder);
-  if (const std::string problem = start(*last_); !problem.empty())
+  ExportSettings once_more = *last_;
+  const int last = last_frame_of(workspace_.document.scene());
+  once_more.last = last_all_ ? last : std::min(once_more.last, last);
+  once_more.first = std::min(once_more.first, once_more.last);
+  if (const std::string problem = start(once_more); !problem.empty())
     workspace_.complain(Error(ErrorKind::failed, problem));
 }
 
@@ -132,7 +138,10 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   const auto work =
       std::make_shared<Work>(Work{std::move(scene), document.pictures(), settings, options, ""});
   const auto export_it = [work](Job::Progress& progress) {
-    const auto& [scene, pictures, settings, options, done] = *work;
+    const Scene& scene = work->scene;
+    const Pictures& pictures = work->pictures;
+    const ExportSettings& settings = work->settings;
+    const PictureOptions& options = work->options;
     const Image* image = pictures.of(scene);
     const std::string name = settings.path.filename().string();
     if (settings.film) {
@@ -152,9 +161,11 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " x " +
                  std::to_string(result.image.height) + " pixels.";
   };
-  last_ = settings;
-  return jobs_.run("Exporting " + settings.path.filename().string(), export_it,
-                   [this, work] { workspace_.say(work->done); });
+  return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, work] {
+    last_ = work->settings;
+    last_all_ = work->settings.last == last_frame_of(workspace_.document.scene());
+    workspace_.say(work->done);
+  });
 }
 
 void ExportDialog::accept() {
@@ -212,7 +223,7 @@ void ExportDialog::draw_file(double scale) {
       if (std::ranges::find(extensions, format.extension) == extensions.end())
         extensions.push_back(format.extension);
     // The extension of what is chosen now is the one to be added.
-    std::ranges::stable_partition(extensions, [&](const std::string& extension) {
+    std::stable_partition(extensions.begin(), extensions.end(), [&](const std::string& extension) {
       return extension == settings_.path.extension().string();
     });
     chooser_.ask(
@@ -222,7 +233,7 @@ void ExportDialog::draw_file(double scale) {
           const std::string kind = lower_case(path.extension().string());
           if (kind != ".png") settings_.film = true;
           settings_.path = path;
-          confirming_ = true;  // it was asked
+          confirming_ = files() == std::vector{path};  // then it was asked
           return std::string();
         });
   }
@@ -284,6 +295,7 @@ void ExportDialog::draw_frames(float s) {
   ImGui::SetNextItemWidth(300 * s);
   if (ImGui::DragIntRange2("frames", &range[0], &range[1], 0.2f, 0, last, "from %d", "to %d",
                            ImGuiSliderFlags_AlwaysClamp)) {
+    confirming_ = false;
     settings_.first = std::clamp(range[0], 0, last);
     settings_.last = std::clamp(range[1], settings_.first, last);
   }

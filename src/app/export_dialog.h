@@ -50,7 +50,8 @@ class ExportDialog {
   Jobs& jobs_;
   FileChooser& chooser_;
   ExportSettings settings_;
-  std::optional<ExportSettings> last_;
+  std::optional<ExportSettings> last_;  ///< what was exported
+  bool last_all_ = true;                ///< with all frames
   std::string name_, message_;
   bool open_ = false, opening_ = false, confirming_ = false;
 };

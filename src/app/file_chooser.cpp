@@ -69,26 +69,29 @@ void FileChooser::ask(FileQuestion question, Answer answer) {
 void FileChooser::take_native() {
   native_.reset();
   if (chosen_->empty()) return;
+  // The answer may ask another question.
+  FileQuestion question = std::move(question_);
+  const Answer answer = std::move(answer_);
   Path path = *chosen_;
   std::error_code error;
-  const bool saves = question_.mode == FileQuestion::Mode::save;
+  const bool saves = question.mode == FileQuestion::Mode::save;
   const std::string kind = lower_case(path.extension().string());
-  const bool known = std::find(question_.extensions.begin(), question_.extensions.end(), kind) !=
-                     question_.extensions.end();
+  const bool known = std::find(question.extensions.begin(), question.extensions.end(), kind) !=
+                     question.extensions.end();
   bool asks = false;
   if (saves && !known) {
-    path += question_.extensions[0];
+    path += question.extensions[0];
     asks = std::filesystem::exists(path, error);
   }
-  if (saves && question_.writes && question_.writes(path) != std::vector{path}) asks = true;
+  if (saves && question.writes && question.writes(path) != std::vector{path}) asks = true;
   std::string problem;
   if (!asks) {
     browser_.start_in(path.parent_path());
-    problem = answer_(path, 1);
-    if (problem.empty()) return;
+    problem = answer(path, 1);
+    if (problem.empty() || open()) return;
   }
-  question_.start = path;
-  browser_.ask(question_, answer_);
+  question.start = path;
+  browser_.ask(question, answer);
   browser_.say(problem);
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/clipboard.h"
 #include "core/error.h"
+#include "edit/keymap.h"
 #include "edit/tool.h"
 #include "raster/picture.h"
 #include "raster/textured.h"
@@ -46,6 +47,9 @@ void Files::adopt(Document document) {
   workspace_.document.remove_autosave(autosave_folder());
   workspace_.open(std::move(document));
   export_.forget();
+  dropped_.reset();
+  changing_.clear();
+  if (reading_again_) reading_again_->cancel();
   replaced_();
 }
 
@@ -109,15 +113,24 @@ void Files::add_layers_of(const LoadedScene& added, const std::string& label) {
   Document& document = workspace_.document;
   const bool first = document.empty();
   Scene scene = document.scene();
+  const size_t below = first && !scene.image ? 0 : edited_layer(scene) + 1;
   for (Scene& layer : layers_of(added.scene)) {
-    if (layer.image) document.put_picture(*layer.image, *added.pictures.find(*layer.image));
+    if (layer.image)
+      if (const Picture* picture = added.pictures.find(*layer.image))
+        document.put_picture(*layer.image, *picture);
     scene = first && !scene.image ? std::move(layer) : with_layer_added(std::move(scene), layer);
   }
+  // The one that would be edited in a scene of their own.
+  scene = with_layer_chosen(std::move(scene), below + edited_layer(added.scene));
   if (!workspace_.commit_layers(label, std::move(scene))) return;
   if (first)
     replaced_();
   else
-    workspace_.say("It is a layer above the others. Page Up and Page Down go through them.");
+    workspace_.say(
+        (layer_count(added.scene) > 1 ? std::to_string(layer_count(added.scene)) + " layers are"
+                                      : "It is a layer") +
+        std::string(" above the one that was edited. ") + keys_text(action_named("layer.above")) +
+        " and " + keys_text(action_named("layer.below")) + " go through them.");
 }
 
 void Files::copy_picture() {
@@ -148,14 +161,24 @@ void Files::paste_picture() {
 void Files::watch_pictures() {
   if (reading_again_) {
     if (!reading_again_->ended()) return;
-    const auto error = std::exchange(reading_again_, nullptr)->error();
-    for (auto& [reference, picture] : *changed_)
+    const std::unique_ptr<Job> ended = std::move(reading_again_);
+    if (ended->cancelled()) return;  // it was another document's
+    const auto error = ended->error();
+    bool resized = false;
+    for (auto& [reference, picture] : *changed_) {
+      const Picture* before = workspace_.document.pictures().find(reference);
+      resized = resized || (before && (before->image->width != picture.image->width ||
+                                       before->image->height != picture.image->height));
       workspace_.document.put_picture(reference, std::move(picture));
+    }
     if (error)
       workspace_.complain(*error);
     else if (!changed_->empty())
       workspace_.say(Path(changed_->front().first.file).filename().string() +
-                     " was changed by another program and is read again.");
+                     " was changed by another program and is read again." +
+                     (resized ? " It has another size now; cage, pins and strokes stay where they "
+                                "are, in pixels."
+                              : ""));
     return;
   }
   const Pictures& pictures = workspace_.document.pictures();
@@ -192,12 +215,13 @@ std::string Files::replace_picture(const Path& path) {
         Scene scene = workspace_.document.scene();
         const std::optional<ImageReference> before = scene.image;
         scene.image = reference_to(path, "", *picture);
-        if (before &&
-            (before->width != scene.image->width || before->height != scene.image->height))
+        workspace_.document.put_picture(*scene.image, std::move(*picture));
+        if (before) scene.image->extra = before->extra;
+        const ImageReference now = *scene.image;
+        if (!workspace_.commit("Replace picture", std::move(scene), From::document)) return;
+        if (before && (before->width != now.width || before->height != now.height))
           workspace_.say(
               "The new picture has another size; cage, pins and strokes stay where they are.");
-        workspace_.document.put_picture(*scene.image, std::move(*picture));
-        workspace_.commit("Replace picture", std::move(scene), From::document);
       });
 }
 
@@ -254,8 +278,8 @@ void Files::save(bool as, const Then& then) {
   const Document& document = workspace_.document;
   if (!as && !document.path().empty()) return complain(save_to(document.path(), then));
   Path start = document.path();
-  if (start.empty() && !document.image_path().empty())
-    start = beside_document(document.image_path().stem().string() + ".json");
+  if (start.empty() && !document.first_picture().empty())
+    start = beside_document(document.first_picture().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
   dialog_.ask(
       {FileQuestion::Mode::save, "Save the scene", "Save", {".json", ".holomorph"}, start, false},

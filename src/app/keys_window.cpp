@@ -20,9 +20,12 @@ void wrapped_cell(const std::string& text) {
 }  // namespace
 
 void KeysWindow::assign(const std::vector<Shortcut>& keys) {
-  const std::vector<std::string> robbed = set_keys(waiting_, keys);
-  for (const std::string& label : robbed) workspace_.say("'" + label + "' has lost this key.");
+  say_lost(set_keys(waiting_, keys));
   waiting_.clear();
+}
+
+void KeysWindow::say_lost(const std::vector<std::string>& labels) {
+  for (const std::string& label : labels) workspace_.say("'" + label + "' has lost this key.");
   changed_();
 }
 
@@ -89,10 +92,7 @@ void KeysWindow::draw_row(const Action& action, float s) {
                                   : "Click and press another key; Shift-click adds one");
   if (has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
-    if (ImGui::Button("\uf0e2", {30 * s, 0})) {
-      reset_keys(action.id);
-      changed_();
-    }
+    if (ImGui::Button("\uf0e2", {30 * s, 0})) say_lost(reset_keys(action.id));
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
   }
   ImGui::TableNextColumn();

@@ -24,6 +24,7 @@ class KeysWindow {
   void export_keys();
   void import_keys();
   void assign(const std::vector<Shortcut>& keys);
+  void say_lost(const std::vector<std::string>& labels);
 
   Workspace& workspace_;
   FileChooser& chooser_;

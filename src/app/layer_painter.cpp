@@ -27,8 +27,10 @@ int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
   ready_ = std::make_shared<TextureLevels>();
   making_ready_ = std::make_unique<Job>(
       "Texture",
-      [picture = picture_, ready = ready_, largest = Renderer::largest_side()](Job::Progress&) {
-        *ready = texture_levels(picture->width, picture->height, picture->pixels.data(), largest);
+      [picture = picture_, ready = ready_,
+       largest = Renderer::largest_side()](Job::Progress& progress) {
+        *ready = texture_levels(picture->width, picture->height, picture->pixels.data(), largest,
+                                [&] { return !progress.cancelled(); });
       },
       wake_);
   return 0;

@@ -104,7 +104,8 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
   list.AddCircleFilled(at, 2.4f * s, selected ? style.colors.pin : IM_COL32(60, 40, 0, 255));
   if (shows_depth) {
     const std::string text = (pin.depth > 0 ? "+" : "") + std::to_string(pin.depth);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), corner(at.x + r, at.y + 0.4f * r);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()),
+                 corner(at.x + (selected ? 4.2f : 1) * r, at.y + 0.4f * r);
     list.AddRectFilled(corner, {corner.x + size.x + 6 * s, corner.y + size.y + 2 * s},
                        style.colors.panel, 3 * s);
     list.AddText({corner.x + 3 * s, corner.y + s}, style.colors.text, text.c_str());

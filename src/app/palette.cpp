@@ -1,6 +1,7 @@
 // Up and Down choose, Enter runs, and what cannot be done now is grey.
 #include "app/palette.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/panels.h"
@@ -56,7 +57,7 @@ void Palette::draw(Workspace& workspace, double scale) {
   std::vector<Row> rows = rows_of(workspace);
   std::erase_if(rows, [&](const Row& row) { return !has_words(row.label, text_); });
   // What can be done now comes first.
-  std::ranges::stable_partition(rows, &Row::enabled);
+  std::stable_partition(rows.begin(), rows.end(), [](const Row& row) { return row.enabled; });
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
   const int step = pressed(ImGuiKey_DownArrow) ? 1 : pressed(ImGuiKey_UpArrow) ? -1 : 0;
   chosen_ = std::clamp(chosen_ + step, 0, std::max(0, static_cast<int>(rows.size()) - 1));
@@ -81,6 +82,7 @@ void Palette::draw(Workspace& workspace, double scale) {
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
   ImGui::End();
   open_ = !run && !left;
+  opening_ = open_ && entered;  // nothing was run: the field goes on taking what is typed
   if (run) run->run(workspace);
 }
 

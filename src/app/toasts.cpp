@@ -18,6 +18,8 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   std::erase_if(shown_,
                 [&](const Shown& shown) { return shown.toast.where && shown.step != step; });
   for (Toast& toast : std::exchange(workspace.toasts, {})) {
+    // Said again it is renewed, not said twice.
+    std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
   }

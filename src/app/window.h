@@ -49,6 +49,7 @@ class Window {
   bool is_down(const Shortcut& key) const;
   /// Whether Alt counts as held from the next frame on, besides when it is.
   void stand_in_for_alt(bool held) { alt_ = held; }
+  bool stands_in_for_alt() const { return alt_; }
   void set_title(const std::string& title);
 
   int width() const;  ///< in window px

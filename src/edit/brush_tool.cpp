@@ -1,6 +1,7 @@
 // B: paints where the picture is stiff or soft. What is painted lies on the picture at rest, under
 // the pointer, and counts when the button is let go.
 #include <algorithm>
+#include <utility>
 
 #include "edit/tool.h"
 
@@ -34,9 +35,9 @@ class BrushTool final : public Tool {
   }
 
   void cancel(Workspace&) override { painting_ = false; }
-  bool key(Key key, Workspace&) override {
+  bool key(Key key, Workspace& workspace) override {
     if (key != Key::escape || !painting_) return false;
-    painting_ = false;
+    cancel(workspace);
     return true;
   }
   bool busy() const override { return painting_; }
@@ -62,9 +63,13 @@ class BrushTool final : public Tool {
       std::erase_if(dabs_, [&](const Dab& dab) { return std::abs(dab.at - *at) < radius_; });
     else if (dabs_.size() < kMostDabs)
       dabs_.push_back({*at, radius_, level_});
+    else
+      full_ = true;
   }
 
   void finish(Workspace& workspace) {
+    if (std::exchange(full_, false))
+      workspace.say("5000 touches of the brush are the most; erase some with Shift.");
     Scene scene = workspace.scene();
     if (scene.stiffness == dabs_) return;
     scene.stiffness = std::move(dabs_);
@@ -79,7 +84,7 @@ class BrushTool final : public Tool {
       workspace.say("The method is \"As rigid as possible\": the one that knows stiffness.");
   }
 
-  bool painting_ = false, erases_ = false;
+  bool painting_ = false, erases_ = false, full_ = false;
   double level_ = kStrength, radius_ = 1;
   std::optional<Complex> place_, last_;
   std::vector<Dab> dabs_;

@@ -22,6 +22,7 @@ std::vector<std::string> names_of(const std::vector<Shortcut>& keys) {
 
 std::vector<std::string> use_keys(const KeyNames& changes) {
   std::vector<std::string> unknown;
+  std::vector<std::pair<std::string, std::vector<Shortcut>>> wanted;
   for (Action& action : mutable_actions()) action.keys = own_keys(action.id);
   for (const auto& [id, names] : changes) {
     const auto action = std::ranges::find(mutable_actions(), id, &Action::id);
@@ -29,13 +30,17 @@ std::vector<std::string> use_keys(const KeyNames& changes) {
       unknown.push_back(id);
       continue;
     }
-    action->keys.clear();
+    std::vector<Shortcut> keys;
     for (const std::string& name : names)
       if (const auto key = shortcut_named(name))
-        action->keys.push_back(*key);
+        keys.push_back(*key);
       else
         unknown.push_back(name);
+    wanted.push_back({id, std::move(keys)});
   }
+  // What is changed is meant: a key that the table gives to another action is lost there.
+  for (const auto& [id, keys] : wanted)
+    if (action_named(id).keys != keys) set_keys(id, keys);
   return unknown;
 }
 
@@ -65,8 +70,8 @@ std::vector<std::string> set_keys(const std::string& id, const std::vector<Short
   return robbed;
 }
 
-void reset_keys(const std::string& id) {
-  set_keys(id, own_keys(id));
+std::vector<std::string> reset_keys(const std::string& id) {
+  return set_keys(id, own_keys(id));
 }
 
 bool has_own_keys(const Action& action) {
@@ -112,13 +117,25 @@ const std::vector<Gesture>& gestures() {
   return all;
 }
 
+namespace {
+
+/// As code, a bar being no border of the table.
+std::string table_cell(const std::string& text) {
+  std::string cell = "`";
+  for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
+  return cell + "`";
+}
+
+}  // namespace
+
 std::string keys_markdown() {
   std::string text = "| Mouse | |\n|---|---|\n";
   for (const Gesture& gesture : gestures())
     text += std::string("| ") + gesture.what + " | " + gesture.does + " |\n";
   text += "\n| Keys | |\n|---|---|\n";
   for (const Action& action : actions())
-    if (!action.keys.empty()) text += "| `" + keys_text(action) + "` | " + action.label + " |\n";
+    if (!action.keys.empty())
+      text += "| " + table_cell(keys_text(action)) + " | " + action.label + " |\n";
   return text;
 }
 

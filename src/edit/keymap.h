@@ -13,11 +13,11 @@ std::vector<std::string> use_keys(const KeyNames& changes);
 KeyNames changed_keys();
 KeyNames all_keys();
 
-/// Gives an action these keys alone and takes them from all others that it may meet. Returns the
-/// labels of those.
+/// Gives an action these keys alone and takes them from all others. Returns the labels of those
+/// that have lost one.
 std::vector<std::string> set_keys(const std::string& id, const std::vector<Shortcut>& keys);
 /// Gives an action the table's keys again.
-void reset_keys(const std::string& id);
+std::vector<std::string> reset_keys(const std::string& id);
 bool has_own_keys(const Action& action);
 
 /// "Ctrl+Shift+Z, Ctrl+Y"; signs that are reached with and without Shift are named once.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/polyline.h"
+#include "edit/actions.h"
 #include "scene/scene_json.h"
 
 namespace holomorph {
@@ -59,10 +60,20 @@ bool Workspace::amend(Scene scene, From from) {
   return enter(std::move(scene), from, [&](Scene entered) { document.amend(std::move(entered)); });
 }
 
-/// Whether a scene has other contents in a layer that is locked before and after.
-bool Workspace::is_locked_against(const Scene& scene) const {
+bool Workspace::require_open_layer() {
+  const LayerState& layer = document.scene().layer;
+  if (layer.locked || !layer.visible) {
+    const char* id = layer.locked ? "layer.lock" : "layer.visible";
+    say(std::string(layer.locked ? "The layer is locked" : "The layer is hidden") + "; " +
+        label_with_keys(action_named(id)) + " changes that.");
+  }
+  return !layer.locked && layer.visible;
+}
+
+/// Whether a scene has other contents in a layer that cannot be edited before and after.
+bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Scene& before = document.scene();
-  if (!before.layer.locked || scene.layer != before.layer) return false;
+  if ((!before.layer.locked && before.layer.visible) || scene.layer != before.layer) return false;
   Scene with_others = scene;
   with_others.below = before.below;
   with_others.above = before.above;
@@ -74,10 +85,7 @@ bool Workspace::is_locked_against(const Scene& scene) const {
 bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& put) {
   preview.reset();
   playback = {};
-  if (is_locked_against(scene)) {
-    say("The layer is locked. Ctrl+L unlocks it.");
-    return false;
-  }
+  if (changes_closed_layer(scene)) return require_open_layer();
   const Pose own = whole_pose_of(document.scene()), before = whole_pose_of(unedited());
   const Pose shown = from == From::shown ? whole_pose_of(scene) : before;
   const bool moves = from == From::shown && fits(scene, before) && shown != before,
@@ -101,25 +109,33 @@ bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& 
   return true;
 }
 
+/// What belongs to the edited layer alone, when it is another one.
+void Workspace::leave_layer() {
+  preview.reset();
+  timed.reset();
+  carried_on.reset();
+  selection.clear();
+  playback = {};
+  posture = Posture::pose;
+}
+
 bool Workspace::commit_layers(const std::string& label, Scene scene) {
-  const int layer = document.scene().layer.id;
+  if (scene.layer.id != document.scene().layer.id) leave_layer();
   if (!commit(label, std::move(scene), From::document)) return false;
-  if (layer != document.scene().layer.id) {
-    selection.clear();
-    posture = Posture::pose;
-    if (!document.scene().has_cage() && tool != ToolId::pen) tool = ToolId::select;
-  }
+  if (!document.scene().has_cage() && tool != ToolId::pen) tool = ToolId::select;
   return true;
 }
 
 void Workspace::choose_layer(size_t number) {
   static const std::string kLabel = "Edit another layer";
+  if (number == edited_layer(document.scene())) return;
   Scene chosen = with_layer_chosen(document.scene(), number);
+  leave_layer();
   const History& history = document.history();
   // Looking through the layers is one step, not many.
   const bool goes_on = history.can_undo() && history.entries()[history.index()].label == kLabel &&
                        !history.can_redo();
-  if (goes_on && number != edited_layer(document.scene())) document.undo();
+  if (goes_on) document.undo();
   commit_layers(kLabel, std::move(chosen));
 }
 
@@ -271,6 +287,7 @@ void Workspace::perform(const std::string& title, const Job::Work& work,
 }
 
 void Workspace::erase(const Selection& handles, Refit refit) {
+  if (!require_open_layer()) return;
   const std::string what = "Delete " + kind_of(handles);
   try {
     Scene after = erased(scene(), handles, refit);

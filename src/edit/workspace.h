@@ -155,6 +155,8 @@ struct Workspace {
   bool commit(const std::string& label, Scene scene, From from = From::shown);
   /// The last step, carried further; refused in the same way.
   bool amend(Scene scene, From from = From::shown);
+  /// Whether the edited layer is shown and not locked; says it otherwise.
+  bool require_open_layer();
   /// One undo step that changes layers, or what all of them share; nothing else may change.
   bool commit_layers(const std::string& label, Scene scene);
   /// Edits another layer.
@@ -191,7 +193,8 @@ struct Workspace {
   bool enter(Scene scene, From from, const std::function<void(Scene)>& put);
   Scene keyed(Scene scene);
   bool leaves_a_pose() const;
-  bool is_locked_against(const Scene& scene) const;
+  bool changes_closed_layer(const Scene& scene) const;
+  void leave_layer();
   /// Whether a scene may enter the history; says why not.
   bool accepts(const Scene& scene);
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace holomorph {
@@ -20,7 +21,9 @@ struct TextureLevels {
 
 /// Of a picture of straight-alpha RGBA, rows from the top, which may not be empty; no level is
 /// larger than `largest` a side. Needs no OpenGL and may run on any thread. Cost: linear, about
-/// 10 ns a pixel.
-TextureLevels texture_levels(int width, int height, const std::uint8_t* pixels, int largest);
+/// 10 ns a pixel. `go_on` is asked now and then; what is returned after it said no is incomplete.
+TextureLevels texture_levels(
+    int width, int height, const std::uint8_t* pixels, int largest,
+    const std::function<bool()>& go_on = [] { return true; });
 
 }  // namespace holomorph

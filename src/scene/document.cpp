@@ -83,14 +83,18 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
   }
 }
 
-/// Reads the picture of a layer. Returns what is to be said of it.
-std::string load_picture(Scene& layer, Pictures& pictures, const std::string& pointer) {
+/// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
+/// it may be.
+std::string load_picture(Scene& layer, Pictures& pictures, const std::string& pointer,
+                         bool may_be_missing) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
   try {
     if (!pictures.find(reference)) pictures.put(reference, read_picture(reference));
   } catch (const Error& error) {
-    throw Error(error.kind(), pointer + "/image/file: " + error.what());
+    const std::string what = pointer + "/image/file: " + error.what();
+    if (!may_be_missing) throw Error(error.kind(), what);
+    return what + ". Layer > Replace the picture gives it another one.";
   }
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
@@ -104,7 +108,7 @@ std::string load_picture(Scene& layer, Pictures& pictures, const std::string& po
 
 }  // namespace
 
-LoadedScene load_scene(const Path& path) {
+LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
   LoadedScene loaded;
   const Scene scene = scene_from_json(read_file(path), path.string());
   std::vector<Scene> layers = layers_of(scene);
@@ -112,7 +116,8 @@ LoadedScene load_scene(const Path& path) {
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning = load_picture(layers[i], loaded.pictures, pointer);
+    const std::string warning = load_picture(layers[i], loaded.pictures, pointer,
+                                             pictures_may_be_missing || layers.size() > 1);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene = scene_of_layers(std::move(layers), edited_layer(scene), scene);
@@ -242,7 +247,7 @@ Document Document::copy_of(const Path& scene) {
 }
 
 Document Document::recover(const Path& autosave) {
-  Document document(load_scene(autosave), Path());
+  Document document(load_scene(autosave, true), Path());
   document.path_ = origin_of(read_file(autosave));
   Scene scene = document.scene();
   scene.extra = without_origin(scene.extra);
@@ -253,7 +258,14 @@ Document Document::recover(const Path& autosave) {
 
 std::string Document::title() const {
   if (!path_.empty()) return path_.filename().string();
-  return image_path().empty() ? "Untitled" : image_path().stem().string() + " (not saved)";
+  const Path source = first_picture();
+  return source.empty() ? "Untitled" : source.stem().string() + " (not saved)";
+}
+
+Path Document::first_picture() const {
+  for (size_t i = 0; i < layer_count(scene()); ++i)
+    if (const auto& image = layer_at(scene(), i).image) return image->file;
+  return {};
 }
 
 Sources Document::sources() const {
@@ -273,7 +285,7 @@ Scene portable(Scene scene, const Path& folder) {
 namespace {
 
 /// With the pictures as they are now, and copies of pasted ones beside the scene.
-Scene with_present_pictures(const Scene& scene, const Pictures& pictures, const Path& target) {
+Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& target) {
   std::vector<Scene> layers = layers_of(scene);
   for (Scene& layer : layers) {
     if (!layer.image) continue;
@@ -282,11 +294,17 @@ Scene with_present_pictures(const Scene& scene, const Pictures& pictures, const 
       image = {image.file,         image.entry, now->image->width,
                now->image->height, now->sha256, image.extra};
     const Path file = image.file;
-    if (file.parent_path() != pasted_folder()) continue;
-    const Path copy = target.parent_path() /
-                      (target.stem().string() + "-" + file.stem().string().substr(0, 8) + ".png");
-    if (!fs::exists(copy)) write_file(copy, read_file(file));
+    const Picture* picture = pictures.find(image);
+    if (file.parent_path() != pasted_folder() || !picture) continue;
+    const Path copy =
+        target.parent_path() / (target.stem().string() + "-" + file.stem().string() + ".png");
+    // What was pasted is known by its contents: a copy that is there is this one.
+    if (!fs::exists(copy)) write_file(copy, encode_png(*picture->image));
+    Picture copied = *picture;
+    std::error_code ignored;
+    copied.changed = fs::last_write_time(copy, ignored);
     image.file = copy.string();
+    pictures.put(image, std::move(copied));
   }
   return scene_of_layers(std::move(layers), edited_layer(scene), scene);
 }
@@ -295,8 +313,9 @@ Scene with_present_pictures(const Scene& scene, const Pictures& pictures, const 
 
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
-  write_file(target, json_of(portable(with_present_pictures(scene(), pictures_, target),
-                                      target.parent_path())));
+  Scene present = with_present_pictures(scene(), pictures_, target);
+  write_file(target, json_of(portable(present, target.parent_path())));
+  history_.replace(std::move(present));
   path_ = target;
   saved_ = history_.current();
 }
@@ -337,8 +356,14 @@ std::string label_of(const Path& autosave, fs::file_time_type time) {
       name = origin.filename().string();
     else if (scene.image)
       name = Path(scene.image->file).stem().string() + " (never saved)";
-    name += ", " + std::to_string(scene.rest.size()) + " cage points, " +
-            std::to_string(scene.pins.size()) + (scene.pins.size() == 1 ? " pin" : " pins");
+    size_t points = 0, pins = 0;
+    for (size_t i = 0; i < layer_count(scene); ++i) {
+      points += static_cast<size_t>(layer_at(scene, i).rest.size());
+      pins += layer_at(scene, i).pins.size();
+    }
+    if (layer_count(scene) > 1) name += ", " + std::to_string(layer_count(scene)) + " layers";
+    name += ", " + std::to_string(points) + " cage points, " + std::to_string(pins) +
+            (pins == 1 ? " pin" : " pins");
   } catch (const Error&) {
     name = "a damaged scene";
   }

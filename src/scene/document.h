@@ -18,8 +18,10 @@ struct LoadedScene {
 
   const Image* image() const { return pictures.of(scene); }  ///< the edited layer's
 };
-/// Reads a scene file and the pictures that it names, relative to the file's folder. Throws Error.
-LoadedScene load_scene(const Path& path);
+/// Reads a scene file and the pictures that it names, relative to the file's folder. A picture of
+/// several layers that cannot be read is a warning, and the only one is, if it may be missing.
+/// Throws Error.
+LoadedScene load_scene(const Path& path, bool pictures_may_be_missing = false);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
 
@@ -67,6 +69,8 @@ class Document {
   const Path& path() const { return path_; }  ///< empty for a scene never saved
   /// The edited layer's picture, absolute; empty without one.
   Path image_path() const { return scene().image ? Path(scene().image->file) : Path(); }
+  /// The lowest layer's picture that has one: what the whole is called after.
+  Path first_picture() const;
   Sources sources() const;
   const std::string& warning() const { return warning_; }
   std::string title() const;

@@ -36,6 +36,8 @@ class History {
     entries_.resize(index_ + 1);
     entries_[index_].scene = std::move(scene);
   }
+  /// The current scene, said in another way: what was undone can still be done again.
+  void replace(Scene scene) { entries_[index_].scene = std::move(scene); }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }
   void go_to(size_t index) { index_ = std::min(index, entries_.size() - 1); }

@@ -17,6 +17,14 @@ LiveMap& LayerMaps::of(int id) const {
 }
 
 bool LayerMaps::update_others(const Scene& scene, const std::optional<double>& time) {
+  for (auto entry = maps_.begin(); entry != maps_.end();) {
+    const bool gone = layer_of_id(scene, entry->first) == layer_count(scene);
+    if (gone) {
+      entry->second->clear();
+      spare_.push_back(std::move(entry->second));
+    }
+    entry = gone ? maps_.erase(entry) : std::next(entry);
+  }
   bool changed = false;
   for (size_t i = 0; i < layer_count(scene); ++i) {
     const Scene& layer = layer_at(scene, i);
@@ -24,10 +32,6 @@ bool LayerMaps::update_others(const Scene& scene, const std::optional<double>& t
     changed = of(layer.layer.id).update(layer, {}, time) || changed;
   }
   return changed;
-}
-
-bool LayerMaps::busy() const {
-  return std::ranges::any_of(maps_, [](const auto& entry) { return entry.second->busy(); });
 }
 
 void LayerMaps::clear() {

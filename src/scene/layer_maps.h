@@ -19,10 +19,8 @@ class LayerMaps {
   /// The map of the layer of this id; a new one if it has none yet.
   LiveMap& of(int id) const;
   /// Brings the maps of all visible layers but the edited one up to date, at a time when there is
-  /// one. Returns whether any changed.
+  /// one, and lets those of layers go that are not there any more. Returns whether any changed.
   bool update_others(const Scene& scene, const std::optional<double>& time);
-  /// Whether any layer's map is being prepared.
-  bool busy() const;
   /// Forgets all of them and whatever workers are busy with.
   void clear();
 

@@ -1,6 +1,7 @@
 // Every change takes the stack apart and puts it together again: stacks are short.
 #include "scene/layers.h"
 
+#include <atomic>
 #include <filesystem>
 
 #include "core/error.h"
@@ -14,6 +15,12 @@ bool OtherLayer::operator==(const OtherLayer& other) const {
 }
 
 namespace {
+
+/// Never one that was given before, though its layer be gone: the history may bring it back.
+int fresh_id() {
+  static std::atomic<int> last = 1'000'000;
+  return ++last;
+}
 
 /// Without others and without what all layers share but the settings that each of them plays by.
 Scene alone(Scene layer) {
@@ -49,9 +56,7 @@ std::string title_of_layer(const Scene& scene, size_t layer) {
 }
 
 bool has_layers(const Scene& scene) {
-  LayerState plain;
-  plain.id = scene.layer.id;
-  return layer_count(scene) > 1 || scene.layer != plain;
+  return layer_count(scene) > 1 || scene.layer != LayerState{};
 }
 
 std::vector<Scene> layers_of(const Scene& scene) {
@@ -62,13 +67,11 @@ std::vector<Scene> layers_of(const Scene& scene) {
 
 Scene scene_of_layers(std::vector<Scene> layers, size_t edited, const Scene& shared) {
   check(edited < layers.size(), "scene_of_layers: one of the layers is edited");
-  int highest = 0;
-  for (const Scene& layer : layers) highest = std::max(highest, layer.layer.id);
   for (size_t i = 0; i < layers.size(); ++i) {
     LayerState& state = layers[i].layer;
     bool taken = state.id == 0;
     for (size_t j = 0; j < i; ++j) taken = taken || layers[j].layer.id == state.id;
-    if (taken && layers.size() > 1) state.id = ++highest;
+    if (taken && layers.size() > 1) state.id = fresh_id();
     layers[i].animation = shared.animation;
   }
   Scene scene = std::move(layers[edited]);

@@ -6,6 +6,7 @@
 
 #include "core/clock.h"
 #include "core/distortion.h"
+#include "scene/keyframes.h"
 
 namespace holomorph {
 
@@ -136,9 +137,13 @@ void LiveMap::work() {
     std::shared_ptr<PreparedMap> result;
     std::optional<Error> failure;
     Motion motion;
+    double milliseconds = 0;
     try {
       result = prepared_map(scene, Precision::single, options_, base.get());
+      const double start = now_ms();
       if (with_keys) motion.follow(scene, result);
+      if (const size_t keys = playing_keys(scene).size(); with_keys && keys > 0)
+        milliseconds = (now_ms() - start) / static_cast<double>(keys);
     } catch (const Error& error) {
       failure = error;
     } catch (const std::exception& error) {
@@ -154,6 +159,7 @@ void LiveMap::work() {
       finished_ = true;
       result_ = std::move(result);
       result_motion_ = std::move(motion);
+      if (milliseconds > 0) result_milliseconds_ = milliseconds;
       result_scene_ = scene;
       failure_ = std::move(failure);
     }
@@ -173,6 +179,7 @@ void LiveMap::take_result(const Scene& scene, Wanted wanted) {
   shown_ = std::move(result_);
   drawn_.reset();
   motion_ = std::exchange(result_motion_, Motion());
+  solve_milliseconds_ = std::max(solve_milliseconds_, std::exchange(result_milliseconds_, 0));
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
@@ -188,10 +195,12 @@ bool LiveMap::pose(const Scene& scene, Wanted wanted) {
   try {
     if (time_ && !scene.keyframes.empty()) motion_.follow(scene, shown_);
     SampledMap map;
-    if (time_ && !scene.keyframes.empty() && motion_.plays())
+    if (time_ && !scene.keyframes.empty() && motion_.plays()) {
       map = map_at_time(scene, wanted);
-    else
+    } else {
       shown_->deformer->deform(pose_of(scene), map, wanted);
+      if (!wanted.draft) solve_milliseconds_ = now_ms() - start;
+    }
     map_ = std::move(map);
     error_.reset();
   } catch (const Error& error) {
@@ -272,7 +281,8 @@ bool LiveMap::needs_worker(const Scene& scene) const {
   constexpr double kNoticed = 50;  // ms
   if (!time_ || !shown_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == scene.keyframes) return false;
-  return static_cast<double>(motion_.unknown(scene, shown_)) * pose_milliseconds_ > kNoticed;
+  if (posed_time_ && posed_ && posed_->keyframes == scene.keyframes) return false;
+  return static_cast<double>(motion_.unknown(scene, shown_)) * solve_milliseconds_ > kNoticed;
 }
 
 bool LiveMap::update(const Scene& scene, Wanted wanted, std::optional<double> time) {

@@ -114,6 +114,7 @@ class LiveMap {
   std::optional<Scene> timed_;
   bool busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
+  double solve_milliseconds_ = 0;  ///< of a final pose, in-betweens aside
   unsigned preparation_ = 0;
 
   std::mutex mutex_;  ///< guards what follows
@@ -121,6 +122,7 @@ class LiveMap {
   std::optional<Scene> waiting_;
   bool waiting_keys_ = false;
   Motion result_motion_;
+  double result_milliseconds_ = 0;  ///< of one of its keys
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
   std::optional<Scene> result_scene_;

@@ -16,7 +16,9 @@ namespace holomorph {
 namespace {
 
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
-constexpr int kDeepest = 50;  ///< groups in groups
+constexpr int kDeepest = 50;         ///< groups in groups
+constexpr int kFarthest = 1 << 20;   ///< of a layer from the canvas' corner
+constexpr double kMostPixels = 1e9;  ///< of all layers, each as large as the canvas
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw Error(ErrorKind::bad_input, name + ": this OpenRaster file is damaged: " + what);
@@ -70,6 +72,10 @@ struct Stack {
   std::vector<Placed> layers;  ///< from the top to the bottom, as the file has them
 };
 
+int offset(const pugi::xml_node& node, const char* name) {
+  return std::clamp(node.attribute(name).as_int(), -kFarthest, kFarthest);
+}
+
 void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
   if (depth > kDeepest) return;
   for (const pugi::xml_node& node : group.children()) {
@@ -77,8 +83,8 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.layer.name = node.attribute("name").as_string();
     here.layer.visible = inherited.layer.visible &&
                          std::string(node.attribute("visibility").as_string()) != "hidden";
-    here.x += node.attribute("x").as_int();
-    here.y += node.attribute("y").as_int();
+    here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
+    here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
     if (std::string(node.name()) == "stack") collect(node, here, depth + 1, stack);
     if (std::string(node.name()) != "layer") continue;
@@ -98,6 +104,9 @@ Stack stack_of(const Archive& archive, const std::string& name) {
   check_image_size(stack.width, stack.height, name);
   collect(image.child("stack"), {}, 0, stack);
   if (stack.layers.empty()) fail(name, "it has no layers of pixels");
+  if (1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()) > kMostPixels)
+    throw Error(ErrorKind::bad_input,
+                name + ": the layers have more than 1e9 pixels in all; merge some of them");
   return stack;
 }
 

@@ -26,7 +26,8 @@ Path preferences_path() {
 }  // namespace
 
 Path pasted_folder() {
-  return folder("XDG_DATA_HOME", ".local/share") / "pasted";
+  return std::filesystem::absolute(folder("XDG_DATA_HOME", ".local/share") / "pasted")
+      .lexically_normal();
 }
 
 Path autosave_folder() {
@@ -42,13 +43,14 @@ Preferences load_preferences() {
       if (theme == kThemes[i]) preferences.theme = static_cast<Theme>(i);
     preferences.native_dialogs = json.value("native_dialogs", true);
     preferences.hints = json.value("hints", true);
-    preferences.keys = json.value("keys", KeyNames{});
     const double scale = json.value("ui_scale", 0.0);
     preferences.ui_scale = scale > 0 ? std::clamp(scale, 0.75, 4.0) : 0.0;
     for (const auto& path : json.value("recent", std::vector<std::string>{}))
       preferences.recent.push_back(path);
+    // Last, so that nothing else is lost with it.
+    preferences.keys = json.value("keys", KeyNames{});
   } catch (const std::exception&) {
-    return Preferences{};
+    // What was read so far is good.
   }
   return preferences;
 }

@@ -10,9 +10,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 extern char** environ;
 
@@ -95,8 +97,14 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
     good = good && go_on() && finished.output.size() <= limit;
   }
   ::close(child->socket);
-  if (!good && !ended) ::kill(child->pid, SIGTERM);
-  while (!ended && ::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
+  // It may have closed its output and go on, or not want to end.
+  for (int waited = 0; !ended; waited += 10) {
+    const pid_t found = ::waitpid(child->pid, &status, WNOHANG);
+    ended = found == child->pid || (found < 0 && errno != EINTR);
+    if (ended) break;
+    if (good && !go_on()) good = false, waited = 0;
+    if (!good) ::kill(child->pid, waited < 1000 ? SIGTERM : SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   if (!good) return {};
   finished.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;

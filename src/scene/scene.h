@@ -92,7 +92,11 @@ struct LayerState {
   bool visible = true;
   bool locked = false;  ///< edits are refused
   Extra extra = {};
-  bool operator==(const LayerState&) const = default;
+  /// Whatever their ids.
+  bool operator==(const LayerState& other) const {
+    return name == other.name && visible == other.visible && locked == other.locked &&
+           extra == other.extra;
+  }
 };
 
 struct Scene;

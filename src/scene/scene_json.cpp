@@ -250,9 +250,9 @@ Scene read_single(const Reader& reader) {
   Scene scene;
   read_shared(reader, scene);
   read_layer(reader, scene);
-  scene.extra =
-      reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners", "outline",
-                     "surface", "method", "animation", "keyframes", "background"});
+  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners",
+                               "stiffness", "outline", "surface", "method", "animation",
+                               "keyframes", "background"});
   return scene;
 }
 

@@ -66,6 +66,9 @@ TEST_CASE("Keys survive a file, and what is not known there is left out and said
   use_keys({});
   CHECK(use_keys(keys_of_json(json_of_keys(keys), "keys.json")).empty());
   CHECK(changed_keys() == KeyNames{{"tool.pen", {"J"}}});
+  // A key that another action has by the table goes over to the one that the file gives it.
+  use_keys({{"tool.pen", {"V"}}});
+  CHECK(action_named("tool.select").keys.empty());
   CHECK(use_keys({{"tool.lasso", {"L"}}, {"tool.pen", {"Hyper+P"}}}) ==
         std::vector<std::string>{"tool.lasso", "Hyper+P"});
   for (const char* text : {"", "[]", "{}", R"({"format": "holomorph-keys", "keys": {"a": 1}})"})
@@ -76,7 +79,11 @@ TEST_CASE("The list of keys names every key") {
   const std::string list = keys_markdown();
   for (const Action& action : actions()) {
     INFO(action.id);
-    if (!action.keys.empty()) CHECK(list.find("| " + action.label + " |") != std::string::npos);
+    if (action.keys.empty()) continue;
+    CHECK(list.find("| " + action.label + " |") != std::string::npos);
+    const std::string text = keys_text(action);
+    if (text.find('|') == std::string::npos)
+      CHECK(list.find("`" + text + "`") != std::string::npos);
   }
   for (const Gesture& gesture : gestures()) CHECK(list.find(gesture.what) != std::string::npos);
 }

@@ -26,6 +26,10 @@ TEST_CASE("A program that is not there, does not end or says too much gives noth
   int asked = 0;
   CHECK_FALSE(run_program({"sleep", "60"}, "", [&] { return ++asked < 3; }));
   CHECK(now_ms() - start < 30000);
+  asked = 0;
+  CHECK_FALSE(run_program({"sh", "-c", "trap '' TERM; exec >&- 2>&- <&-; sleep 60"}, "",
+                          [&] { return ++asked < 5; }));
+  CHECK(now_ms() - start < 30000);
   CHECK_FALSE(run_program(
       {"cat", "/dev/zero"}, "", [] { return true; }, 1 << 20));
 }

@@ -86,8 +86,10 @@ std::vector<Action> layer_actions() {
        {},
        has_others,
        [](Workspace& w) {
-         if (w.document.scene().layer.locked)
-           return w.say("The layer is locked. Ctrl+L unlocks it.");
+         if (w.document.scene().layer.locked) {
+           w.require_open_layer();
+           return;
+         }
          w.commit_layers("Delete layer", without_layer(w.document.scene()));
        }},
       {"layer.above",
