@@ -27,7 +27,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
       "\"runs\": %s, \"layers\": %d, \"edited_layer\": %d, \"locked\": %s, \"visible\": %s, "
       "\"split\": "
-      "%.4f, \"slowest_ms\": %.1f}\n",
+      "%.4f, \"slowest_ms\": %.1f, \"asking\": %s}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.posture == Posture::rest ? "rest" : "pose",
@@ -55,7 +55,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(edited_layer(workspace.document.scene())),
       workspace.document.scene().layer.locked ? "true" : "false",
       workspace.document.scene().layer.visible ? "true" : "false", workspace.split.value_or(-1),
-      parts.slowest_ms);
+      parts.slowest_ms, parts.asking ? "true" : "false");
   if (text == last_) return;
   last_ = text;
   try {

@@ -44,8 +44,7 @@ class WindowCase(unittest.TestCase):
         return path
 
     def save_as(self, editor, path):
-        editor.key("ctrl+shift+s")
-        time.sleep(0.4)
+        self.ask(editor, "ctrl+shift+s")
         editor.key("ctrl+a")
         editor.type(path)
         editor.key("Return")
@@ -56,10 +55,21 @@ class WindowCase(unittest.TestCase):
         editor.press(640, 400 + down)  # the window has 1280 x 800 px
         time.sleep(0.5)
 
+    def ask(self, editor, key):
+        """Opens a dialog by its key: once more while something that goes on has swallowed it."""
+        for _ in range(5):
+            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the end of what is going on")
+            editor.key(key)
+            end = time.time() + 3
+            while time.time() < end and not editor.state()["asking"]:
+                time.sleep(0.05)
+            if editor.state()["asking"]:
+                return time.sleep(0.3)
+        self.fail(f"no dialog comes at {key}")
+
     def by_palette(self, editor, words):
         """Runs an action by its name."""
-        editor.key("ctrl+shift+p")
-        time.sleep(0.3)
+        self.ask(editor, "ctrl+shift+p")
         editor.type(words)
         editor.key("Return")
         time.sleep(0.4)

@@ -156,8 +156,7 @@ class EditorWindowTest(WindowCase):
         home = self.preferences(hints=False)
         with Editor(PROGRAM, [scene], home=home) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
-            editor.key("F1")
-            time.sleep(0.5)
+            self.ask(editor, "F1")
             editor.type("checker")
             picture = self.screenshot(editor, "keys")
             # The only row's button, below the search field, at the window's left.
@@ -244,8 +243,7 @@ class EditorWindowTest(WindowCase):
             editor.key("shift+Right")
             editor.wait(lambda s: s["modified"], "a moved picture")
             self.by_palette(editor, "background: the original")
-            editor.key("ctrl+e")
-            time.sleep(0.6)
+            self.ask(editor, "ctrl+e")
             self.screenshot(editor, "export")
             editor.key("ctrl+a")
             editor.type(target)
@@ -253,6 +251,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: os.path.exists(target), "the export")
             image = Image.open(target)
             self.assertEqual(image.size, (310 - 10, 200))
+            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the end of the export")
             os.remove(target)
             editor.key("ctrl+shift+e")
             editor.wait(lambda s: os.path.exists(target), "the export once more")

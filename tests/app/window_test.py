@@ -67,8 +67,7 @@ class WindowTest(WindowCase):
         with Editor(PROGRAM, [self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
             # The offer's first button, by the palette: the same action, found by name.
-            editor.key("ctrl+shift+p")
-            time.sleep(0.3)
+            self.ask(editor, "ctrl+shift+p")
             editor.type("make from")
             editor.key("Return")
             editor.wait(lambda s: 25 <= s["cage_points"] <= 40, "a cage around the gecko")
@@ -223,8 +222,7 @@ class WindowTest(WindowCase):
             file.write("precious")
         with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
-            editor.key("ctrl+e")
-            time.sleep(1.0)
+            self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(target)
             editor.key("Return")
@@ -507,8 +505,7 @@ class WindowTest(WindowCase):
             editor.key("space")
             editor.wait(lambda s: not s["runs"], "the stopped film")
             # Three frames as files.
-            editor.key("ctrl+shift+p")
-            time.sleep(0.3)
+            self.ask(editor, "ctrl+shift+p")
             editor.type("film")
             editor.key("Return")
             time.sleep(0.4)
@@ -613,8 +610,7 @@ class WindowTest(WindowCase):
                 editor.key("comma")
             time.sleep(0.4)
             plain = self.screenshot(editor, "no-onion")
-            editor.key("ctrl+shift+p")
-            time.sleep(0.3)
+            self.ask(editor, "ctrl+shift+p")
             editor.type("onion")
             editor.key("Return")
             time.sleep(0.5)
@@ -627,8 +623,7 @@ class WindowTest(WindowCase):
             first = os.path.join(self.work, "clip-0000.png")
             with open(first, "w") as file:
                 file.write("mine")
-            editor.key("ctrl+shift+p")
-            time.sleep(0.3)
+            self.ask(editor, "ctrl+shift+p")
             editor.type("film")
             editor.key("Return")
             time.sleep(0.4)
