@@ -116,6 +116,8 @@ class Editor {
     parts.on_surface = workspace_.shows_surface() && surface_pane_.has_picture();
     parts.yaw = surface_pane_.camera().yaw;
     parts.exporting = files_.busy();
+    parts.settling = fit_;
+    parts.pending = window_.has_events();
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
     parts.slowest_ms = slowest_ms_;
     parts.distance = surface_pane_.camera().distance;

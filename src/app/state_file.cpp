@@ -27,7 +27,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       "\"distance\": %.6f, \"corners\": %d, \"keys\": %d, \"time\": %.6f, \"shows_time\": %s, "
       "\"runs\": %s, \"layers\": %d, \"edited_layer\": %d, \"locked\": %s, \"visible\": %s, "
       "\"split\": "
-      "%.4f, \"slowest_ms\": %.1f, \"asking\": %s}\n",
+      "%.4f, \"slowest_ms\": %.1f, \"asking\": %s, \"pending\": %s}\n",
       view.left, view.top, view.width, view.height, view.center.real(), view.center.imag(),
       view.zoom, kTools[static_cast<int>(workspace.tool)],
       workspace.posture == Posture::rest ? "rest" : "pose",
@@ -39,10 +39,10 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(workspace.selection.size()),
       static_cast<int>(workspace.document.history().entries().size()),
       static_cast<int>(workspace.document.history().index()),
-      workspace.document.modified() ? "true" : "false", workspace.map().busy() ? "true" : "false",
-      parts.gesture ? "true" : "false", workspace.document.empty() ? "true" : "false",
-      workspace.map().error() ? "true" : "false", name_of(workspace.map().map().status),
-      workspace.map().injectivity().boundary_turns,
+      workspace.document.modified() ? "true" : "false",
+      workspace.map().busy() || parts.settling ? "true" : "false", parts.gesture ? "true" : "false",
+      workspace.document.empty() ? "true" : "false", workspace.map().error() ? "true" : "false",
+      name_of(workspace.map().map().status), workspace.map().injectivity().boundary_turns,
       workspace.map().injectivity().folds() ? "true" : "false", workspace.map().map().iterations,
       static_cast<int>(workspace.map().map().energies.size()),
       workspace.playback.playing ? "true" : "false",
@@ -55,7 +55,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
       static_cast<int>(edited_layer(workspace.document.scene())),
       workspace.document.scene().layer.locked ? "true" : "false",
       workspace.document.scene().layer.visible ? "true" : "false", workspace.split.value_or(-1),
-      parts.slowest_ms, parts.asking ? "true" : "false");
+      parts.slowest_ms, parts.asking ? "true" : "false", parts.pending ? "true" : "false");
   if (text == last_) return;
   last_ = text;
   try {

@@ -12,6 +12,8 @@ struct PartsState {
   bool on_surface = false;       ///< the picture is on the surface in space
   double yaw = 0, distance = 0;  ///< of the camera there
   double slowest_ms = 0;         ///< frame so far, from its first event to its last pixel
+  bool settling = false;         ///< the next frame shows another part of the plane
+  bool pending = false;          ///< keys and clicks wait for the next frames
   bool asking = false;           ///< a dialog takes the keys
   bool exporting = false;        ///< a film
 };

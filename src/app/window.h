@@ -48,6 +48,8 @@ class Window {
   /// Whether a key is held, by what the layout prints on it.
   bool is_down(const Shortcut& key) const;
   /// Whether Alt counts as held from the next frame on, besides when it is.
+  /// Whether events wait for later frames.
+  bool has_events() const { return !events_.empty(); }
   void stand_in_for_alt(bool held) { alt_ = held; }
   bool stands_in_for_alt() const { return alt_; }
   void set_title(const std::string& title);

@@ -64,7 +64,7 @@ class WindowCase(unittest.TestCase):
             while time.time() < end and not editor.state()["asking"]:
                 time.sleep(0.05)
             if editor.state()["asking"]:
-                return time.sleep(0.3)
+                return time.sleep(0.8)
         self.fail(f"no dialog comes at {key}")
 
     def by_palette(self, editor, words):

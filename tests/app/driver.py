@@ -155,12 +155,23 @@ class Editor:
         answer("XdndFinished")
         display.close()
 
+    def settle(self):
+        """Waits until the window has taken all events: each change of a key or button is a frame of its own."""
+        end = time.time() + 20
+        while time.time() < end:
+            state = self.state()
+            if self.process.poll() is not None or (state and not state["pending"]):
+                return
+            time.sleep(0.03)
+
     def key(self, name):
         self.xdotool("key", "--clearmodifiers", name)
+        self.settle()
 
     def type(self, text):
         self.xdotool("type", "--delay", "15", text)
-        time.sleep(0.3 + 0.04 * len(text))  # a key is a frame, and frames are drawn by the processor
+        time.sleep(0.3)
+        self.settle()
 
     def screenshot(self, path):
         subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy
@@ -13,6 +14,7 @@ from PIL import Image
 sys.path.insert(0, os.path.dirname(__file__))
 from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
 from driver import Editor  # noqa: E402
+
 
 class WindowTest(WindowCase):
     def test_draw_drag_pin_undo_save_reopen(self):
