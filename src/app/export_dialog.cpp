@@ -37,6 +37,14 @@ bool is_of(const ExportSettings& settings, const Format& format) {
 
 }  // namespace
 
+PictureOptions as_shown(const Workspace& workspace) {
+  PictureOptions options;
+  options.view = workspace.document.scene().has_cage() ? workspace.view : View::image;
+  options.automatic_range = workspace.automatic_range;
+  options.time = workspace.time_of_layers();
+  return options;
+}
+
 void ExportDialog::ask(bool film, const Path& folder) {
   const Document& document = workspace_.document;
   if (last_) {
@@ -122,12 +130,9 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   }
   Scene scene = document.scene();
   if (settings.background) scene.background = *settings.background;
-  PictureOptions options;
+  PictureOptions options = as_shown(workspace_);
   options.scale = settings.scale;
-  options.view = scene.has_cage() ? workspace_.view : View::image;
-  options.automatic_range = workspace_.automatic_range;
   options.shows = region_box();
-  options.time = workspace_.time_of_layers();
   struct Work {
     Scene scene;
     Pictures pictures;

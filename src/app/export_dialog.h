@@ -19,6 +19,9 @@ struct ExportSettings {
   bool loops = true;
 };
 
+/// What the canvas shows, as a picture: its view, its range and its time.
+PictureOptions as_shown(const Workspace& workspace);
+
 class ExportDialog {
  public:
   ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser)

@@ -35,6 +35,7 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       jobs_(workspace, wake),
       dialog_(wake),
       export_(workspace, jobs_, dialog_),
+      watch_(workspace),
       recoverable_(holomorph::recoverable(autosave_folder())) {}
 
 void Files::ask_then(Then then) {
@@ -48,8 +49,7 @@ void Files::adopt(Document document) {
   workspace_.open(std::move(document));
   export_.forget();
   dropped_.reset();
-  changing_.clear();
-  if (reading_again_) reading_again_->cancel();
+  watch_.forget();
   replaced_();
 }
 
@@ -112,16 +112,11 @@ std::string Files::add_layer(const Path& path) {
 void Files::add_layers_of(const LoadedScene& added, const std::string& label) {
   Document& document = workspace_.document;
   const bool first = document.empty();
-  Scene scene = document.scene();
-  const size_t below = first && !scene.image ? 0 : edited_layer(scene) + 1;
-  for (Scene& layer : layers_of(added.scene)) {
-    if (layer.image)
-      if (const Picture* picture = added.pictures.find(*layer.image))
-        document.put_picture(*layer.image, *picture);
-    scene = first && !scene.image ? std::move(layer) : with_layer_added(std::move(scene), layer);
-  }
-  // The one that would be edited in a scene of their own.
-  scene = with_layer_chosen(std::move(scene), below + edited_layer(added.scene));
+  for (size_t i = 0; i < layer_count(added.scene); ++i)
+    if (const auto& image = layer_at(added.scene, i).image)
+      if (const Picture* picture = added.pictures.find(*image))
+        document.put_picture(*image, *picture);
+  Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
   if (!workspace_.commit_layers(label, std::move(scene))) return;
   if (first)
     replaced_();
@@ -135,12 +130,8 @@ void Files::add_layers_of(const LoadedScene& added, const std::string& label) {
 
 void Files::copy_picture() {
   const Document& document = workspace_.document;
-  PictureOptions options;
-  options.view = document.scene().has_cage() ? workspace_.view : View::image;
-  options.automatic_range = workspace_.automatic_range;
-  options.time = workspace_.time_of_layers();
   const auto copy = [scene = document.scene(), pictures = document.pictures(),
-                     options](Job::Progress& progress) {
+                     options = as_shown(workspace_)](Job::Progress& progress) {
     const RasterResult result = picture_of(scene, pictures.of(scene), options, pictures);
     if (!progress.cancelled())
       put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
@@ -158,63 +149,15 @@ void Files::paste_picture() {
                      [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
 }
 
-void Files::watch_pictures() {
-  if (reading_again_) {
-    if (!reading_again_->ended()) return;
-    const std::unique_ptr<Job> ended = std::move(reading_again_);
-    if (ended->cancelled()) return;  // it was another document's
-    const auto error = ended->error();
-    bool resized = false;
-    for (auto& [reference, picture] : *changed_) {
-      const Picture* before = workspace_.document.pictures().find(reference);
-      resized = resized || (before && (before->image->width != picture.image->width ||
-                                       before->image->height != picture.image->height));
-      workspace_.document.put_picture(reference, std::move(picture));
-    }
-    if (error)
-      workspace_.complain(*error);
-    else if (!changed_->empty())
-      workspace_.say(Path(changed_->front().first.file).filename().string() +
-                     " was changed by another program and is read again." +
-                     (resized ? " It has another size now; cage, pins and strokes stay where they "
-                                "are, in pixels."
-                              : ""));
-    return;
-  }
-  const Pictures& pictures = workspace_.document.pictures();
-  std::vector<ImageReference> changed = pictures.changed();
-  if (changed.empty() || changed != changing_) {
-    changing_ = std::move(changed);  // it may still be being written
-    return;
-  }
-  changed_ = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
-  for (const ImageReference& reference : changed) {
-    // What cannot be read stays as it is, until it changes again.
-    std::error_code ignored;
-    Picture same = *pictures.find(reference);
-    same.changed = std::filesystem::last_write_time(reference.file, ignored);
-    workspace_.document.put_picture(reference, std::move(same));
-  }
-  reading_again_ =
-      std::make_unique<Job>("Reading again", [changed, result = changed_](Job::Progress&) {
-        for (const ImageReference& reference : changed)
-          result->push_back({reference, read_picture(reference)});
-      });
-}
-
 std::string Files::replace_picture(const Path& path) {
   const auto picture = std::make_shared<Picture>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [picture, path](Job::Progress&) {
-        ImageReference reference;
-        reference.file = std::filesystem::absolute(path).lexically_normal().string();
-        *picture = read_picture(reference);
-      },
+      [picture, path](Job::Progress&) { *picture = read_picture(reference_in(path)); },
       [this, picture, path] {
         Scene scene = workspace_.document.scene();
         const std::optional<ImageReference> before = scene.image;
-        scene.image = reference_to(path, "", *picture);
+        scene.image = described(reference_in(path), *picture);
         workspace_.document.put_picture(*scene.image, std::move(*picture));
         if (before) scene.image->extra = before->extra;
         const ImageReference now = *scene.image;
@@ -245,14 +188,16 @@ void Files::ask_recover(const Path& autosave) {
 }
 
 void Files::recover(const Path& autosave) {
-  try {
-    adopt(Document::recover(autosave));
-    if (!workspace_.document.autosave(autosave_folder())) return;
-    discard(autosave);  // the document has written its own
-    workspace_.say("Recovered. Save it under a name to keep it.");
-  } catch (const Error& error) {
-    workspace_.complain(error);
-  }
+  const auto recovered = std::make_shared<std::optional<Document>>();
+  complain(jobs_.run(
+      "Recovering",
+      [recovered, autosave](Job::Progress&) { *recovered = Document::recover(autosave); },
+      [this, recovered, autosave] {
+        adopt(std::move(**recovered));
+        if (!workspace_.document.autosave(autosave_folder())) return;
+        discard(autosave);  // the document has written its own
+        workspace_.say("Recovered. Save it under a name to keep it.");
+      }));
 }
 
 void Files::discard(const Path& autosave) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/export_dialog.h"
+#include "app/picture_watch.h"
 #include "scene/preferences.h"
 
 namespace holomorph {
@@ -33,7 +34,7 @@ class Files {
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
   /// Reads pictures again that another program has changed; called now and then.
-  void watch_pictures();
+  void watch_pictures() { watch_.look(); }
   /// Keeps the autosave true; called once a frame.
   void autosave();
   void keep_preferences();
@@ -85,12 +86,9 @@ class Files {
   Jobs jobs_;
   FileChooser dialog_;
   ExportDialog export_;
+  PictureWatch watch_;
   std::vector<Recovery> recoverable_;
   Then after_question_;
-  /// What has changed when it was looked at last: a file is read when it is left alone.
-  std::vector<ImageReference> changing_;
-  std::shared_ptr<std::vector<std::pair<ImageReference, Picture>>> changed_;
-  std::unique_ptr<Job> reading_again_;
   std::optional<Path> dropped_;  ///< a picture of which it is not decided yet where it goes
   bool question_ = false, quit_ = false, autosave_failed_ = false;
 };

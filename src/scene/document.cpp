@@ -98,9 +98,7 @@ std::string load_picture(Scene& layer, Pictures& pictures, const std::string& po
   }
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
-  reference.sha256 = picture.sha256;
-  reference.width = picture.image->width;
-  reference.height = picture.image->height;
+  reference = described(std::move(reference), picture);
   return other ? "The picture " + Path(reference.file).filename().string() +
                      " has changed since the scene was saved."
                : "";
@@ -150,12 +148,10 @@ namespace {
 
 /// One layer with a picture of a file.
 Scene layer_of_picture(const Path& file, const std::string& entry, Pictures& pictures) {
-  ImageReference wanted;
-  wanted.file = fs::absolute(file).lexically_normal().string();
-  wanted.entry = entry;
+  const ImageReference wanted = reference_in(file, entry);
   Picture picture = read_picture(wanted);
   Scene layer;
-  layer.image = reference_to(file, entry, picture);
+  layer.image = described(wanted, picture);
   pictures.put(*layer.image, std::move(picture));
   return layer;
 }
@@ -290,9 +286,7 @@ Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& 
   for (Scene& layer : layers) {
     if (!layer.image) continue;
     ImageReference& image = *layer.image;
-    if (const Picture* now = pictures.find(image))
-      image = {image.file,         image.entry, now->image->width,
-               now->image->height, now->sha256, image.extra};
+    if (const Picture* now = pictures.find(image)) image = described(image, *now);
     const Path file = image.file;
     const Picture* picture = pictures.find(image);
     if (file.parent_path() != pasted_folder() || !picture) continue;

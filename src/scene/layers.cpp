@@ -88,21 +88,20 @@ Scene with_layer_chosen(Scene scene, size_t layer) {
   return scene_of_layers(layers_of(scene), layer, scene);
 }
 
-Scene with_layer_added(Scene scene, Scene layer) {
-  if (layer_count(scene) >= kMostLayers)
+Scene with_layer_added(Scene scene, const Scene& added) {
+  if (layer_count(scene) + layer_count(added) > kMostLayers)
     throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
-  std::vector<Scene> layers = layers_of(scene);
+  std::vector<Scene> layers = layers_of(scene), more = layers_of(added);
   const size_t place = edited_layer(scene) + 1;
-  layer = alone(std::move(layer));
-  layer.layer.id = 0;
-  layers.insert(layers.begin() + static_cast<long>(place), std::move(layer));
-  return scene_of_layers(std::move(layers), place, scene);
+  for (Scene& layer : more) layer.layer.id = 0;
+  layers.insert(layers.begin() + static_cast<long>(place), more.begin(), more.end());
+  return scene_of_layers(std::move(layers), place + edited_layer(added), scene);
 }
 
 Scene with_layer_doubled(const Scene& scene) {
-  Scene copy = scene;
+  Scene copy = alone(scene);
   copy.layer.name = title_of_layer(scene, edited_layer(scene)) + " copy";
-  return with_layer_added(scene, std::move(copy));
+  return with_layer_added(scene, copy);
 }
 
 Scene without_layer(Scene scene) {

@@ -24,8 +24,9 @@ bool has_layers(const Scene& scene);
 
 /// The same scene with another of its layers edited.
 Scene with_layer_chosen(Scene scene, size_t layer);
-/// With a layer above the edited one, which is edited from then on.
-Scene with_layer_added(Scene scene, Scene layer);
+/// With the layers of another scene above the edited one; that one's edited layer is edited from
+/// then on.
+Scene with_layer_added(Scene scene, const Scene& added);
 /// A copy of the edited layer, above it and edited.
 Scene with_layer_doubled(const Scene& scene);
 /// Without the edited layer: the one below is edited, or the one above. There must be another.

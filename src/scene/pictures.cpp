@@ -16,13 +16,18 @@ Picture read_picture(const ImageReference& reference) {
   return {std::make_shared<const Image>(std::move(image)), sha256_hex(bytes), changed};
 }
 
-ImageReference reference_to(const Path& file, const std::string& entry, const Picture& picture) {
-  return {fs::absolute(file).lexically_normal().string(),
-          entry,
-          picture.image->width,
-          picture.image->height,
-          picture.sha256,
-          ""};
+ImageReference reference_in(const Path& file, const std::string& entry) {
+  ImageReference reference;
+  reference.file = fs::absolute(file).lexically_normal().string();
+  reference.entry = entry;
+  return reference;
+}
+
+ImageReference described(ImageReference reference, const Picture& picture) {
+  reference.width = picture.image->width;
+  reference.height = picture.image->height;
+  reference.sha256 = picture.sha256;
+  return reference;
 }
 
 std::shared_ptr<const Image> Pictures::shared(const Scene& layer) const {
@@ -49,10 +54,7 @@ std::vector<ImageReference> Pictures::changed() const {
     std::error_code error;
     const auto now = fs::last_write_time(name.first, error);
     if (error || now == picture.changed) continue;
-    ImageReference reference;
-    reference.file = name.first;
-    reference.entry = name.second;
-    all.push_back(std::move(reference));
+    all.push_back(reference_in(name.first, name.second));
   }
   return all;
 }

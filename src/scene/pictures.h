@@ -19,9 +19,11 @@ struct Picture {
 
 /// Reads what a reference names. Throws Error.
 Picture read_picture(const ImageReference& reference);
-/// What a scene says of a picture: its file, whose path becomes absolute, its layer in there if it
-/// is one, and what was read.
-ImageReference reference_to(const Path& file, const std::string& entry, const Picture& picture);
+/// What names a picture: its file, whose path becomes absolute, and its layer in there if it is
+/// one.
+ImageReference reference_in(const Path& file, const std::string& entry = "");
+/// A reference with what was read: size and SHA-256.
+ImageReference described(ImageReference reference, const Picture& picture);
 
 /// Pictures by what names them: the absolute path of the file, and the layer in there.
 class Pictures {

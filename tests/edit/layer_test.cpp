@@ -122,3 +122,26 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
   CHECK(w.scene().pose.vertex(0) == Complex(0, 0));
   CHECK(action_named("time.play").enabled(w));
 }
+
+TEST_CASE("Folds are walked from the worst one on, and around") {
+  // Two corners of the square cross to the other side, one of them farther.
+  Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
+  Workspace& w = desk.workspace;
+  run(action_named("view.fold"), w);
+  CHECK(w.toasts.back().text == "Nothing folds.");
+  Scene scene = desk.scene();
+  scene.method = "harmonic";
+  w.commit("Harmonic", scene);
+  desk.settle();
+  desk.drag({0, 0}, {120, 190});
+  desk.settle();
+  desk.drag({200, 200}, {150, 60});
+  desk.settle();
+  const Points folds = w.map().injectivity().folds_at;
+  REQUIRE_FALSE(folds.empty());
+  for (size_t i = 0; i <= folds.size(); ++i) {
+    run(action_named("view.fold"), w);
+    CHECK(w.viewport.center == folds[i % folds.size()]);
+    CHECK(w.toasts.back().problem);
+  }
+}

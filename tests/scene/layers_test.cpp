@@ -7,6 +7,7 @@
 #include "scene/document.h"
 #include "scene/keyframes.h"
 #include "scene/layer_maps.h"
+#include "scene/preferences.h"
 #include "scene/scene_json.h"
 #include "support/folder.h"
 #include "support/shapes.h"
@@ -89,6 +90,10 @@ TEST_CASE("Layers move through the stack, are doubled and go, and the others sta
   CHECK_FALSE(layer_at(changed, 0).layer.visible);
   CHECK(layer_at(changed, 1) == layer_at(scene, 1));
   CHECK(changed != scene);
+  // Another scene comes with all of its layers, and with the one that is edited in it.
+  const Scene both = with_layer_added(with_layer_chosen(scene, 0), with_layer_chosen(scene, 1));
+  CHECK(names(both) == "bbmtmt");
+  CHECK(edited_layer(both) == 2);
   Scene full = scene;
   while (layer_count(full) < kMostLayers) full = with_layer_added(full, Scene{});
   CHECK_THROWS_AS(with_layer_added(full, Scene{}), Error);
@@ -119,6 +124,26 @@ TEST_CASE("Files keep layers, and scenes of one plain layer are written as befor
     CHECK(scene_from_json(json_of(on), "s.json") == on);
     CHECK(scene_from_json(json_of(on), "s.json").extra.empty());
   }
+}
+
+TEST_CASE("Preferences survive a file, and damaged keys take nothing else with them") {
+  const Folder folder;
+  ::setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+  Preferences preferences;
+  preferences.theme = Theme::contrast;
+  preferences.ui_scale = 1.5;
+  preferences.native_dialogs = preferences.hints = false;
+  preferences.recent = {"/tmp/a.json"};
+  preferences.keys = {{"tool.pen", {"J"}}};
+  save_preferences(preferences);
+  CHECK(load_preferences() == preferences);
+  const Path file = folder.path / "holomorph" / "preferences.json";
+  std::string text = read_file(file);
+  text.replace(text.find("\"J\""), 3, "7");
+  write_file(file, text);
+  preferences.keys.clear();
+  CHECK(load_preferences() == preferences);
+  ::unsetenv("XDG_CONFIG_HOME");
 }
 
 TEST_CASE("What is wrong with a layer is said with its place") {
