@@ -3,6 +3,11 @@
 // Most vertices are laid out first, a graded triangular lattice inserted in one go, which is
 // several times faster than refining; refinement then finishes the seam between lattice and
 // boundary.
+//
+// CGAL's assertions stay on in optimised builds: between edges that nearly touch, midpoints that
+// are rounded to the wrong side break the mesher's invariants, and a broken one has to end in an
+// Error.
+#define CGAL_DEBUG
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
@@ -192,7 +197,13 @@ unsigned hilbert_key(unsigned x, unsigned y) {
   return key;
 }
 
-/// Copies the inside of the triangulation, vertices in Hilbert order.
+[[noreturn]] void nearly_touches_itself() {
+  throw Error(ErrorKind::bad_input,
+              "the rest cage nearly touches itself and cannot be meshed; move its points apart");
+}
+
+/// Copies the inside of the triangulation, vertices in Hilbert order. Throws when it has a triangle
+/// without an area, or an outline that is not closed.
 Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners) {
   std::vector<Triangulation::Vertex_handle> used;
   for (const auto& v : cdt.finite_vertex_handles()) v->info() = -1;
@@ -223,8 +234,11 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   std::vector<int> next(mesh.vertices.size(), -1);
   for (const auto& face : cdt.finite_face_handles()) {
     if (!face->is_in_domain()) continue;
-    mesh.triangles.push_back(
-        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    const Triangle t = {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+    if (cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+              mesh.vertices[t[2]] - mesh.vertices[t[0]]) <= 0)
+      nearly_touches_itself();
+    mesh.triangles.push_back(t);
     for (int k = 0; k < 3; ++k)
       if (!face->neighbor(k)->is_in_domain() || cdt.is_infinite(face->neighbor(k)))
         next[face->vertex((k + 1) % 3)->info()] = face->vertex((k + 2) % 3)->info();
@@ -238,9 +252,7 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
     mesh.boundary.push_back(v);
     v = next[v];
   } while (v >= 0 && v != mesh.cage_vertices[0] && mesh.boundary.size() <= mesh.vertices.size());
-  if (v != mesh.cage_vertices[0])
-    throw Error(ErrorKind::bad_input,
-                "the rest cage nearly touches itself and cannot be meshed; move its points apart");
+  if (v != mesh.cage_vertices[0]) nearly_touches_itself();
   return mesh;
 }
 
@@ -298,7 +310,8 @@ void untangle(Mesh& mesh) {
   }
 }
 
-Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+/// Throws CGAL::Failure_exception when CGAL's invariants break.
+Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
   double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
@@ -328,6 +341,16 @@ Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
   while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
     mesher.step_by_step_refine_mesh();
   return extract(cdt, corners);
+}
+
+Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  // The exception says enough; the default handler prints, too.
+  CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  try {
+    return refined_mesh(polygon, options);
+  } catch (const CGAL::Failure_exception&) {
+    nearly_touches_itself();
+  }
 }
 
 }  // namespace

@@ -131,3 +131,29 @@ TEST_CASE("A polygon that is no cage is refused") {
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}}), Error);
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {20, 20}}), Error);
 }
+
+TEST_CASE("A needle between edges that nearly touch is meshed or refused") {
+  // Found by fuzzing: CGAL's invariants break between such edges.
+  const std::vector<Points> needles = {{{-6130.000000003725, -9778.000000476837},
+                                        {-3337.984375, -64803.984375},
+                                        {-64765.984375, -64765.984375},
+                                        {-64765.984375, -64765.99998474121},
+                                        {-64765.99999999907, -14590.000000003725},
+                                        {-1.999755859375, -1.999755859375}},
+                                       {{-64765.99999999907, 47630.000000003725},
+                                        {-64765.984375, -64765.984375},
+                                        {-64765.984375, -64733.984375},
+                                        {-52992.00001525879, -52944.00001525879},
+                                        {-52944.00001525879, -52944.00001525879},
+                                        {17200.015625, -64953.984375}}};
+  for (const Points& polygon : needles) {
+    std::optional<Mesh> mesh;
+    try {
+      mesh = domain_mesh(polygon, {120});
+    } catch (const Error& error) {
+      CHECK_THAT(error.what(), Catch::Contains("touches itself"));
+    }
+    if (mesh)
+      for (const Triangle& t : mesh->triangles) CHECK(triangle_area(*mesh, t) > 0);
+  }
+}

@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     for (const Triangle& t : mesh.triangles) {
       const double twice = cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
                                  mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-      check(twice >= 0, "triangles are counter-clockwise");
+      check(twice > 0, "triangles are counter-clockwise");
       area += 0.5 * twice;
     }
     const double exact = std::abs(signed_area(polygon)),
