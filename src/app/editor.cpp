@@ -11,6 +11,7 @@
 #include "app/hints.h"
 #include "app/keys_window.h"
 #include "app/palette.h"
+#include "app/panel_focus.h"
 #include "app/panels.h"
 #include "app/state_file.h"
 #include "app/surface_pane.h"
@@ -84,7 +85,7 @@ class Editor {
       window_.set_style(preferences_.ui_scale, preferences_.theme);
       fit_ = true;
     }
-    window_.begin_frame();
+    window_.begin_frame(navigates());
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
     take_events();
@@ -119,6 +120,9 @@ class Editor {
     parts.settling = fit_;
     parts.pending = window_.has_events();
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
+    parts.in_panel = panel_focus_.held();
+    parts.theme = window_.theme();
+    parts.scale = window_.scale();
     parts.slowest_ms = slowest_ms_;
     parts.distance = surface_pane_.camera().distance;
     state_file_->write(workspace_, parts);
@@ -165,17 +169,37 @@ class Editor {
     if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
       workspace_.preview.reset();
     was_active_ = ImGui::IsAnyItemActive();
-    const bool popup =
-        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    const bool modal = files_.asking() || palette_.open() || keys_.open() || popup;
+    const bool modal = files_.asking() || palette_.open() || keys_.open() || has_popup();
+    panel_focus_.look();
     for (const Shortcut& key : window_.take_keys())
       if (keys_.waits_for_key())
         keys_.take(key);
       else if (!typing && !modal)
-        take_key(key);
-    workspace_.hide_overlays = !typing && is_held("hold.overlays");
-    workspace_.show_original = !typing && is_held("hold.original");
-    window_.stand_in_for_alt(!typing && is_held("hold.alt"));
+        panel_focus_.held() ? take_panel_key(key) : take_key(key);
+    had_popup_ = has_popup();
+    const bool holds = !typing && !panel_focus_.held();
+    workspace_.hide_overlays = holds && is_held("hold.overlays");
+    workspace_.show_original = holds && is_held("hold.original");
+    window_.stand_in_for_alt(holds && is_held("hold.alt"));
+  }
+
+  static bool has_popup() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  }
+
+  /// Whether the keys that go through items belong to a dialog, a menu or a panel. The palette has
+  /// its own.
+  bool navigates() const {
+    if (keys_.waits_for_key() || palette_.open()) return false;
+    return files_.asking() || keys_.open() || panel_focus_.held() || has_popup();
+  }
+
+  /// While a panel has the keys, those that go through it and write into it are not actions'.
+  void take_panel_key(const Shortcut& key) {
+    if (key == Shortcut(Key::escape) && !had_popup_) return panel_focus_.leave();
+    const Action* action = action_for(key, workspace_);
+    const bool other = key.mods.ctrl || key.key >= static_cast<int>(Key::f1);
+    if (action && other) holomorph::run(*action, workspace_);
   }
 
   /// Whether a key is down that does something while it is held.
@@ -237,6 +261,7 @@ class Editor {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
       input.inside = input.pressed = input.double_clicked = false;
     }
+    if (off < 0) input.pressed = input.double_clicked = false;  // before: nothing to take hold of
   }
 
   void navigate(Input& input) {
@@ -246,13 +271,14 @@ class Editor {
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
     if (space && !std::exchange(space_, true))
-      space_pans_ = files_.asking() || palette_.open() || keys_.open();
+      space_pans_ = files_.asking() || palette_.open() || keys_.open() || panel_focus_.held();
     space_pans_ = space_pans_ || panning_;
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
       if (const Action* action = action_for(Key::space, workspace_))
         holomorph::run(*action, workspace_);
     if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
     if (panning_ || input.wheel != 0 || input.pressed) opened_ = false;
+    if (input.pressed) panel_focus_.leave();
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
     input.position = workspace_.viewport.plane_at_px(input.px);
   }
@@ -288,6 +314,9 @@ class Editor {
     if (request == Request::context_menu) ImGui::OpenPopup("context");
     if (request == Request::compare) comparison_.start(workspace_.document.scene());
     if (request == Request::palette) palette_.show();
+    if (request == Request::menu) opens_menu_ = true;
+    if (request == Request::rename_layer) layers_.rename(workspace_.document.scene());
+    if (request == Request::next_panel) panel_focus_.next();
   }
 
   void answer(const PanelAnswer& wanted) {
@@ -308,6 +337,7 @@ class Editor {
   void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.forget();
+    panel_focus_.leave();
     fit_ = opened_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
@@ -331,7 +361,7 @@ class Editor {
   void draw_panels(const Input& input) {
     const double scale = window_.scale();
     const OverlayStyle style{canvas_colors(window_.theme()), scale};
-    answer(draw_menu_bar(workspace_, preferences_));
+    answer(draw_menu_bar(workspace_, preferences_, std::exchange(opens_menu_, false)));
     StatusLine status;
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. F1 shows keys and mouse.";
@@ -343,8 +373,9 @@ class Editor {
                     style);
       draw_toolbar(workspace_, scale);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
-      draw_inspector(workspace_, canvas_.edited().heat_scale(), scale, window_.theme());
+      draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
       if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
+      draw_missing_picture(workspace_, scale);
       if (preferences_.hints && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();
@@ -368,7 +399,7 @@ class Editor {
       draw_marker(workspace_, *workspace_.map().error()->where(), style);
     files_.draw(scale);
     keys_.draw(scale);
-    palette_.draw(workspace_, scale);
+    answer(palette_.draw(workspace_, preferences_, scale));
   }
 
   Preferences preferences_;
@@ -382,15 +413,17 @@ class Editor {
   std::optional<StateFile> state_file_;
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
-       was_active_ = false, restyle_ = false;
+       was_active_ = false, restyle_ = false, had_popup_ = false, opens_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
   SurfacePane surface_pane_;
   TimelinePanel timeline_;
+  LayerPanel layers_;
   Files files_;
   KeysWindow keys_;
   Palette palette_;
+  PanelFocus panel_focus_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/theme.h"
+#include "app/panels.h"
 
 namespace holomorph {
 namespace {
@@ -23,16 +23,22 @@ struct Format {
 };
 
 std::vector<Format> formats(bool plays) {
-  std::vector<Format> all{{"PNG picture", ".png", false}};
+  std::vector<Format> all;
+  for (const PictureFormat& format : picture_formats())
+    all.push_back({format.label, format.extension, false});
   if (plays)
     for (const FilmFormat& format : film_formats())
       all.push_back({format.label, format.extension, true});
   return all;
 }
 
+std::string extension_of(const Path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".jpeg" ? ".jpg" : extension;
+}
+
 bool is_of(const ExportSettings& settings, const Format& format) {
-  return settings.film == format.film &&
-         lower_case(settings.path.extension().string()) == format.extension;
+  return settings.film == format.film && extension_of(settings.path) == format.extension;
 }
 
 }  // namespace
@@ -123,8 +129,15 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   settings_ = settings;
   const Document& document = workspace_.document;
   try {
-    if (settings.film) film_format_of(settings.path);
+    if (settings.film)
+      film_format_of(settings.path);
+    else
+      picture_format_of(settings.path);
     for (const Path& file : files()) check_not_a_source(file, document.sources());
+    for (const size_t i : document.without_picture())
+      if (const Scene& layer = layer_at(document.scene(), i); layer.layer.visible)
+        return Path(layer.image->file).filename().string() +
+               " is missing: find it (menu File), or hide its layer.";
   } catch (const Error& error) {
     return error.what();
   }
@@ -160,7 +173,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     }
     const RasterResult result = picture_of(scene, image, options, pictures);
     if (progress.cancelled()) return;
-    const std::string bytes = encode_png(result.image);
+    const std::string bytes = picture_format_of(settings.path).encode(result.image);
     if (progress.cancelled()) return;
     write_file(settings.path, bytes);
     work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " x " +
@@ -173,6 +186,20 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   });
 }
 
+/// Its extension says the format; one that pictures and films have leaves which of them it is.
+bool ExportDialog::take_path(const Path& path) {
+  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
+  const std::string extension = extension_of(path);
+  const auto is_same = [&](const Format& format) {
+    return format.extension == extension && format.film == settings_.film;
+  };
+  const auto other = std::ranges::find(known, extension, &Format::extension);
+  if (other == known.end()) return false;
+  if (std::ranges::none_of(known, is_same)) settings_.film = other->film;
+  settings_.path = path;
+  return true;
+}
+
 void ExportDialog::accept() {
   Path path = name_;
   if (path.empty()) return;
@@ -182,18 +209,13 @@ void ExportDialog::accept() {
     message_ = path.string() + " is a folder; add a name.";
     return;
   }
-  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
-  const std::string extension = settings_.path.extension().string(),
-                    typed = lower_case(path.extension().string());
-  const auto found = std::ranges::find(known, typed, &Format::extension);
-  const bool same = std::ranges::any_of(known, [&](const Format& format) {
-    return format.extension == typed && format.film == settings_.film;
-  });
-  if (found == known.end())
-    path += extension;
-  else if (!same)
-    settings_.film = found->film;
-  settings_.path = path;
+  if (!path.has_extension()) path += settings_.path.extension();
+  if (!take_path(path)) {
+    message_ = path.extension().string() + " is not written here; choose one of";
+    for (const Format& format : formats(plays(workspace_.document.scene())))
+      if (message_.find(format.extension) == std::string::npos) message_ += " " + format.extension;
+    return;
+  }
   name_ = path.string();
   if (!confirming_) {
     std::vector<Path> there = files();
@@ -235,9 +257,7 @@ void ExportDialog::draw_file(double scale) {
         {FileQuestion::Mode::save, "Export into", "Choose", extensions, Path(name_), false},
         [this](const Path& path, double) {
           name_ = path.string();
-          const std::string kind = lower_case(path.extension().string());
-          if (kind != ".png") settings_.film = true;
-          settings_.path = path;
+          take_path(path);
           confirming_ = files() == std::vector{path};  // then it was asked
           return std::string();
         });
@@ -327,9 +347,7 @@ void ExportDialog::draw(double scale) {
   if (ImGui::Button(confirming_ && !message_.empty() ? "Replace" : "Export", {120 * s, 0}))
     accept();
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {120 * s, 0}) ||
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
-    open_ = false;
+  if (ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed()) open_ = false;
   if (!open_ || chooser_.open()) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }

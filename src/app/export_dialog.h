@@ -11,7 +11,7 @@ namespace holomorph {
 struct ExportSettings {
   enum class Region { all, picture, canvas };
   Path path;          ///< its extension says the format
-  bool film = false;  ///< .png is a picture, or with this a file for each frame
+  bool film = false;  ///< .png and .webp are pictures, or with this films
   double scale = 1;   ///< output pixels per image pixel
   Region region = Region::all;
   std::optional<Background> background;  ///< none: the scene's
@@ -47,6 +47,7 @@ class ExportDialog {
   std::vector<Path> files() const;
   /// Returns what is wrong, or "".
   std::string start(const ExportSettings& settings);
+  bool take_path(const Path& path);
   void accept();
 
   Workspace& workspace_;

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "app/panels.h"
+
 namespace holomorph {
 namespace fs = std::filesystem;
 
@@ -148,7 +150,7 @@ void FileDialog::draw(double scale) {
                                        .y +
                                    ImGui::GetStyle().ItemSpacing.y);
   std::optional<Path> chosen;
-  ImGui::BeginChild("files", {0, -below}, true);
+  begin_part("files", {0, -below}, true);
   for (const Item& item : items_) {
     const std::string name = item.path.filename().string() + (item.folder ? "/" : "");
     if (ImGui::Selectable(
@@ -156,8 +158,8 @@ void FileDialog::draw(double scale) {
             ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
       confirming_ = false;
       if (!item.folder) name_ = item.path.filename().string();
-      if (item.folder && ImGui::IsMouseDoubleClicked(0)) go = item.path;
-      if (!item.folder && ImGui::IsMouseDoubleClicked(0)) chosen = item.path;
+      const bool by_key = !ImGui::IsMouseClicked(0) && !ImGui::IsMouseReleased(0);
+      if (by_key || ImGui::IsMouseDoubleClicked(0)) (item.folder ? go : chosen) = item.path;
     }
   }
   if (items_.empty()) ImGui::TextDisabled("No files of this kind here.");
@@ -185,8 +187,7 @@ void FileDialog::draw(double scale) {
   const bool pressed =
       ImGui::Button(confirming_ ? "Replace" : question_.button.c_str(), {120 * s, 0});
   ImGui::SameLine();
-  const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) ||
-                         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
   if ((entered || pressed) && !name_.empty())
     chosen = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;
   if (go) enter(*go);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/clipboard.h"
+#include "app/panels.h"
 #include "core/error.h"
 #include "edit/keymap.h"
 #include "edit/tool.h"
@@ -100,7 +101,7 @@ std::string Files::add_layer(const Path& path) {
   return jobs_.run(
       "Reading " + path.filename().string(),
       [added, path](Job::Progress&) {
-        *added = is_scene_name(path) ? load_scene(path) : scene_of_image(path);
+        *added = is_scene_name(path) ? load_scene(path, true) : scene_of_image(path);
       },
       [this, added, path] {
         add_layers_of(*added, "Add " + path.stem().string());
@@ -166,6 +167,56 @@ std::string Files::replace_picture(const Path& path) {
           workspace_.say(
               "The new picture has another size; cage, pins and strokes stay where they are.");
       });
+}
+
+void Files::ask_find_picture() {
+  const Document& document = workspace_.document;
+  const Scene& layer = layer_at(document.scene(), document.without_picture().front());
+  dialog_.ask({FileQuestion::Mode::open,
+               "Where is " + Path(layer.image->file).filename().string() + "?",
+               "Take this",
+               kinds_of_file({}),
+               {},
+               false},
+              [this](const Path& path, double) { return find_picture(path); });
+}
+
+/// The others that are missing may have been moved with it.
+std::string Files::find_picture(const Path& path) {
+  const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
+  const auto find = [found, path, scene = workspace_.document.scene(),
+                     missing = workspace_.document.without_picture()](Job::Progress&) {
+    const std::string first = layer_at(scene, missing.front()).image->file;
+    for (const size_t i : missing) {
+      const ImageReference& was = *layer_at(scene, i).image;
+      const bool chosen = was.file == first;
+      const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
+      if (!chosen && !std::filesystem::is_regular_file(file)) continue;
+      ImageReference now = reference_in(file, was.entry);
+      now.extra = was.extra;
+      Picture picture = read_picture(now);
+      (*found)[i] = {described(std::move(now), picture), std::move(picture)};
+    }
+  };
+  return jobs_.run("Reading " + path.filename().string(), find, [this, found] {
+    Document& document = workspace_.document;
+    std::vector<Scene> layers = layers_of(document.scene());
+    bool other = false;
+    for (auto& [i, picture] : *found) {
+      const std::string& before = layers[i].image->sha256;
+      other = other || (!before.empty() && before != picture.second.sha256);
+      layers[i].image = picture.first;
+      document.put_picture(picture.first, std::move(picture.second));
+    }
+    Scene scene =
+        scene_of_layers(std::move(layers), edited_layer(document.scene()), document.scene());
+    if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
+    const size_t still = document.without_picture().size();
+    workspace_.say(std::string(other ? "Found; it is not quite the picture that the scene was made "
+                                       "with."
+                                     : "Found.") +
+                   (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
+  });
 }
 
 Path Files::beside_document(const std::string& name) const {
@@ -403,6 +454,9 @@ void Files::answer(Request request) {
                    false},
                   [this](const Path& path, double) { return replace_picture(path); });
       break;
+    case Request::find_picture:
+      ask_find_picture();
+      break;
     case Request::copy_picture:
       copy_picture();
       break;
@@ -427,6 +481,9 @@ void Files::answer(Request request) {
     case Request::none:
     case Request::help:
     case Request::palette:
+    case Request::rename_layer:
+    case Request::menu:
+    case Request::next_panel:
     case Request::context_menu:
     case Request::compare:
       break;
@@ -464,7 +521,7 @@ void Files::draw_drop_question(double scale) {
     choice("Put it in place of this layer's picture", [&] { complain(replace_picture(path)); });
   choice("Open it instead", [&] { ask_open(path); });
   choice("Cancel", [] {});
-  if (decided || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+  if (decided || escape_pressed()) {
     dropped_.reset();
     ImGui::CloseCurrentPopup();
   }
@@ -486,7 +543,7 @@ void Files::draw_question(double scale) {
     ImGui::CloseCurrentPopup();
   };
   if (ImGui::Button("Save", {width, 0}) ||
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter))) {
+      (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) && !ImGui::IsAnyItemFocused())) {
     close();
     save(false, std::exchange(after_question_, {}));
   }
@@ -496,8 +553,7 @@ void Files::draw_question(double scale) {
     if (const auto then = std::exchange(after_question_, {})) then();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {width, 0}) ||
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+  if (ImGui::Button("Cancel", {width, 0}) || escape_pressed()) {
     close();
     after_question_ = {};
   }

@@ -71,6 +71,8 @@ class Files {
   std::string import_outline(const Path& path);
   std::string add_layer(const Path& path);
   std::string replace_picture(const Path& path);
+  void ask_find_picture();
+  std::string find_picture(const Path& path);
   void draw_drop_question(double scale);
   void add_layers_of(const LoadedScene& added, const std::string& label);
   void copy_picture();

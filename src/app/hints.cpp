@@ -1,7 +1,8 @@
 // What is done is read off the document, so that no step can be forgotten or done twice.
 #include "app/hints.h"
 
-#include <utility>
+#include <algorithm>
+#include <iterator>
 
 #include "app/panels.h"
 
@@ -16,12 +17,17 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
                     (whole_pose_of(scene) != whole_pose_of(at_rest(scene)));
   struct Step {
     bool done;
-    const char *what, *how;
+    const char* what;
+    std::string how;
   };
   const Step steps[] = {
-      {caged, "Put a cage around the picture", "Make from picture, or draw it with P"},
-      {bent, "Bend it", "Drag the cage's points with V; N sets pins to drag"},
-      {bent && kept, "Keep it", "Ctrl+S saves the scene, Ctrl+E exports a picture"}};
+      {caged, "Put a cage around the picture",
+       "Make it from the picture, or draw it with " + key_of("tool.pen")},
+      {bent, "Bend it",
+       "Drag the cage's points with " + key_of("tool.select") + "; " + key_of("tool.pin") +
+           " sets pins to drag"},
+      {bent && kept, "Keep it",
+       key_of("file.save") + " saves the scene, " + key_of("file.export") + " exports a picture"}};
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
   ImGui::SetNextWindowPos(
@@ -30,22 +36,17 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("First steps", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
-  int number = 1;
-  bool next = true;  // the first that is not done says how
-  for (const Step& step : steps) {
-    if (step.done)
-      ImGui::TextDisabled("\uf00c  %s", step.what);
-    else
-      ImGui::Text("%d.  %s", number, step.what);
-    if (!step.done && std::exchange(next, false)) {
-      ImGui::Indent(24 * s);
-      ImGui::TextDisabled("%s", step.how);
-      ImGui::Unindent(24 * s);
-    }
-    ++number;
+  const Step* next = std::ranges::find(steps, false, &Step::done);  // one at a time
+  const bool all = next == std::end(steps);
+  if (!all) {
+    ImGui::Text("%d of %d   %s", static_cast<int>(next - steps) + 1,
+                static_cast<int>(std::size(steps)), next->what);
+    ImGui::TextDisabled("%s", next->how.c_str());
+  } else {
+    const std::string done = "\uf00c  That is all. " + key_of("help.keys") + " shows all keys, " +
+                             key_of("help.palette") + " finds everything.";
+    ImGui::TextWrapped("%s", done.c_str());
   }
-  const bool all = next;
-  if (all) ImGui::TextWrapped("F1 shows all keys, Ctrl+Shift+P finds everything.");
   ImGui::PopTextWrapPos();
   const bool closed = ImGui::SmallButton(all ? "Done" : "Do not show this again");
   ImGui::End();

@@ -55,10 +55,7 @@ bool number_slider(const ParameterSpec& spec, double& value) {
 void preset_buttons(Workspace& workspace, const Scene& scene, const Method& method) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
   for (const Preset& preset : method.presets) {
-    Scene after = scene;
-    for (const Preset& other : method.presets)
-      for (const auto& entry : other.parameters) after.parameters.erase(entry.first);
-    for (const auto& [key, value] : preset.parameters) after.parameters[key] = value;
+    const Scene after = with_preset(scene, preset);
     const float width =
         ImGui::CalcTextSize(preset.label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (&preset != &method.presets.front()) {
@@ -333,8 +330,8 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
 
 void history_section(Workspace& workspace) {
   const History& history = workspace.document.history();
-  ImGui::BeginChild("history", {0, std::max(ImGui::GetContentRegionAvail().y,
-                                            7 * ImGui::GetTextLineHeightWithSpacing())});
+  begin_part("history", {0, std::max(ImGui::GetContentRegionAvail().y,
+                                     7 * ImGui::GetTextLineHeightWithSpacing())});
   // Scrolls to the current step when that has changed, and otherwise leaves the list to the user.
   int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);
   const bool moved =
@@ -358,7 +355,8 @@ void history_section(Workspace& workspace) {
 
 }  // namespace
 
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, Theme theme) {
+void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& heat, double scale,
+                    Theme theme) {
   const PanelSizes sizes = PanelSizes::at(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(
@@ -381,6 +379,8 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, T
     ImGui::PopID();
     ImGui::Spacing();
   };
+  // First, because it alone does not move when others grow.
+  section("Layers", true, [&] { layers.draw(workspace, scale); });
   section("Method", true, [&] {
     method_section(workspace);
     convergence_section(workspace, scale);
@@ -388,7 +388,6 @@ void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, T
   if (workspace.map().has_map())
     section("Folds", true, [&] { injectivity_section(workspace, theme); });
   section("Selection", true, [&] { selection_section(workspace); });
-  section("Layers", true, [&] { layer_section(workspace, scale); });
   section("Cage", false, [&] { cage_section(workspace); });
   section("View", true, [&] { heat_section(workspace, heat); });
   section("History", true, [&] { history_section(workspace); });

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "app/panels.h"
+
 namespace holomorph {
 namespace {
 
@@ -64,8 +66,7 @@ void Jobs::draw(double scale) {
         {corner.x + left, corner.y}, {corner.x + left + width, corner.y + height},
         ImGui::GetColorU32(ImGuiCol_PlotHistogram), ImGui::GetStyle().FrameRounding);
   }
-  const bool cancel = ImGui::Button("Cancel", {120 * s, 0}) ||
-                      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  const bool cancel = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
   if (cancel) {
     abandon();
     workspace_.say("Cancelled.");

@@ -5,9 +5,10 @@
 // After imgui.h, which it does not include itself.
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <utility>
 
-#include "app/theme.h"
+#include "app/panels.h"
 
 namespace holomorph {
 namespace {
@@ -21,7 +22,12 @@ void wrapped_cell(const std::string& text) {
 
 void KeysWindow::assign(const std::vector<Shortcut>& keys) {
   say_lost(set_keys(waiting_, keys));
+  stop_waiting();
+}
+
+void KeysWindow::stop_waiting() {
   waiting_.clear();
+  asked_.reset();
 }
 
 void KeysWindow::say_lost(const std::vector<std::string>& labels) {
@@ -30,8 +36,13 @@ void KeysWindow::say_lost(const std::vector<std::string>& labels) {
 }
 
 void KeysWindow::take(const Shortcut& key) {
-  if (key == Shortcut(Key::escape)) return waiting_.clear();
+  if (key == Shortcut(Key::escape)) return stop_waiting();
   if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
+  const Action* owner = owner_of(key);
+  if (owner && owner->id != waiting_ && asked_ != key) {
+    asked_ = key;
+    return;
+  }
   std::vector<Shortcut> keys;
   if (adds_) keys = action_named(waiting_).keys;
   keys.push_back(key);
@@ -82,14 +93,14 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::PushID(action.id.c_str());
   ImGui::TableNextColumn();
   const bool waits = waiting_ == action.id;
-  const std::string keys = waits ? "Press a key..." : keys_text(action);
+  const std::string keys = !waits   ? keys_text(action)
+                           : asked_ ? text_of(*asked_) + " again to take it from another"
+                                    : "Press a key; Del none, Esc cancels";
   if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
-    waiting_ = waits ? "" : action.id;
+    stop_waiting();
+    if (!waits) waiting_ = action.id;
     adds_ = ImGui::GetIO().KeyShift;
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s", waits ? "Del: no key. Esc: as it was"
-                                  : "Click and press another key; Shift-click adds one");
   if (has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
     if (ImGui::Button("\uf0e2", {30 * s, 0})) say_lost(reset_keys(action.id));
@@ -97,8 +108,36 @@ void KeysWindow::draw_row(const Action& action, float s) {
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  wrapped_text(action.label);
+  wrapped_text(waits && asked_ ? "'" + owner_of(*asked_)->label + "' has this key" : action.label);
   ImGui::PopID();
+}
+
+void KeysWindow::draw_keys(float s) {
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  for (const Action& action : actions())
+    if (has_words(action.label + " " + keys_text(action), search_)) draw_row(action, s);
+  ImGui::EndTable();
+}
+
+void KeysWindow::draw_gestures(float s) {
+  const auto is_found = [&](const Gesture& gesture) {
+    return has_words(std::string(gesture.what) + " " + gesture.does, search_);
+  };
+  if (std::ranges::none_of(gestures(), is_found)) return;
+  ImGui::Dummy({0, 8 * s});
+  ImGui::TextDisabled("Mouse");
+  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  for (const Gesture& gesture : gestures()) {
+    if (!is_found(gesture)) continue;
+    ImGui::TableNextRow();
+    wrapped_cell(gesture.what);
+    wrapped_cell(gesture.does);
+  }
+  ImGui::EndTable();
 }
 
 void KeysWindow::draw(double scale) {
@@ -127,23 +166,15 @@ void KeysWindow::draw(double scale) {
     changed_();
   }
   ImGui::EndDisabled();
-  ImGui::BeginChild("rows");
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
-    for (const Gesture& gesture : gestures()) {
-      if (!has_words(std::string(gesture.what) + " " + gesture.does, search_)) continue;
-      ImGui::TableNextRow();
-      wrapped_cell(gesture.what);
-      wrapped_cell(gesture.does);
-    }
-    for (const Action& action : actions())
-      if (has_words(action.label + " " + keys_text(action), search_)) draw_row(action, s);
-    ImGui::EndTable();
-  }
+  begin_part("rows");
+  ImGui::TextDisabled("Click a key to change it; Shift-click adds one.");
+  draw_keys(s);
+  draw_gestures(s);
   ImGui::EndChild();
-  if (!waits_for_key() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open_ = false;
-  if (!open_) waiting_.clear();
+  const bool escaped = escape_pressed() && !was_waiting_;
+  was_waiting_ = waits_for_key();
+  if (escaped) open_ = false;
+  if (!open_) stop_waiting();
   ImGui::End();
 }
 

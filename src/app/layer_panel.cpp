@@ -26,66 +26,6 @@ bool toggle(const char* id, bool on, const char* on_face, const char* off_face, 
   return pressed;
 }
 
-/// The row's name while it is being typed.
-struct Naming {
-  int id = 0;  ///< the layer's; 0: none
-  std::string text;
-  bool starts = false;
-};
-
-void name_field(Workspace& workspace, Naming& naming, size_t layer) {
-  ImGui::SetNextItemWidth(-1);
-  if (std::exchange(naming.starts, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::InputText("##name", &naming.text, ImGuiInputTextFlags_AutoSelectAll);
-  if (!ImGui::IsItemDeactivated()) return;
-  const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  naming.id = 0;
-  if (cancelled || naming.text.empty()) return;
-  const Scene& scene = workspace.document.scene();
-  LayerState state = layer_at(scene, layer).layer;
-  state.name = naming.text;
-  workspace.commit_layers("Name layer", with_layer_state(scene, layer, state));
-}
-
-void layer_row(Workspace& workspace, Naming& naming, size_t layer, float s) {
-  const Scene& scene = workspace.document.scene();
-  LayerState state = layer_at(scene, layer).layer;
-  ImGui::PushID(state.id);
-  const auto change = [&](const char* label) {
-    workspace.commit_layers(label, with_layer_state(workspace.document.scene(), layer, state));
-  };
-  if (toggle("shown", state.visible, kShown, kHidden,
-             state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
-    state.visible = !state.visible;
-    change(state.visible ? "Show layer" : "Hide layer");
-  }
-  ImGui::SameLine(0, 0);
-  if (toggle("locked", state.locked, kLocked, kUnlocked,
-             state.locked ? "Locked; click unlocks it" : "Click locks it: edits are refused",
-             30 * s)) {
-    state.locked = !state.locked;
-    change(state.locked ? "Lock layer" : "Unlock layer");
-  }
-  ImGui::SameLine(0, 2 * s);
-  if (naming.id == state.id) {
-    name_field(workspace, naming, layer);
-  } else {
-    const std::string title = title_of_layer(workspace.document.scene(), layer);
-    const bool edited = layer == edited_layer(workspace.document.scene());
-    if (ImGui::Selectable((title + "###row").c_str(), edited, ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetTextLineHeight()})) {
-      if (ImGui::IsMouseDoubleClicked(0))
-        naming = {state.id, title, true};
-      else
-        workspace.choose_layer(layer);
-    }
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
-                                     : "Click to edit this layer, double-click to rename it");
-  }
-  ImGui::PopID();
-}
-
 void background_row(Workspace& workspace) {
   static constexpr const char* kIds[] = {"background.transparent", "background.color",
                                          "background.original"};
@@ -115,16 +55,72 @@ void background_row(Workspace& workspace) {
 
 }  // namespace
 
-void layer_section(Workspace& workspace, double scale) {
+void LayerPanel::rename(const Scene& scene) {
+  named_ = scene.layer.id;
+  name_ = title_of_layer(scene, edited_layer(scene));
+  starts_ = true;
+}
+
+void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
+  ImGui::SetNextItemWidth(-1);
+  if (std::exchange(starts_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##name", &name_, ImGuiInputTextFlags_AutoSelectAll);
+  if (!ImGui::IsItemDeactivated()) return;
+  const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  named_ = 0;
+  if (cancelled || name_.empty()) return;
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  state.name = name_;
+  workspace.commit_layers("Name layer", with_layer_state(scene, layer, state));
+}
+
+void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  ImGui::PushID(state.id);
+  const auto change = [&](const char* label) {
+    workspace.commit_layers(label, with_layer_state(workspace.document.scene(), layer, state));
+  };
+  if (toggle("shown", state.visible, kShown, kHidden,
+             state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
+    state.visible = !state.visible;
+    change(state.visible ? "Show layer" : "Hide layer");
+  }
+  ImGui::SameLine(0, 0);
+  if (toggle("locked", state.locked, kLocked, kUnlocked,
+             state.locked ? "Locked; click unlocks it" : "Click locks it: edits are refused",
+             30 * s)) {
+    state.locked = !state.locked;
+    change(state.locked ? "Lock layer" : "Unlock layer");
+  }
+  ImGui::SameLine(0, 2 * s);
+  if (named_ == state.id) {
+    draw_name(workspace, layer);
+  } else {
+    const std::string title = title_of_layer(workspace.document.scene(), layer);
+    const bool edited = layer == edited_layer(workspace.document.scene());
+    if (ImGui::Selectable((title + "###row").c_str(), edited, ImGuiSelectableFlags_AllowDoubleClick,
+                          {0, ImGui::GetTextLineHeight()})) {
+      workspace.choose_layer(layer);
+      if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
+    }
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
+                                     : "Click to edit this layer, double-click to rename it");
+  }
+  ImGui::PopID();
+}
+
+void LayerPanel::draw(Workspace& workspace, double scale) {
   const float s = static_cast<float>(scale);
-  static Naming naming;
   const size_t count = layer_count(workspace.document.scene());
   // As many as fit without pushing everything else away.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
-  ImGui::BeginChild(
-      "rows", {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
+  begin_part("rows",
+             {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
   for (size_t i = layer_count(workspace.document.scene()); i-- > 0;)
-    if (i < layer_count(workspace.document.scene())) layer_row(workspace, naming, i, s);
+    if (i < layer_count(workspace.document.scene())) draw_row(workspace, i, s);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {

@@ -1,11 +1,23 @@
-// The layers as a list, the top one first, and the background under them.
+// The inspector's list of layers, and what is behind them.
 #pragma once
 
 #include "edit/workspace.h"
 
 namespace holomorph {
 
-/// Draws into the current window: choosing, showing, locking, naming, ordering.
-void layer_section(Workspace& workspace, double scale);
+class LayerPanel {
+ public:
+  /// The edited layer's name is typed from now on.
+  void rename(const Scene& scene);
+  void draw(Workspace& workspace, double scale);
+
+ private:
+  void draw_row(Workspace& workspace, size_t layer, float s);
+  void draw_name(Workspace& workspace, size_t layer);
+
+  int named_ = 0;  ///< the layer whose name is typed; 0: none
+  std::string name_;
+  bool starts_ = false;
+};
 
 }  // namespace holomorph

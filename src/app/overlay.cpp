@@ -94,7 +94,7 @@ void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
 }
 
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
-              bool shows_depth, const OverlayStyle& style) {
+              const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = (hovered ? 8.5f : 7.0f) * s;
   list.AddCircleFilled(at, r, style.colors.outline);
   list.AddCircleFilled(at, r - 1.5f * s,
@@ -102,7 +102,7 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
                        : hovered ? style.colors.hover
                                  : style.colors.pin);
   list.AddCircleFilled(at, 2.4f * s, selected ? style.colors.pin : IM_COL32(60, 40, 0, 255));
-  if (shows_depth) {
+  if (pin.depth != 0) {
     const std::string text = (pin.depth > 0 ? "+" : "") + std::to_string(pin.depth);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()),
                  corner(at.x + (selected ? 4.2f : 1) * r, at.y + 0.4f * r);
@@ -310,8 +310,7 @@ void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle
   }
 }
 
-}  // namespace
-
+/// The line between before and after, on top of what lies there.
 void draw_split(const Workspace& workspace, const OverlayStyle& style) {
   if (!workspace.split) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -336,12 +335,9 @@ void draw_split(const Workspace& workspace, const OverlayStyle& style) {
   }
 }
 
-void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
-                  const OverlayStyle& style) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  draw_split(workspace, style);
+void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+                    const OverlayStyle& style) {
   const Scene& scene = workspace.scene();
-  if (workspace.hide_overlays || workspace.show_original || !scene.layer.visible) return;
   const Posture posture = workspace.posture;
   draw_onion(list, workspace, style);
   if (workspace.show_cage && gesture.line.empty()) {
@@ -392,8 +388,6 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }
     if (by_angles && scene.has_cage()) draw_corners(list, workspace, gesture, style);
-    const bool shows_depth =
-        std::ranges::any_of(scene.pins, [](const Pin& pin) { return pin.depth != 0; });
     for (const Handle& handle : handles_of(scene, posture)) {
       if (handle.kind == Handle::Kind::stroke) {
         draw_stroke(list, workspace, handle, gesture.hover == handle, style);
@@ -410,7 +404,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
         continue;
       }
       if (handle.kind == Handle::Kind::pin)
-        draw_pin(list, at, scene.pins[handle.index], selected, hovered, shows_depth, style);
+        draw_pin(list, at, scene.pins[handle.index], selected, hovered, style);
       else
         draw_cage_handle(list, at, handle.control == 0, selected, hovered, color, style);
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
@@ -421,6 +415,24 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   if (gesture.shows_dabs) draw_stiffness(list, workspace, gesture, style);
   if (workspace.show_cage) draw_influence(list, workspace, gesture, style);
   draw_gesture(list, workspace, gesture, style);
+}
+
+}  // namespace
+
+void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
+                  const OverlayStyle& style) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (!workspace.hide_overlays && !workspace.show_original && workspace.scene().layer.visible) {
+    // What is posed belongs to the half that is: after, not before.
+    const Viewport& view = workspace.viewport;
+    const double from = view.left + workspace.split.value_or(0) * view.width;
+    list.PushClipRect(
+        {static_cast<float>(from), static_cast<float>(view.top)},
+        {static_cast<float>(view.left + view.width), static_cast<float>(view.top + view.height)});
+    draw_structure(list, workspace, gesture, style);
+    list.PopClipRect();
+  }
+  draw_split(workspace, style);
 }
 
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style) {

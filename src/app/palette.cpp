@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/panels.h"
 #include "edit/edits.h"
 // After imgui.h, which it does not include itself.
 #include <imgui_stdlib.h>
@@ -14,22 +13,53 @@ namespace {
 
 struct Row {
   std::string label, keys;
-  bool enabled = true;
-  std::function<void(Workspace&)> run;
+  bool enabled = true, checked = false;
+  std::function<void()> run;
 };
 
-std::vector<Row> rows_of(const Workspace& workspace) {
+/// A row that makes another scene of the shown one.
+Row scene_row(Workspace& workspace, const std::string& label, Scene scene) {
+  const bool is = scene == workspace.scene();
+  return {label, "", workspace.scene().has_cage(), is,
+          [&workspace, label, scene = std::move(scene)] { workspace.commit(label, scene); }};
+}
+
+void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
+  const Scene& scene = workspace.scene();
+  for (const Method& method : methods())
+    rows.push_back(scene_row(workspace, "Method: " + method.label,
+                             method.id == scene.method ? scene : with_method(scene, method.id)));
+  const Method& method = method_named(scene.method);
+  for (const Preset& preset : method.presets)
+    rows.push_back(scene_row(workspace, "Preset: " + preset.label, with_preset(scene, preset)));
+  for (const ParameterSpec& spec : method.parameters) {
+    std::vector<std::string> names;
+    if (spec.kind == ParameterSpec::Kind::toggle) names = {"off", "on"};
+    if (spec.kind == ParameterSpec::Kind::choice)
+      for (const auto& option : spec.options) names.push_back(option.label);
+    const double now = parameter(method, scene.parameters, spec.key);
+    for (size_t i = 0; i < names.size(); ++i) {
+      Scene after = scene;
+      if (now != static_cast<double>(i)) after.parameters[spec.key] = static_cast<double>(i);
+      rows.push_back(scene_row(workspace, spec.label + ": " + names[i], std::move(after)));
+    }
+  }
+}
+
+std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAnswer& answer) {
   std::vector<Row> rows;
   for (const Action& action : actions())
     if (action.run)
       rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
-                      action.enabled(workspace),
-                      [id = action.id](Workspace& w) { run(action_named(id), w); }});
-  for (const Method& method : methods())
-    rows.push_back({"Method: " + method.label, "", workspace.scene().has_cage(),
-                    [id = method.id, label = method.label](Workspace& w) {
-                      w.commit("Method: " + label, with_method(w.scene(), id));
-                    }});
+                      action.enabled(workspace), action.checked && action.checked(workspace),
+                      [&, id = action.id] { run(action_named(id), workspace); }});
+  add_method_rows(workspace, rows);
+  for (const Look& look : looks(preferences))
+    rows.push_back(
+        {look.group + ": " + look.label, "", true, look.preferences == preferences, [&, look] {
+           preferences = look.preferences;
+           answer.style_changed = true;
+         }});
   return rows;
 }
 
@@ -41,8 +71,9 @@ void Palette::show() {
   chosen_ = 0;
 }
 
-void Palette::draw(Workspace& workspace, double scale) {
-  if (!open_) return;
+PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double scale) {
+  PanelAnswer answer;
+  if (!open_) return answer;
   const float s = static_cast<float>(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({display.x / 2, 80 * s}, ImGuiCond_Always, {0.5f, 0.0f});
@@ -54,7 +85,7 @@ void Palette::draw(Workspace& workspace, double scale) {
   const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text_,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) chosen_ = 0;
-  std::vector<Row> rows = rows_of(workspace);
+  std::vector<Row> rows = rows_of(workspace, preferences, answer);
   std::erase_if(rows, [&](const Row& row) { return !has_words(row.label, text_); });
   // What can be done now comes first.
   std::stable_partition(rows.begin(), rows.end(), [](const Row& row) { return row.enabled; });
@@ -67,6 +98,10 @@ void Palette::draw(Workspace& workspace, double scale) {
     const Row& row = rows[i];
     const bool chosen = static_cast<int>(i) == chosen_;
     ImGui::BeginDisabled(!row.enabled);
+    ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
+    ImGui::TextUnformatted("\uf00c");  // the sign of what is on, and its room
+    ImGui::PopStyleColor();
+    ImGui::SameLine(24 * s);
     if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;
     ImGui::EndDisabled();
     if (chosen && step != 0) ImGui::SetScrollHereY();
@@ -83,7 +118,8 @@ void Palette::draw(Workspace& workspace, double scale) {
   ImGui::End();
   open_ = !run && !left;
   opening_ = open_ && entered;  // nothing was run: the field goes on taking what is typed
-  if (run) run->run(workspace);
+  if (run) run->run();
+  return answer;
 }
 
 }  // namespace holomorph

@@ -1,7 +1,8 @@
-// The search over everything that can be done (Ctrl+Shift+P): actions and methods.
+// The search over everything that can be done (Ctrl+Shift+P): actions, methods, what the method can
+// be set to, and the looks of the interface.
 #pragma once
 
-#include "edit/actions.h"
+#include "app/panels.h"
 
 namespace holomorph {
 
@@ -9,7 +10,7 @@ class Palette {
  public:
   void show();
   bool open() const { return open_; }
-  void draw(Workspace& workspace, double scale);
+  PanelAnswer draw(Workspace& workspace, Preferences& preferences, double scale);
 
  private:
   std::string text_;

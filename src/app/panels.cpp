@@ -2,6 +2,7 @@
 #include "app/panels.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/report.h"
 
@@ -16,6 +17,29 @@ PanelSizes PanelSizes::at(double scale) {
   return sizes;
 }
 
+std::vector<Look> looks(const Preferences& now) {
+  std::vector<Look> all;
+  for (const auto& [theme, label] :
+       {std::pair(Theme::dark, "Dark"), std::pair(Theme::light, "Light"),
+        std::pair(Theme::contrast, "High contrast")}) {
+    all.push_back({"Theme", label, now});
+    all.back().preferences.theme = theme;
+  }
+  for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
+    const std::string label =
+        scale == 0 ? "As the display" : std::to_string(std::lround(100 * scale)) + " %";
+    all.push_back({"Size of the interface", label, now});
+    all.back().preferences.ui_scale = scale;
+  }
+  return all;
+}
+
+bool escape_pressed() {
+  bool& covered = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("covered"));
+  const bool was = std::exchange(covered, ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
+  return !was && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+}
+
 namespace {
 
 void action_item(const Action& action, Workspace& workspace) {
@@ -23,6 +47,22 @@ void action_item(const Action& action, Workspace& workspace) {
   const bool checked = action.checked && action.checked(workspace);
   if (ImGui::MenuItem(action.label.c_str(), keys.c_str(), checked, action.enabled(workspace)))
     run(action, workspace);
+}
+
+void look_menu(const char* group, Preferences& preferences, PanelAnswer& answer) {
+  if (!ImGui::BeginMenu(group)) return;
+  for (const Look& look : looks(preferences))
+    if (look.group == group &&
+        ImGui::MenuItem(look.label.c_str(), "", look.preferences == preferences)) {
+      preferences = look.preferences;
+      answer.style_changed = true;
+    }
+  ImGui::EndMenu();
+}
+
+void tooltip_of(const char* id) {
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", label_with_keys(action_named(id)).c_str());
 }
 
 void menu_of(const char* name, Workspace& workspace) {
@@ -40,9 +80,10 @@ void points_slider(Workspace& workspace, float width) {
     ImGui::SetTooltip("For the next cage that is made from the picture; an opaque one gets four");
 }
 
-PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, bool opens) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
+  if (opens) ImGui::OpenPopup("File");
   const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   for (const char* name : {"File", "Edit", "Tools", "Cage", "Layer", "Time", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;
@@ -61,16 +102,8 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
     if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {
       ImGui::Separator();
-      if (ImGui::BeginMenu("Theme")) {
-        for (const auto& [theme, label] :
-             {std::pair(Theme::dark, "Dark"), std::pair(Theme::light, "Light"),
-              std::pair(Theme::contrast, "High contrast")})
-          if (ImGui::MenuItem(label, "", preferences.theme == theme)) {
-            preferences.theme = theme;
-            answer.style_changed = true;
-          }
-        ImGui::EndMenu();
-      }
+      look_menu("Theme", preferences, answer);
+      look_menu("Size of the interface", preferences, answer);
       if (ImGui::MenuItem("First steps", "", preferences.hints)) {
         preferences.hints = !preferences.hints;
         answer.preferences_changed = true;
@@ -78,18 +111,6 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences) {
       if (ImGui::MenuItem("The desktop's file dialogs", "", preferences.native_dialogs)) {
         preferences.native_dialogs = !preferences.native_dialogs;
         answer.preferences_changed = true;
-      }
-      if (ImGui::BeginMenu("Size of the interface")) {
-        for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
-          char label[32];
-          std::snprintf(label, sizeof label, scale == 0 ? "As the display" : "%.0f %%",
-                        100 * scale);
-          if (ImGui::MenuItem(label, "", preferences.ui_scale == scale)) {
-            preferences.ui_scale = scale;
-            answer.style_changed = true;
-          }
-        }
-        ImGui::EndMenu();
       }
     }
     ImGui::EndMenu();
@@ -249,7 +270,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
   if (!note.empty()) {
-    ImGui::TextColored(note_color, "%s", note.c_str());
+    const float left = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
+    ImGui::TextColored(note_color, "%s", fitted_text(note, left).c_str());
     ImGui::SameLine();
   }
   const float room = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
@@ -279,6 +301,31 @@ void draw_context_menu(Workspace& workspace) {
   ImGui::EndPopup();
 }
 
+void draw_missing_picture(Workspace& workspace, double scale) {
+  const std::vector<size_t> missing = workspace.document.without_picture();
+  if (missing.empty()) return;
+  const Path file = layer_at(workspace.document.scene(), missing.front()).image->file;
+  const float s = static_cast<float>(scale);
+  const Viewport& view = workspace.viewport;
+  const bool offers_cage = workspace.document.image() && !workspace.scene().has_cage();
+  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
+                           static_cast<float>(view.top + view.height) -
+                               (offers_cage ? 140 : 24) * s},  // above the other
+                          ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::Begin("Missing picture", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Text(
+      "\uf071  %s is missing%s", file.filename().c_str(),
+      missing.size() > 1 ? (", and " + std::to_string(missing.size() - 1) + " more").c_str() : "");
+  ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
+  ImGui::TextDisabled("It was in %s.", file.parent_path().c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
 void draw_cage_offer(Workspace& workspace, double scale) {
   if (!workspace.document.image() || workspace.scene().has_cage()) return;
   const float s = static_cast<float>(scale);
@@ -290,10 +337,17 @@ void draw_cage_offer(Workspace& workspace, double scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("Cage offer", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("This picture needs a cage before it can bend.");
-  if (ImGui::Button("\uf0d0  Make from picture", {190 * s, 0}))
-    run(action_named("cage.from_picture"), workspace);
-  ImGui::SameLine();
-  if (ImGui::Button("\uf040  Draw it (P)", {150 * s, 0})) workspace.tool = ToolId::pen;
+  // Beside each other where there is room.
+  const bool row = view.width > 600 * scale;
+  const auto button = [&](const char* face, const char* id) {
+    if (ImGui::Button(face, {190 * s, 0})) run(action_named(id), workspace);
+    tooltip_of(id);
+    if (row) ImGui::SameLine();
+  };
+  button("\uf0d0  Make from picture", "cage.from_picture");
+  button("\uf040  Draw it", "tool.pen");
+  button("\uf047  Only move and scale", "cage.box");
+  if (row) ImGui::NewLine();
   points_slider(workspace, 190 * s);
   ImGui::SameLine();
   ImGui::Checkbox("curved", &workspace.auto_cage_curved);

@@ -1,6 +1,7 @@
 // The panels around the canvas: each is a function that draws itself and changes the workspace.
 #pragma once
 
+#include "app/layer_panel.h"
 #include "app/samples.h"
 #include "app/theme.h"
 #include "app/window.h"
@@ -15,6 +16,11 @@ inline constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWi
                                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                            ImGuiWindowFlags_NoSavedSettings |
                                            ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// A part of a window that scrolls on its own, into which keys go as into the rest.
+inline bool begin_part(const char* id, ImVec2 size = {0, 0}, bool border = false) {
+  return ImGui::BeginChild(id, size, border, ImGuiWindowFlags_NavFlattened);
+}
 
 /// What a panel can ask of the editor beyond actions.
 struct PanelAnswer {
@@ -33,10 +39,19 @@ struct PanelSizes {
   static PanelSizes at(double scale);
 };
 
-/// One menu per name in the action table. Returns recent files to open and style changes.
-PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences);
+/// What the interface can look like: a theme or a size, and the preferences with it.
+struct Look {
+  std::string group, label;
+  Preferences preferences;
+};
+std::vector<Look> looks(const Preferences& now);
+
+/// One menu per name in the action table; `opens` the first one. Returns recent files to open and
+/// style changes.
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, bool opens);
 void draw_toolbar(Workspace& workspace, double scale);
-void draw_inspector(Workspace& workspace, const HeatScale& heat, double scale, Theme theme);
+void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& heat, double scale,
+                    Theme theme);
 
 /// What the status bar says besides the workspace.
 struct StatusLine {
@@ -55,13 +70,20 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 /// What a right click on the canvas offers.
 void draw_context_menu(Workspace& workspace);
 
+/// Whether Escape is for the dialog that is being drawn: not for a list that it has open. To be
+/// asked once a frame, after its items.
+bool escape_pressed();
+
 /// ImGui's combo, which Escape closes.
 bool begin_combo(const char* label, const char* preview);
 
 /// How many points the next cage from the picture has.
 void points_slider(Workspace& workspace, float width);
 
-/// The two buttons for a picture without a cage.
+/// Says which picture is missing and asks for it.
+void draw_missing_picture(Workspace& workspace, double scale);
+
+/// The ways to a cage for a picture without one.
 void draw_cage_offer(Workspace& workspace, double scale);
 
 }  // namespace holomorph

@@ -7,6 +7,7 @@ namespace holomorph {
 
 void PictureWatch::forget() {
   changing_.clear();
+  absent_.clear();
   if (reading_) reading_->cancel();
 }
 
@@ -15,7 +16,14 @@ void PictureWatch::look() {
     if (reading_->ended()) take();
     return;
   }
-  std::vector<ImageReference> changed = workspace_.document.pictures().changed();
+  const Document& document = workspace_.document;
+  std::vector<ImageReference> changed = document.pictures().changed();
+  for (const size_t i : document.without_picture())  // it may be there again
+    if (const ImageReference& missing = *layer_at(document.scene(), i).image;
+        !std::filesystem::is_regular_file(missing.file))
+      absent_.insert(missing.file);
+    else if (absent_.contains(missing.file))
+      changed.push_back(reference_in(missing.file, missing.entry));
   if (!changed.empty() && changed == changing_)
     start(changed);
   else
@@ -24,8 +32,11 @@ void PictureWatch::look() {
 
 void PictureWatch::start(const std::vector<ImageReference>& changed) {
   for (const ImageReference& reference : changed) {
+    absent_.erase(reference.file);
+    const Picture* known = workspace_.document.pictures().find(reference);
+    if (!known) continue;
     std::error_code ignored;
-    Picture same = *workspace_.document.pictures().find(reference);
+    Picture same = *known;
     same.changed = std::filesystem::last_write_time(reference.file, ignored);
     workspace_.document.put_picture(reference, std::move(same));
   }
@@ -41,9 +52,10 @@ void PictureWatch::take() {
   if (ended->cancelled()) return;  // it was another document's
   bool resized = false;
   for (auto& [reference, picture] : *read_) {
-    const Image& before = *workspace_.document.pictures().find(reference)->image;
-    resized =
-        resized || before.width != picture.image->width || before.height != picture.image->height;
+    if (const Picture* known = workspace_.document.pictures().find(reference)) {
+      const Image &before = *known->image, &now = *picture.image;
+      resized = resized || before.width != now.width || before.height != now.height;
+    }
     workspace_.document.put_picture(reference, std::move(picture));
   }
   if (const auto error = ended->error()) return workspace_.complain(*error);

@@ -1,12 +1,14 @@
 // Pictures that another program changes while they are open.
 #pragma once
 
+#include <set>
+
 #include "edit/workspace.h"
 
 namespace holomorph {
 
-/// Reads them again, beside the window, when their files are left alone; what cannot be read stays
-/// as it was until it changes once more.
+/// Reads them again, beside the window, when their files are left alone, and what was missing when
+/// it is there again; what cannot be read stays as it was until it changes once more.
 class PictureWatch {
  public:
   explicit PictureWatch(Workspace& workspace) : workspace_(workspace) {}
@@ -22,7 +24,8 @@ class PictureWatch {
 
   Workspace& workspace_;
   std::vector<ImageReference>
-      changing_;  ///< when it was looked last: it may still be being written
+      changing_;                  ///< when it was looked last: it may still be being written
+  std::set<std::string> absent_;  ///< the files that were missing
   std::shared_ptr<std::vector<std::pair<ImageReference, Picture>>> read_;
   std::unique_ptr<Job> reading_;
 };

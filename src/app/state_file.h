@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edit/workspace.h"
+#include "scene/preferences.h"
 
 namespace holomorph {
 
@@ -15,7 +16,10 @@ struct PartsState {
   bool settling = false;         ///< the next frame shows another part of the plane
   bool pending = false;          ///< keys and clicks wait for the next frames
   bool asking = false;           ///< a dialog takes the keys
-  bool exporting = false;        ///< a film
+  bool in_panel = false;         ///< a panel does
+  Theme theme = Theme::dark;
+  double scale = 1;        ///< of the interface
+  bool exporting = false;  ///< a film
 };
 
 class StateFile {

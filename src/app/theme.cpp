@@ -168,11 +168,21 @@ void wrapped_text(const std::string& text) {
 
 std::string fitted_text(const std::string& text, float width) {
   std::string fitted = text;
-  while (!fitted.empty() && ImGui::CalcTextSize(fitted.c_str()).x > width) {
+  const auto is_wide = [&] { return ImGui::CalcTextSize(fitted.c_str()).x > width; };
+  while (!fitted.empty() && is_wide()) {
     const size_t end = fitted.find_last_of(",;");
     fitted.resize(end == std::string::npos ? 0 : end);
   }
-  return fitted;
+  if (!fitted.empty() || text.empty()) return fitted;
+  // Not even the first clause: as much of it as fits, whole characters.
+  size_t kept = text.find_first_of(",;");
+  do {
+    kept = std::min(kept, text.size());
+    while (kept > 0 && (static_cast<unsigned char>(text[--kept]) & 0xc0) == 0x80) {
+    }
+    fitted = text.substr(0, kept) + "...";
+  } while (kept > 0 && is_wide());
+  return kept > 0 ? fitted : "";
 }
 
 }  // namespace holomorph

@@ -26,11 +26,15 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const Viewport& view = workspace.viewport;
   const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
-  float y = static_cast<float>(view.top) + 6 * s;
+  // Below the menu, but from the status bar upwards over the welcome page, which begins with its
+  // title.
+  const bool upwards = workspace.document.empty();
+  float y = static_cast<float>(upwards ? view.top + view.height - 6 * style.scale
+                                       : view.top + 6 * style.scale);
   for (size_t i = 0; i < shown_.size(); ++i) {
     const Toast& toast = shown_[i].toast;
     ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2), y}, ImGuiCond_Always,
-                            {0.5f, 0});
+                            {0.5f, upwards ? 1.0f : 0.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {14 * s, 8 * s});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * s);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.5f * s);
@@ -49,7 +53,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
       if (ImGui::SmallButton("Show me")) workspace.viewport.center = *toast.where;
       draw_marker(workspace, *toast.where, style);
     }
-    y += ImGui::GetWindowHeight() + 8 * s;
+    y += (upwards ? -1 : 1) * (ImGui::GetWindowHeight() + 8 * s);
     ImGui::End();
     ImGui::PopStyleColor(2);
     ImGui::PopStyleVar(3);

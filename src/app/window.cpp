@@ -195,15 +195,19 @@ void Window::wake() {
   glfwPostEmptyEvent();
 }
 
-void Window::begin_frame() {
+void Window::begin_frame(bool navigates) {
   if (std::exchange(moved_display_, false)) set_style(wanted_scale_, theme_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   pump_events();
-  // Tab goes from one number field to the next while one is being typed into; else it is an
-  // action's.
-  ImGui::GetIO().KeyMap[ImGuiKey_Tab] = ImGui::GetIO().WantTextInput ? GLFW_KEY_TAB : -1;
-  ImGui::GetIO().KeyAlt = ImGui::GetIO().KeyAlt || alt_;
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags = navigates ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
+  // Tab goes from one field to the next while one is being typed into, too; else it is an action's.
+  const bool tabs = (io.WantTextInput || navigates) && !io.KeyCtrl;
+  io.KeyMap[ImGuiKey_Tab] = tabs ? GLFW_KEY_TAB : -1;
+  // ImGui presses buttons with Space alone.
+  if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
+  io.KeyAlt = io.KeyAlt || alt_;
   ImGui::NewFrame();
 }
 
@@ -237,6 +241,10 @@ void Window::pump_events() {
           std::find(pressed.begin(), pressed.end(), event.code) != pressed.end())
         break;
       if (event.action != GLFW_RELEASE) pressed.push_back(event.code);
+      if (event.code == GLFW_KEY_ENTER || event.code == GLFW_KEY_KP_ENTER)
+        enter_activates_ = event.action == GLFW_PRESS    ? !io.WantTextInput
+                           : event.action == GLFW_REPEAT ? enter_activates_
+                                                         : false;
       if (event.action == GLFW_RELEASE)
         held_.erase(event.code);
       else

@@ -31,7 +31,9 @@ class Window {
   void wake();
   /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at
   /// most one change of the mouse buttons, at the place where it happened, however slow frames are.
-  void begin_frame();
+  /// In a frame that `navigates`, arrows, Tab, Space and Enter go through the items of the dialog
+  /// or panel that has ImGui's focus.
+  void begin_frame(bool navigates);
   void end_frame();
 
   /// Fonts and sizes for a scale (0: the display's) and colours for a theme.
@@ -47,9 +49,9 @@ class Window {
   bool take_close();
   /// Whether a key is held, by what the layout prints on it.
   bool is_down(const Shortcut& key) const;
-  /// Whether Alt counts as held from the next frame on, besides when it is.
   /// Whether events wait for later frames.
   bool has_events() const { return !events_.empty(); }
+  /// Whether Alt counts as held from the next frame on, besides when it is.
   void stand_in_for_alt(bool held) { alt_ = held; }
   bool stands_in_for_alt() const { return alt_; }
   void set_title(const std::string& title);
@@ -76,6 +78,7 @@ class Window {
   double scale_ = 1, wanted_scale_ = 0;
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;
+  bool enter_activates_ = false;  ///< held since it was pressed outside a text field
   std::vector<Shortcut> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;

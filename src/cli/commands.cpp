@@ -195,7 +195,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
     stop_if_interrupted();
     options.time = i / rate;
     files.add([out = numbered(command.out, i), image = maker.picture(options).image] {
-      write_file(out, encode_png(image));
+      write_file(out, picture_format_of(out).encode(image));
       return out;
     });
     if (::isatty(STDERR_FILENO))
@@ -217,6 +217,7 @@ void require_keyframes(const Scene& scene, const Path& path) {
 }  // namespace
 
 void run(const RenderCommand& command) {
+  picture_format_of(command.out);  // said at once if there is none
   const LoadedScene loaded = load(command.scene);
   if (command.time || !command.frames.empty()) require_keyframes(loaded.scene, command.scene);
   if (command.frames.empty()) check_out(command.out, command.scene, loaded);
@@ -227,7 +228,7 @@ void run(const RenderCommand& command) {
   options.time = command.time;
   if (!command.frames.empty()) return render_frames(command, loaded, options);
   const RasterResult result = picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
-  write_file(command.out, encode_png(result.image));
+  write_file(command.out, picture_format_of(command.out).encode(result.image));
   std::fprintf(stderr, "%s: %d x %d pixels, lower left corner at %s\n", command.out.c_str(),
                result.image.width, result.image.height, point_text(result.corner).c_str());
 }

@@ -57,9 +57,9 @@ int run_program(int argc, char** argv) {
   on_run(sub, coordinates, done);
 
   RenderCommand render;
-  sub = app.add_subcommand("render", "Draw the posed scene to a PNG file");
+  sub = app.add_subcommand("render", "Draw the posed scene to a PNG, JPEG or WebP file");
   sub->add_option("SCENE", render.scene)->required();
-  sub->add_option("--out", render.out, "PNG file to write")->required();
+  sub->add_option("--out", render.out, "File to write; its extension says the format")->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
       ->capture_default_str();

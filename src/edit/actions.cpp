@@ -52,4 +52,9 @@ std::string label_with_keys(const Action& action) {
   return action.label + " (" + text_of(action.keys[0]) + ")";
 }
 
+std::string key_of(const std::string& id) {
+  const Action& action = action_named(id);
+  return action.keys.empty() ? "'" + action.label + "'" : text_of(action.keys[0]);
+}
+
 }  // namespace holomorph

@@ -29,5 +29,7 @@ const Action* action_for(const Shortcut& shortcut, const Workspace& workspace);
 void run(const Action& action, Workspace& workspace);
 /// "Undo (Ctrl+Z)".
 std::string label_with_keys(const Action& action);
+/// How a sentence names an action: by its key, or by its label in quotes where it has none.
+std::string key_of(const std::string& id);
 
 }  // namespace holomorph

@@ -2,6 +2,7 @@
 // tension.
 #include <algorithm>
 
+#include "edit/actions.h"
 #include "edit/corner_edits.h"
 #include "edit/tool.h"
 
@@ -77,7 +78,8 @@ class AngleTool final : public Tool {
 
   std::string hint(const Workspace& workspace) const override {
     const Scene& scene = workspace.scene();
-    if (!scene.has_cage()) return "Angles are those of a cage: draw one with P first";
+    if (!scene.has_cage())
+      return "Angles are those of a cage: draw one with " + key_of("tool.pen") + " first";
     if (workspace.posture == Posture::rest) return "Tab shows the pose, where corners turn";
     if (dragging_ && edge_)
       return "Tension " + text_of_number(corner_at(scene, corner_before(scene, *edge_)).tension) +

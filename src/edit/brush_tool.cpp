@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "edit/actions.h"
 #include "edit/tool.h"
 
 namespace holomorph {
@@ -20,7 +21,8 @@ class BrushTool final : public Tool {
     radius_ = workspace.brush_radius;
     if (input.inside && input.pressed) {
       if (!workspace.scene().has_cage())
-        return workspace.say("Stiffness acts inside a cage: draw one with P first.");
+        return workspace.say("Stiffness acts inside a cage: draw one with " + key_of("tool.pen") +
+                             " first.");
       painting_ = true;
       last_.reset();
       dabs_ = workspace.scene().stiffness;

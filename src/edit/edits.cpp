@@ -294,6 +294,13 @@ Scene with_method(Scene scene, const std::string& id) {
   return scene;
 }
 
+Scene with_preset(Scene scene, const Preset& preset) {
+  for (const Preset& other : method_named(scene.method).presets)
+    for (const auto& entry : other.parameters) scene.parameters.erase(entry.first);
+  for (const auto& [key, value] : preset.parameters) scene.parameters[key] = value;
+  return scene;
+}
+
 Scene fold_free(Scene scene) {
   const ParameterSpec& reference = method_named("bounded").parameters[0];
   const auto followed =

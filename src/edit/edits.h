@@ -101,6 +101,8 @@ Scene fold_free(Scene scene);
 
 /// With another method, and the parameters that it had when it was left.
 Scene with_method(Scene scene, const std::string& id);
+/// With a preset of its method, in place of the others.
+Scene with_preset(Scene scene, const Preset& preset);
 
 /// The place on a posture's cage that is nearest to z.
 struct CageHit {

@@ -41,6 +41,8 @@ enum class Key : int {
   end,
   insert,
   f1,  ///< and so on to f12
+  f2,
+  f6 = f1 + 5,
   f10 = f1 + 9,
   f12 = f1 + 11
 };

@@ -78,6 +78,12 @@ bool has_own_keys(const Action& action) {
   return action.keys != own_keys(action.id);
 }
 
+const Action* owner_of(const Shortcut& key) {
+  for (const Action& action : actions())
+    if (std::ranges::find(action.keys, key) != action.keys.end()) return &action;
+  return nullptr;
+}
+
 std::string keys_text(const Action& action) {
   std::string text;
   for (const Shortcut& key : action.keys) {

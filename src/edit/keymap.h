@@ -19,6 +19,8 @@ std::vector<std::string> set_keys(const std::string& id, const std::vector<Short
 /// Gives an action the table's keys again.
 std::vector<std::string> reset_keys(const std::string& id);
 bool has_own_keys(const Action& action);
+/// The action that has a key, whether it can be done now or not; null without one.
+const Action* owner_of(const Shortcut& key);
 
 /// "Ctrl+Shift+Z, Ctrl+Y"; signs that are reached with and without Shift are named once.
 std::string keys_text(const Action& action);

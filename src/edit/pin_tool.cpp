@@ -1,4 +1,5 @@
 // N: a click on the picture sets a pin and goes on dragging it; a click on a pin picks it.
+#include "edit/actions.h"
 #include "edit/tool.h"
 
 namespace holomorph {
@@ -72,7 +73,8 @@ class PinTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return "Pins act inside a cage: draw one with P first";
+    if (!workspace.scene().has_cage())
+      return "Pins act inside a cage: draw one with " + key_of("tool.pen") + " first";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"

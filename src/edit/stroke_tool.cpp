@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/polyline.h"
+#include "edit/actions.h"
 #include "edit/freehand.h"
 #include "edit/tool.h"
 
@@ -60,7 +61,8 @@ class StrokeTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return "Strokes act inside a cage: draw one with P first";
+    if (!workspace.scene().has_cage())
+      return "Strokes act inside a cage: draw one with " + key_of("tool.pen") + " first";
     if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";

@@ -10,9 +10,11 @@
 namespace holomorph {
 namespace {
 
-constexpr const char* kLeft =
-    "The pose has no key: it stays the scene's own, and Ctrl+Z leads back. I sets a key, and with "
-    "K every edit does.";
+std::string left_text() {
+  return "The pose has no key: it stays the scene's own, and " + key_of("edit.undo") +
+         " leads back. " + key_of("time.key") + " sets a key, and with " + key_of("time.auto_key") +
+         " every edit does.";
+}
 
 }  // namespace
 
@@ -165,7 +167,7 @@ bool Workspace::knows_pose() const {
 
 void Workspace::go_to_time(double seconds) {
   preview.reset();
-  if (!timeline.shows && seconds != timeline.time && leaves_a_pose()) say(kLeft);
+  if (!timeline.shows && seconds != timeline.time && leaves_a_pose()) say(left_text());
   if (seconds != timeline.time) timed.reset();
   timeline.go_to(seconds);
 }

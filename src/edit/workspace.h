@@ -31,11 +31,15 @@ enum class Request {
   export_film,
   add_layer,
   replace_picture,
+  rename_layer,
+  find_picture,
   copy_picture,
   paste_picture,
   quit,
   help,
   palette,
+  menu,
+  next_panel,
   context_menu,
   compare
 };

@@ -85,16 +85,18 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
 
 /// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
 /// it may be.
-std::string load_picture(Scene& layer, Pictures& pictures, const std::string& pointer,
-                         bool may_be_missing) {
+std::string load_picture(Scene& layer, Pictures& pictures, const Path& scene,
+                         const std::string& pointer, bool may_be_missing) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
+  const Path file = reference.file, moved = beside(scene, file.filename());
+  if (!fs::exists(file) && fs::is_regular_file(moved)) reference.file = moved.string();
   try {
     if (!pictures.find(reference)) pictures.put(reference, read_picture(reference));
   } catch (const Error& error) {
     const std::string what = pointer + "/image/file: " + error.what();
     if (!may_be_missing) throw Error(error.kind(), what);
-    return what + ". Layer > Replace the picture gives it another one.";
+    return what;
   }
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
@@ -114,7 +116,7 @@ LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning = load_picture(layers[i], loaded.pictures, pointer,
+    const std::string warning = load_picture(layers[i], loaded.pictures, path, pointer,
                                              pictures_may_be_missing || layers.size() > 1);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
@@ -174,6 +176,7 @@ LoadedScene scene_of_image(const Path& path) {
     layer.layer.id = static_cast<int>(layers.size()) + 1;
     layer.layer.name = each.name;
     layer.layer.visible = each.visible;
+    if (each.blended) loaded.warning = "The blending modes of this file's layers are not kept.";
     layers.push_back(std::move(layer));
   }
   size_t edited = layers.size() - 1;
@@ -233,7 +236,7 @@ Document::Document(LoadedScene loaded, Path path)
 
 Document Document::open(const Path& path) {
   const std::string kind = lower_case(path.extension().string());
-  if (is_scene_name(path)) return {load_scene(path), fs::absolute(path).lexically_normal()};
+  if (is_scene_name(path)) return {load_scene(path, true), fs::absolute(path).lexically_normal()};
   if (kind == ".obj") return {scene_of_surface(path), Path()};
   return {scene_of_image(path), Path()};
 }
@@ -262,6 +265,14 @@ Path Document::first_picture() const {
   for (size_t i = 0; i < layer_count(scene()); ++i)
     if (const auto& image = layer_at(scene(), i).image) return image->file;
   return {};
+}
+
+std::vector<size_t> Document::without_picture() const {
+  std::vector<size_t> layers;
+  for (size_t i = 0; i < layer_count(scene()); ++i)
+    if (const Scene& layer = layer_at(scene(), i); layer.image && !pictures_.of(layer))
+      layers.push_back(i);
+  return layers;
 }
 
 Sources Document::sources() const {

@@ -18,9 +18,9 @@ struct LoadedScene {
 
   const Image* image() const { return pictures.of(scene); }  ///< the edited layer's
 };
-/// Reads a scene file and the pictures that it names, relative to the file's folder. A picture of
-/// several layers that cannot be read is a warning, and the only one is, if it may be missing.
-/// Throws Error.
+/// Reads a scene file and the pictures that it names, relative to the file's folder; one that is
+/// not where it was is looked for beside the scene. A picture of several layers that cannot be read
+/// is a warning, and the only one is, if it may be missing. Throws Error.
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing = false);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
@@ -72,6 +72,8 @@ class Document {
   /// The lowest layer's picture that has one: what the whole is called after.
   Path first_picture() const;
   Sources sources() const;
+  /// The layers that name a picture that could not be read, from the bottom to the top.
+  std::vector<size_t> without_picture() const;
   const std::string& warning() const { return warning_; }
   std::string title() const;
   bool modified() const { return scene() != saved_; }

@@ -5,6 +5,7 @@
 #include <stb_image.h>
 #include <stb_image_write.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
@@ -89,16 +90,60 @@ Image decode_image(const std::string& bytes, const std::string& name) {
   return upright(std::move(image), orientation_of(bytes));
 }
 
+namespace {
+
+void append_to(void* bytes, void* data, int size) {
+  static_cast<std::string*>(bytes)->append(static_cast<const char*>(data),
+                                           static_cast<size_t>(size));
+}
+
+}  // namespace
+
 std::string encode_png(const Image& image) {
   std::string bytes;
-  const auto append = [](void* out, void* data, int size) {
-    static_cast<std::string*>(out)->append(static_cast<const char*>(data),
-                                           static_cast<size_t>(size));
-  };
-  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.pixels.data(),
+  if (!stbi_write_png_to_func(append_to, &bytes, image.width, image.height, 4, image.pixels.data(),
                               4 * image.width))
     throw Error(ErrorKind::failed, "the picture could not be encoded as PNG");
   return bytes;
+}
+
+namespace {
+
+std::string encode_jpeg(const Image& image) {
+  constexpr int kQuality = 92;
+  std::vector<std::uint8_t> opaque;
+  opaque.reserve(image.pixels.size() / 4 * 3);
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    const int alpha = image.pixels[i + 3];
+    for (size_t k = 0; k < 3; ++k)
+      opaque.push_back(static_cast<std::uint8_t>(
+          (image.pixels[i + k] * alpha + 255 * (255 - alpha) + 127) / 255));
+  }
+  std::string bytes;
+  if (!stbi_write_jpg_to_func(append_to, &bytes, image.width, image.height, 3, opaque.data(),
+                              kQuality))
+    throw Error(ErrorKind::failed, "the picture could not be encoded as JPEG");
+  return bytes;
+}
+
+}  // namespace
+
+const std::vector<PictureFormat>& picture_formats() {
+  static const std::vector<PictureFormat> all{{"PNG picture", ".png", encode_png},
+                                              {"JPEG picture", ".jpg", encode_jpeg},
+                                              {"WebP picture", ".webp", encode_webp}};
+  return all;
+}
+
+const PictureFormat& picture_format_of(const Path& file) {
+  std::string extension = lower_case(file.extension().string());
+  if (extension.empty()) extension = ".png";
+  if (extension == ".jpeg") extension = ".jpg";
+  const auto found = std::ranges::find(picture_formats(), extension, &PictureFormat::extension);
+  if (found == picture_formats().end())
+    throw Error(ErrorKind::bad_input,
+                file.string() + ": pictures are written as .png, .jpg or .webp");
+  return *found;
 }
 
 bool has_transparency(const Image& image) {

@@ -40,6 +40,16 @@ const std::vector<std::string>& picture_extensions();
 /// The bytes of a PNG file.
 std::string encode_png(const Image& image);
 
+/// A kind of file that pictures are written to.
+struct PictureFormat {
+  std::string label, extension;
+  std::string (*encode)(const Image& image);
+};
+/// PNG; JPEG, which has no transparency and is white there; WebP without loss.
+const std::vector<PictureFormat>& picture_formats();
+/// By a file's extension, which is PNG's where there is none. Throws Error{bad_input} for others.
+const PictureFormat& picture_format_of(const Path& file);
+
 /// Whether any pixel's alpha is below 255.
 bool has_transparency(const Image& image);
 

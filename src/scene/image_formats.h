@@ -1,4 +1,4 @@
-// Decoders beside the one for everyday formats; each is its library behind a function.
+// Formats beside the everyday ones; each is its library behind a function.
 #pragma once
 
 #include "scene/image.h"
@@ -10,6 +10,9 @@ bool is_tiff(const std::string& bytes);
 /// Still pictures. Throw Error{bad_input}.
 Image decode_webp(const std::string& bytes, const std::string& name);
 Image decode_tiff(const std::string& bytes, const std::string& name);
+
+/// Without loss. Throws Error{failed}.
+std::string encode_webp(const Image& image);
 
 /// OpenRaster: the picture of all layers together, as the file has it. Throws Error{bad_input}.
 bool is_ora(const std::string& bytes);

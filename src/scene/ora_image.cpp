@@ -83,6 +83,8 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.layer.name = node.attribute("name").as_string();
     here.layer.visible = inherited.layer.visible &&
                          std::string(node.attribute("visibility").as_string()) != "hidden";
+    const std::string mode = node.attribute("composite-op").as_string("svg:src-over");
+    here.layer.blended = inherited.layer.blended || mode != "svg:src-over";
     here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);

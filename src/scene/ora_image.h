@@ -9,6 +9,7 @@ namespace holomorph {
 struct OraLayer {
   std::string name, entry;  ///< what the user calls it, and its file in the archive
   bool visible = true;
+  bool blended = false;  ///< by another mode than the usual one
 };
 
 /// The layers from the bottom to the top; groups are taken apart. Throws Error{bad_input}.

@@ -1,5 +1,9 @@
 // WebP by libwebp.
 #include <webp/decode.h>
+#include <webp/encode.h>
+
+#include <algorithm>
+#include <memory>
 
 #include "core/error.h"
 #include "scene/image_formats.h"
@@ -24,6 +28,17 @@ Image decode_webp(const std::string& bytes, const std::string& name) {
                           4 * image.width))
     throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
   return image;
+}
+
+std::string encode_webp(const Image& image) {
+  if (std::max(image.width, image.height) > WEBP_MAX_DIMENSION)
+    throw Error(ErrorKind::failed, "WebP pictures have at most 16383 pixels a side; take PNG");
+  std::uint8_t* data = nullptr;
+  const size_t size = WebPEncodeLosslessRGBA(image.pixels.data(), image.width, image.height,
+                                             4 * image.width, &data);
+  const std::unique_ptr<std::uint8_t, void (*)(void*)> owner(data, WebPFree);
+  if (size == 0) throw Error(ErrorKind::failed, "the picture could not be encoded as WebP");
+  return {reinterpret_cast<const char*>(data), size};
 }
 
 }  // namespace holomorph

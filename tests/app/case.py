@@ -67,6 +67,19 @@ class WindowCase(unittest.TestCase):
                 return time.sleep(0.8)
         self.fail(f"no dialog comes at {key}")
 
+    def type_into_inspector(self, editor, number, text):
+        """Types into one of the inspector's number fields, the first one is 1."""
+        editor.key("F6")
+        editor.wait(lambda s: s["in_panel"], "a panel with the keys")
+        for _ in range(number):
+            editor.key("Tab")
+        editor.key("ctrl+a")
+        editor.type(text)
+        editor.key("Return")
+        time.sleep(0.3)
+        editor.key("Escape")
+        editor.wait(lambda s: not s["in_panel"], "the canvas with the keys")
+
     def by_palette(self, editor, words):
         """Runs an action by its name."""
         self.ask(editor, "ctrl+shift+p")

@@ -727,28 +727,11 @@ class WindowTest(WindowCase):
             x, y = load(scene)["cage"]["pose"][0][0]
             editor.click(x, y)
             editor.wait(lambda s: s["selected"] == 1, "a selected point")
-            time.sleep(0.3)
-            picture = self.screenshot(editor, "inspector")
-            # The selection's fields are the second section's; Ctrl-click on one types into it.
-            field = self.field_after(picture, "x")
-            editor.xdotool("keydown", "ctrl", "mousemove", *field, "click", 1, "keyup", "ctrl")
-            editor.key("ctrl+a")
-            editor.type("321.5")
-            editor.key("Return")
+            self.type_into_inspector(editor, 1, "321.5")  # method `cage` has no numbers before x
             editor.wait(lambda s: s["step"] == 1 and s["modified"], "the typed place")
             path = os.path.join(self.work, "typed.json")
             self.save_as(editor, path)
             self.assertEqual(load(path)["cage"]["pose"][0][0], [321.5, y])
-
-    def field_after(self, picture, _label):
-        """The middle of the first number field below the selection's heading: the inspector's only wide dark
-        boxes in its left half; the first section of method `cage` has a combo alone."""
-        column = picture[:, 1060]
-        panel = numpy.median(column[100:700], axis=0)
-        boxes = numpy.flatnonzero(numpy.abs(column - panel).max(axis=1) > 4)
-        starts = [y for y in boxes if y - 1 not in boxes and 100 < y < 700]
-        tall = [y for y in starts if all(y + k in boxes for k in range(18))]
-        return 1060, int(tall[0]) + 12
 
     def test_unsaved_changes_are_asked_about(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")

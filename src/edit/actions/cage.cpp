@@ -33,6 +33,19 @@ void make_cage(Workspace& w) {
       });
 }
 
+/// A cage that leaves the picture its shape: its box moves, scales and turns it.
+void make_box(Workspace& w) {
+  const Image& image = *w.document.image();
+  const double width = image.width, height = image.height;
+  const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
+  if (!w.commit("Box around the picture", with_cage(w.document.scene(), corners), From::document))
+    return;
+  w.posture = Posture::pose;
+  w.tool = ToolId::select;
+  const std::vector<Handle> all = handles_of(w.scene(), w.posture);
+  w.selection = Selection(all.begin(), all.end());
+}
+
 void switch_posture(Workspace& w) {
   w.posture = w.posture == Posture::pose ? Posture::rest : Posture::pose;
   w.prune_selection();
@@ -43,13 +56,20 @@ bool converges(const Workspace& w) {
 }
 
 // Glyphs of Font Awesome 4.
-constexpr const char* kMagic = "\uf0d0";
+constexpr const char *kMagic = "\uf0d0", *kMove = "\uf047";
 
 }  // namespace
 
 std::vector<Action> cage_actions() {
   return {
       {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
+      {"cage.box",
+       "Box around the picture, to move and scale it",
+       kMove,
+       "Cage",
+       {},
+       has_image,
+       make_box},
       {"cage.rest",
        "Show and edit the rest shape",
        "",

@@ -5,7 +5,8 @@ namespace holomorph {
 namespace {
 
 // Glyphs of Font Awesome 4.
-constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5";
+constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
+                     *kSearch = "\uf002";
 
 }  // namespace
 
@@ -21,6 +22,13 @@ std::vector<Action> file_actions() {
        {{'S', kCtrlShift}},
        has_content,
        ask<Request::save_as>},
+      {"file.find_picture",
+       "Find a missing picture...",
+       kSearch,
+       "File",
+       {},
+       [](const Workspace& w) { return !w.document.without_picture().empty(); },
+       ask<Request::find_picture>},
       {"file.export",
        "Export...",
        kExport,

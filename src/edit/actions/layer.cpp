@@ -79,6 +79,13 @@ std::vector<Action> layer_actions() {
        [](Workspace& w) {
          w.commit_layers("Duplicate layer", with_layer_doubled(w.document.scene()));
        }},
+      {"layer.rename",
+       "Rename layer",
+       "",
+       "Layer",
+       {Key::f2},
+       has_content,
+       ask<Request::rename_layer>},
       {"layer.delete",
        "Delete layer",
        kTrash,
