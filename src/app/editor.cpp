@@ -48,8 +48,7 @@ class Editor {
     workspace_.maps.on_ready([this] { window_.wake(); });
     workspace_.beside = [this](const std::string& title, Job::Work work,
                                std::function<void()> then) {
-      const std::string problem = files_.jobs().run(title, std::move(work), std::move(then));
-      if (!problem.empty()) workspace_.complain(Error(ErrorKind::failed, problem));
+      workspace_.complain(files_.jobs().run(title, std::move(work), std::move(then)));
     };
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);

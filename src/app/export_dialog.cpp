@@ -81,8 +81,7 @@ void ExportDialog::again(const Path& folder) {
   const int last = last_frame_of(workspace_.document.scene());
   once_more.last = last_all_ ? last : std::min(once_more.last, last);
   once_more.first = std::min(once_more.first, once_more.last);
-  if (const std::string problem = start(once_more); !problem.empty())
-    workspace_.complain(Error(ErrorKind::failed, problem));
+  workspace_.complain(start(once_more));
 }
 
 /// The part of the plane that is exported; none where it follows from the maps.
@@ -201,6 +200,7 @@ bool ExportDialog::take_path(const Path& path) {
 }
 
 void ExportDialog::accept() {
+  opening_ = true;  // unless it is closed: the name is typed again
   Path path = name_;
   if (path.empty()) return;
   if (path.is_relative()) path = settings_.path.parent_path() / path;
@@ -221,7 +221,7 @@ void ExportDialog::accept() {
     std::vector<Path> there = files();
     std::erase_if(there, [](const Path& file) { return !std::filesystem::exists(file); });
     if (!there.empty()) {
-      confirming_ = opening_ = true;
+      confirming_ = true;
       message_ = there[0].filename().string() +
                  (there.size() == 1 ? " exists already. Enter or Replace puts this in its place."
                                     : " and " + std::to_string(there.size() - 1) +

@@ -182,7 +182,7 @@ void FileDialog::draw(double scale) {
     ImGui::TextWrapped("%s", message_.c_str());
   else
     ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
-                                  ? "Double-click opens."
+                                  ? "Enter or a double click opens."
                                   : "The extension is added when it is missing.");
   const bool pressed =
       ImGui::Button(confirming_ ? "Replace" : question_.button.c_str(), {120 * s, 0});

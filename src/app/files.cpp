@@ -17,17 +17,6 @@
 #include "scene/svg_path.h"
 
 namespace holomorph {
-namespace {
-
-/// These and pictures.
-std::vector<std::string> kinds_of_file(std::vector<std::string> kinds) {
-  const std::vector<std::string>& pictures = picture_extensions();
-  kinds.insert(kinds.end(), pictures.begin(), pictures.end());
-  return kinds;
-}
-
-}  // namespace
-
 Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
              const std::function<void()>& wake)
     : workspace_(workspace),
@@ -36,6 +25,8 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       jobs_(workspace, wake),
       dialog_(wake),
       export_(workspace, jobs_, dialog_),
+      imports_(
+          workspace, jobs_, dialog_, [this](const Path& path) { keep_recent(path); }, replaced_),
       watch_(workspace),
       recoverable_(holomorph::recoverable(autosave_folder())) {}
 
@@ -62,8 +53,7 @@ std::string Files::open(const Path& path) {
       [this, opened, path] {
         adopt(std::move(**opened));
         dialog_.start_in(std::filesystem::absolute(path).parent_path());
-        remember(preferences_, std::filesystem::absolute(path).lexically_normal());
-        keep_preferences();
+        keep_recent(path);
       });
   if (!problem.empty() && !std::filesystem::exists(path) &&
       std::erase(preferences_.recent, path) > 0)
@@ -71,62 +61,26 @@ std::string Files::open(const Path& path) {
   return problem;
 }
 
-void Files::complain(const std::string& problem) {
-  if (!problem.empty()) workspace_.complain(Error(ErrorKind::failed, problem));
-}
-
 void Files::ask_open(const Path& path) {
-  ask_then([this, path] { complain(open(path)); });
+  ask_then([this, path] { workspace_.complain(open(path)); });
 }
 
 void Files::drop(const Path& path) {
   const std::string kind = lower_case(path.extension().string());
   const Document& document = workspace_.document;
   if ((kind == ".obj" || kind == ".svg") && document.scene().has_cage())
-    complain(import_outline(path));
+    workspace_.complain(imports_.outline(path));
   else if (kind == ".svg" && document.image())
-    complain(import_svg(path, false));
+    workspace_.complain(imports_.svg(path, false));
   else if (kind == ".obj" && document.image())
-    complain(path.filename().string() +
-             ": the picture needs a cage before it can go onto a surface. Make one and drop the "
-             "surface again");
+    workspace_.complain(
+        path.filename().string() +
+        ": the picture needs a cage before it can go onto a surface. Make one and drop the "
+        "surface again");
   else if (document.empty() || document.path() == path)
     ask_open(path);
   else
     dropped_ = path;
-}
-
-std::string Files::add_layer(const Path& path) {
-  const auto added = std::make_shared<LoadedScene>();
-  return jobs_.run(
-      "Reading " + path.filename().string(),
-      [added, path](Job::Progress&) {
-        *added = is_scene_name(path) ? load_scene(path, true) : scene_of_image(path);
-      },
-      [this, added, path] {
-        add_layers_of(*added, "Add " + path.stem().string());
-        remember(preferences_, std::filesystem::absolute(path).lexically_normal());
-        keep_preferences();
-      });
-}
-
-void Files::add_layers_of(const LoadedScene& added, const std::string& label) {
-  Document& document = workspace_.document;
-  const bool first = document.empty();
-  for (size_t i = 0; i < layer_count(added.scene); ++i)
-    if (const auto& image = layer_at(added.scene, i).image)
-      if (const Picture* picture = added.pictures.find(*image))
-        document.put_picture(*image, *picture);
-  Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
-  if (!workspace_.commit_layers(label, std::move(scene))) return;
-  if (first)
-    replaced_();
-  else
-    workspace_.say(
-        (layer_count(added.scene) > 1 ? std::to_string(layer_count(added.scene)) + " layers are"
-                                      : "It is a layer") +
-        std::string(" above the one that was edited. ") + keys_text(action_named("layer.above")) +
-        " and " + keys_text(action_named("layer.below")) + " go through them.");
 }
 
 void Files::copy_picture() {
@@ -137,86 +91,8 @@ void Files::copy_picture() {
     if (!progress.cancelled())
       put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
   };
-  complain(jobs_.run("Copying the picture", copy,
-                     [this] { workspace_.say("The picture is on the clipboard."); }));
-}
-
-void Files::paste_picture() {
-  const auto pasted = std::make_shared<LoadedScene>();
-  const auto paste = [pasted](Job::Progress& progress) {
-    *pasted = scene_of_pasted(picture_on_clipboard([&] { return !progress.cancelled(); }));
-  };
-  complain(jobs_.run("Pasting a picture", paste,
-                     [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
-}
-
-std::string Files::replace_picture(const Path& path) {
-  const auto picture = std::make_shared<Picture>();
-  return jobs_.run(
-      "Reading " + path.filename().string(),
-      [picture, path](Job::Progress&) { *picture = read_picture(reference_in(path)); },
-      [this, picture, path] {
-        Scene scene = workspace_.document.scene();
-        const std::optional<ImageReference> before = scene.image;
-        scene.image = described(reference_in(path), *picture);
-        workspace_.document.put_picture(*scene.image, std::move(*picture));
-        if (before) scene.image->extra = before->extra;
-        const ImageReference now = *scene.image;
-        if (!workspace_.commit("Replace picture", std::move(scene), From::document)) return;
-        if (before && (before->width != now.width || before->height != now.height))
-          workspace_.say(
-              "The new picture has another size; cage, pins and strokes stay where they are.");
-      });
-}
-
-void Files::ask_find_picture() {
-  const Document& document = workspace_.document;
-  const Scene& layer = layer_at(document.scene(), document.without_picture().front());
-  dialog_.ask({FileQuestion::Mode::open,
-               "Where is " + Path(layer.image->file).filename().string() + "?",
-               "Take this",
-               kinds_of_file({}),
-               {},
-               false},
-              [this](const Path& path, double) { return find_picture(path); });
-}
-
-/// The others that are missing may have been moved with it.
-std::string Files::find_picture(const Path& path) {
-  const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
-  const auto find = [found, path, scene = workspace_.document.scene(),
-                     missing = workspace_.document.without_picture()](Job::Progress&) {
-    const std::string first = layer_at(scene, missing.front()).image->file;
-    for (const size_t i : missing) {
-      const ImageReference& was = *layer_at(scene, i).image;
-      const bool chosen = was.file == first;
-      const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
-      if (!chosen && !std::filesystem::is_regular_file(file)) continue;
-      ImageReference now = reference_in(file, was.entry);
-      now.extra = was.extra;
-      Picture picture = read_picture(now);
-      (*found)[i] = {described(std::move(now), picture), std::move(picture)};
-    }
-  };
-  return jobs_.run("Reading " + path.filename().string(), find, [this, found] {
-    Document& document = workspace_.document;
-    std::vector<Scene> layers = layers_of(document.scene());
-    bool other = false;
-    for (auto& [i, picture] : *found) {
-      const std::string& before = layers[i].image->sha256;
-      other = other || (!before.empty() && before != picture.second.sha256);
-      layers[i].image = picture.first;
-      document.put_picture(picture.first, std::move(picture.second));
-    }
-    Scene scene =
-        scene_of_layers(std::move(layers), edited_layer(document.scene()), document.scene());
-    if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
-    const size_t still = document.without_picture().size();
-    workspace_.say(std::string(other ? "Found; it is not quite the picture that the scene was made "
-                                       "with."
-                                     : "Found.") +
-                   (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
-  });
+  workspace_.complain(jobs_.run("Copying the picture", copy,
+                                [this] { workspace_.say("The picture is on the clipboard."); }));
 }
 
 Path Files::beside_document(const std::string& name) const {
@@ -227,7 +103,7 @@ Path Files::beside_document(const std::string& name) const {
 void Files::ask_sample(const Path& scene) {
   ask_then([this, scene] {
     const auto opened = std::make_shared<std::optional<Document>>();
-    complain(jobs_.run(
+    workspace_.complain(jobs_.run(
         "Opening " + scene.filename().string(),
         [opened, scene](Job::Progress&) { *opened = Document::copy_of(scene); },
         [this, opened] { adopt(std::move(**opened)); }));
@@ -240,7 +116,7 @@ void Files::ask_recover(const Path& autosave) {
 
 void Files::recover(const Path& autosave) {
   const auto recovered = std::make_shared<std::optional<Document>>();
-  complain(jobs_.run(
+  workspace_.complain(jobs_.run(
       "Recovering",
       [recovered, autosave](Job::Progress&) { *recovered = Document::recover(autosave); },
       [this, recovered, autosave] {
@@ -260,8 +136,7 @@ std::string Files::save_to(const Path& path, const Then& then) {
   try {
     workspace_.document.save(path);
     workspace_.document.remove_autosave(autosave_folder());
-    remember(preferences_, workspace_.document.path());
-    keep_preferences();
+    keep_recent(workspace_.document.path());
     workspace_.say("Saved " + path.filename().string() + ".");
   } catch (const Error& error) {
     return error.what();
@@ -272,7 +147,7 @@ std::string Files::save_to(const Path& path, const Then& then) {
 
 void Files::save(bool as, const Then& then) {
   const Document& document = workspace_.document;
-  if (!as && !document.path().empty()) return complain(save_to(document.path(), then));
+  if (!as && !document.path().empty()) return workspace_.complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.first_picture().empty())
     start = beside_document(document.first_picture().stem().string() + ".json");
@@ -280,53 +155,6 @@ void Files::save(bool as, const Then& then) {
   dialog_.ask(
       {FileQuestion::Mode::save, "Save the scene", "Save", {".json", ".holomorph"}, start, false},
       [this, then](const Path& path, double) { return save_to(path, then); });
-}
-
-void Files::ask_svg(bool pose) {
-  dialog_.ask({FileQuestion::Mode::open,
-               pose ? "Posed cage from an SVG path" : "Cage from an SVG path",
-               "Open",
-               {".svg"},
-               {},
-               false},
-              [this, pose](const Path& path, double) { return import_svg(path, pose); });
-}
-
-std::string Files::import_svg(const Path& path, bool pose) {
-  try {
-    const Image* image = workspace_.document.image();
-    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0,
-                            pose ? PathUse::pose : PathUse::rest);
-    Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
-    if (pose && cage.size() != scene.rest.size())
-      return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
-             std::to_string(scene.rest.size()) + "; they must agree.";
-    if (pose)
-      scene.pose = std::move(cage);
-    else
-      scene = with_cage(std::move(scene), std::move(cage));
-    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
-                           pose ? From::shown : From::document))
-      return "";
-    workspace_.posture = Posture::pose;
-    workspace_.tool = ToolId::select;
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-std::string Files::import_outline(const Path& path) {
-  try {
-    const Image* image = workspace_.document.image();
-    const Scene& scene = workspace_.document.scene();
-    take_outline(workspace_, "Outline from file",
-                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))),
-                 surface_of_file(path, Flattening::lscm));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 void Files::ask_export_svg() {
@@ -382,6 +210,11 @@ void Files::autosave() {
               "Autosave does not work: nothing can be written to " + autosave_folder().string()));
 }
 
+void Files::keep_recent(const Path& path) {
+  remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+  keep_preferences();
+}
+
 void Files::keep_preferences() {
   try {
     save_preferences(preferences_);
@@ -403,7 +236,7 @@ void Files::answer(Request request) {
         dialog_.ask({FileQuestion::Mode::open,
                      "Open a picture or a scene",
                      "Open",
-                     kinds_of_file({".json", ".holomorph", ".obj"}),
+                     and_pictures({".json", ".holomorph", ".obj"}),
                      {},
                      false},
                     [this](const Path& path, double) { return open(path); });
@@ -421,47 +254,8 @@ void Files::answer(Request request) {
     case Request::export_again:
       export_.again(folder());
       break;
-    case Request::import_cage:
-      ask_svg(false);
-      break;
-    case Request::import_pose:
-      ask_svg(true);
-      break;
-    case Request::import_outline:
-      dialog_.ask({FileQuestion::Mode::open,
-                   "Outline from an SVG path, a picture's alpha or an OBJ surface",
-                   "Open",
-                   kinds_of_file({".svg", ".obj"}),
-                   {},
-                   false},
-                  [this](const Path& path, double) { return import_outline(path); });
-      break;
-    case Request::add_layer:
-      dialog_.ask({FileQuestion::Mode::open,
-                   "Add a picture, or the layers of a scene",
-                   "Add",
-                   kinds_of_file({".json", ".holomorph"}),
-                   {},
-                   false},
-                  [this](const Path& path, double) { return add_layer(path); });
-      break;
-    case Request::replace_picture:
-      dialog_.ask({FileQuestion::Mode::open,
-                   "The picture in place of the present one",
-                   "Replace",
-                   kinds_of_file({}),
-                   {},
-                   false},
-                  [this](const Path& path, double) { return replace_picture(path); });
-      break;
-    case Request::find_picture:
-      ask_find_picture();
-      break;
     case Request::copy_picture:
       copy_picture();
-      break;
-    case Request::paste_picture:
-      paste_picture();
       break;
     case Request::export_svg:
       ask_export_svg();
@@ -478,15 +272,8 @@ void Files::answer(Request request) {
         quit_ = true;
       });
       break;
-    case Request::none:
-    case Request::help:
-    case Request::palette:
-    case Request::rename_layer:
-    case Request::menu:
-    case Request::next_panel:
-    case Request::context_menu:
-    case Request::compare:
-      break;
+    default:
+      imports_.answer(request);
   }
 }
 
@@ -516,9 +303,10 @@ void Files::draw_drop_question(double scale) {
     decided = true;
     act();
   };
-  choice("Add it as a layer", [&] { complain(add_layer(path)); });
+  choice("Add it as a layer", [&] { workspace_.complain(imports_.add_layer(path)); });
   if (!is_scene_name(path))
-    choice("Put it in place of this layer's picture", [&] { complain(replace_picture(path)); });
+    choice("Put it in place of this layer's picture",
+           [&] { workspace_.complain(imports_.replace_picture(path)); });
   choice("Open it instead", [&] { ask_open(path); });
   choice("Cancel", [] {});
   if (decided || escape_pressed()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/export_dialog.h"
+#include "app/imports.h"
 #include "app/picture_watch.h"
 #include "scene/preferences.h"
 
@@ -57,26 +58,16 @@ class Files {
  private:
   using Then = std::function<void()>;
   void ask_then(Then then);
+  void keep_recent(const Path& path);
   void adopt(Document document);
   void recover(const Path& autosave);
   std::string save_to(const Path& path, const Then& then);
   void save(bool as, const Then& then = {});
-  /// Shows a problem that no dialog is there to show.
-  void complain(const std::string& problem);
   /// A name in the folder of the document, or where files were chosen last.
   Path beside_document(const std::string& name) const;
   Path folder() const { return beside_document("").parent_path(); }
-  void ask_svg(bool pose);
-  std::string import_svg(const Path& path, bool pose);
-  std::string import_outline(const Path& path);
-  std::string add_layer(const Path& path);
-  std::string replace_picture(const Path& path);
-  void ask_find_picture();
-  std::string find_picture(const Path& path);
   void draw_drop_question(double scale);
-  void add_layers_of(const LoadedScene& added, const std::string& label);
   void copy_picture();
-  void paste_picture();
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
@@ -88,6 +79,7 @@ class Files {
   Jobs jobs_;
   FileChooser dialog_;
   ExportDialog export_;
+  Imports imports_;
   PictureWatch watch_;
   std::vector<Recovery> recoverable_;
   Then after_question_;

@@ -71,8 +71,7 @@ void Jobs::draw(double scale) {
     abandon();
     workspace_.say("Cancelled.");
   } else if (job_->ended()) {
-    if (const std::string problem = finish(); !problem.empty())
-      workspace_.complain(Error(ErrorKind::failed, problem));
+    workspace_.complain(finish());
   }
   if (!job_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

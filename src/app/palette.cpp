@@ -79,7 +79,9 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
   ImGui::SetNextWindowPos({display.x / 2, 80 * s}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowSize(
       {std::min(560 * s, display.x - 40), std::min(400 * s, display.y - 120 * s)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("Find an action", nullptr, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar();
   if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text_,

@@ -28,6 +28,10 @@
 namespace holomorph {
 namespace {
 
+void say_warning(const LoadedScene& loaded) {
+  if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
+}
+
 LoadedScene load(const Path& path) {
   if (!is_scene_name(path) && std::filesystem::is_regular_file(path) &&
       !read_file(path).starts_with("{"))
@@ -35,7 +39,7 @@ LoadedScene load(const Path& path) {
                                           ": this is no scene; make one from a picture with "
                                           "'holomorph new PICTURE --out SCENE'");
   LoadedScene loaded = load_scene(path);
-  if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
+  say_warning(loaded);
   return loaded;
 }
 
@@ -259,6 +263,7 @@ Cage cage_of_file(const Path& path, const Image& picture) {
 
 void run(const NewCommand& command) {
   const LoadedScene loaded = scene_of_image(command.image);
+  say_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
   Scene scene = with_cage(

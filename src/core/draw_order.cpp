@@ -27,7 +27,7 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
   for (const Depth& depth : depths)
     if (const auto at = locate(mesh, mesh.vertices, depth.at))
       for (const int v : mesh.triangles[static_cast<size_t>(at->triangle)])
-        waves.push({way(v, depth.at), v, depth.height});
+        waves.push({way(v, depth.at), v, depth.depth});
   std::vector<bool> reached(n);
   std::vector<int> heights(n, 0);
   while (!waves.empty()) {

@@ -8,7 +8,7 @@ namespace holomorph {
 /// A place on the picture at rest, and how high what is around it lies.
 struct Depth {
   Complex at;
-  int height = 0;
+  int depth = 0;
   bool operator==(const Depth&) const = default;
 };
 

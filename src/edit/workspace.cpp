@@ -308,6 +308,10 @@ void Workspace::complain(const Error& error) {
   toasts.push_back({error.what(), true, error.where()});
 }
 
+void Workspace::complain(const std::string& problem) {
+  if (!problem.empty()) toasts.push_back({problem, true, {}});
+}
+
 void Workspace::prune_selection() {
   std::erase_if(selection, [&](const Handle& handle) { return !exists(scene(), handle, posture); });
 }

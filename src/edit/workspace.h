@@ -181,6 +181,8 @@ struct Workspace {
   void prune_selection();
   void say(const std::string& text);
   void complain(const Error& error);
+  /// The same for a problem in words; "" is none.
+  void complain(const std::string& problem);
 
   /// The rest place under a place of the shown picture; none outside it or before there is a map.
   std::optional<Complex> rest_at(Complex z) const;

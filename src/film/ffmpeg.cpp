@@ -1,6 +1,5 @@
 // Films by the program ffmpeg. It reads raw frames from a socket, so that its end is an error here
 // and no signal, and writes beside the wanted file.
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,14 +8,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <utility>
 
 #include "core/error.h"
 #include "film/film_writer.h"
 #include "raster/compose.h"
-
-extern char** environ;
+#include "scene/process.h"
 
 namespace holomorph {
 namespace {
@@ -53,7 +50,7 @@ class FfmpegWriter final : public FilmWriter {
     start(words);
   }
   ~FfmpegWriter() override {
-    if (child_ > 0) ::kill(child_, SIGKILL);
+    if (child_.pid > 0) ::kill(child_.pid, SIGKILL);
     end();
     std::error_code ignored;
     std::filesystem::remove(part_, ignored);
@@ -64,7 +61,7 @@ class FfmpegWriter final : public FilmWriter {
     if (opaque_) lay_on(flat, {255, 255, 255});
     for (size_t sent = 0; sent < flat.pixels.size();) {
       const ssize_t count =
-          ::send(socket_, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
+          ::send(child_.socket, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) fail();
       sent += static_cast<size_t>(count);
@@ -82,39 +79,22 @@ class FfmpegWriter final : public FilmWriter {
  private:
   void start(const std::vector<std::string>& words) {
     if (!log_) throw Error(ErrorKind::failed, "no temporary file for ffmpeg can be made");
-    int ends[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-      throw Error(ErrorKind::failed, "no connection to ffmpeg can be made");
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(log_.get()), STDERR_FILENO);
-    const int wrong =
-        ::posix_spawnp(&child_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    socket_ = ends[0];
-    if (wrong == 0) return;
-    ::close(socket_);
-    child_ = 0;
-    if (wrong != ENOENT)
+    if (!has_program(words[0]))
       throw Error(ErrorKind::failed,
-                  std::string("ffmpeg cannot be started: ") + std::strerror(wrong));
-    throw Error(ErrorKind::failed,
-                "films of kind " + out_.extension().string() +
-                    " are made by the program ffmpeg, which is not installed here; install it, or "
-                    "choose .webp, .gif, .apng or .png");
+                  "films of kind " + out_.extension().string() +
+                      " are made by the program ffmpeg, which is not installed here; install it, "
+                      "or choose .webp, .gif, .apng or .png");
+    const std::optional<Child> child = start_program(words, ::fileno(log_.get()));
+    if (!child) throw Error(ErrorKind::failed, "ffmpeg cannot be started");
+    child_ = *child;
   }
 
   /// Waits for the end; returns the exit status.
   int end() {
-    if (socket_ >= 0) ::close(std::exchange(socket_, -1));
-    if (child_ <= 0) return status_;
+    if (child_.socket >= 0) ::close(std::exchange(child_.socket, -1));
+    if (child_.pid <= 0) return status_;
     int status = 0;
-    ::waitpid(std::exchange(child_, 0), &status, 0);
+    ::waitpid(std::exchange(child_.pid, 0), &status, 0);
     return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
   }
 
@@ -132,8 +112,8 @@ class FfmpegWriter final : public FilmWriter {
   Path out_, part_;
   bool opaque_;
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
-  pid_t child_ = 0;
-  int socket_ = -1, status_ = 0;
+  Child child_;
+  int status_ = 0;
 };
 
 }  // namespace

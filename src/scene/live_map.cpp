@@ -37,7 +37,7 @@ std::vector<Depth> depths_of(const Scene& scene) {
 }
 
 bool differ(const std::vector<Depth>& depths) {
-  return std::ranges::any_of(depths, [&](const Depth& d) { return d.height != depths[0].height; });
+  return std::ranges::any_of(depths, [&](const Depth& d) { return d.depth != depths[0].depth; });
 }
 
 std::shared_ptr<const Mesh> ordered(std::shared_ptr<const Mesh> mesh,

@@ -19,15 +19,8 @@
 extern char** environ;
 
 namespace holomorph {
-namespace {
 
-/// A started program and this end of the socket that is its input and output.
-struct Child {
-  pid_t pid = 0;
-  int socket = -1;
-};
-
-std::optional<Child> started(const std::vector<std::string>& words) {
+std::optional<Child> start_program(const std::vector<std::string>& words, int messages) {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return {};
   std::vector<char*> arguments;
@@ -37,7 +30,10 @@ std::optional<Child> started(const std::vector<std::string>& words) {
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  if (messages >= 0)
+    ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
+  else
+    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   Child child;
   const int wrong =
       ::posix_spawnp(&child.pid, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
@@ -49,8 +45,6 @@ std::optional<Child> started(const std::vector<std::string>& words) {
   return {};
 }
 
-}  // namespace
-
 bool has_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
@@ -61,7 +55,7 @@ bool has_program(const std::string& name) {
 
 std::optional<Finished> run_program(const std::vector<std::string>& words, const std::string& input,
                                     const std::function<bool()>& go_on, size_t limit) {
-  const std::optional<Child> child = started(words);
+  const std::optional<Child> child = start_program(words);
   if (!child) return {};
   Finished finished;
   size_t sent = 0;

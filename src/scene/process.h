@@ -1,4 +1,4 @@
-// Other programs, run to their end.
+// Other programs: started, or run to their end.
 #pragma once
 
 #include <functional>
@@ -15,6 +15,15 @@ struct Finished {
 
 /// Whether a program of this name is on the PATH.
 bool has_program(const std::string& name);
+
+/// A started program, and this end of the socket that is its input and output. Its owner closes the
+/// socket and waits for the program.
+struct Child {
+  int pid = 0, socket = -1;
+};
+/// Starts a program found on the PATH; what it says of errors goes to the descriptor `messages`, or
+/// nowhere. None when it cannot be started.
+std::optional<Child> start_program(const std::vector<std::string>& words, int messages = -1);
 
 /// Runs a program found on the PATH, gives it `input` and waits. None when it cannot be started, or
 /// when `go_on`, which is asked every few hundredths of a second, has said no: then it is ended.

@@ -693,6 +693,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([(layer["name"], layer.get("visible", True), layer["image"]["entry"]) for layer in scene["layers"]],
                          [("ground", True, "data/a.png"), ("sky & sea", True, "data/b.png"), ("hidden", False, "data/c.png")])
         self.assertEqual(scene["layers"][0]["image"]["file"], "art.ora")
+        self.assertNotIn("blending", self.good("new", path, "--out", self.path("plain.json")).stderr)
+        blended = self.open_raster("blended.ora", '<layer name="a" src="data/a.png" composite-op="svg:multiply"/>', {"data/a.png": red})
+        self.assertIn("blending modes", self.good("new", blended, "--out", self.path("blended.json")).stderr)
         self.assertEqual(seen.shape, (40, 60, 4))
         wanted = numpy.zeros((40, 60, 4), int)
         wanted[:, :] = (200, 0, 0, 255)

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "scene/live_map.h"
 #include "scene/scene_json.h"
+#include "support/complaint.h"
 
 using namespace holomorph;
 
@@ -40,13 +41,7 @@ std::string complaint(const std::string& keys) {
   Scene scene = bar();
   std::string text = json_of(scene);
   text.insert(text.rfind('}'), ", \"keyframes\": " + keys);
-  try {
-    scene_from_json(text, "s.json");
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::bad_input);
-    return error.what();
-  }
-  return "nothing";
+  return complaint_of([&] { scene_from_json(text, "s.json"); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "scene/layer_maps.h"
 #include "scene/preferences.h"
 #include "scene/scene_json.h"
+#include "support/complaint.h"
 #include "support/folder.h"
 #include "support/shapes.h"
 
@@ -36,13 +37,7 @@ std::string names(const Scene& scene) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    scene_from_json(text, "s.json");
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::bad_input);
-    return error.what();
-  }
-  return "nothing";
+  return complaint_of([&] { scene_from_json(text, "s.json"); });
 }
 
 }  // namespace
@@ -217,6 +212,59 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   CHECK_FALSE(rest.image());
   CHECK(rest.scene().image->file == (folder.path / "b.png").string());
   CHECK(rest.pictures().of(layer_at(rest.scene(), 0)));
+}
+
+TEST_CASE(
+    "A picture that is missing is looked for beside the scene, and the scene opens without it") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "art");
+  write_file(folder.path / "art" / "a.png", encode_png(Image(8, 6)));
+  Document document = Document::open(folder.path / "art" / "a.png");
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  document.save(folder.path / "s.json");
+  std::filesystem::rename(folder.path / "art" / "a.png", folder.path / "a.png");
+  const Document moved = Document::open(folder.path / "s.json");
+  REQUIRE(moved.image());
+  CHECK(moved.image_path() == folder.path / "a.png");
+  CHECK(moved.without_picture().empty());
+  std::filesystem::remove(folder.path / "a.png");
+  const Document without = Document::open(folder.path / "s.json");
+  CHECK_FALSE(without.image());
+  CHECK(without.without_picture() == std::vector<size_t>{0});
+  CHECK_THAT(without.warning(), Catch::Matchers::Contains("a.png"));
+  CHECK(without.image_path() == folder.path / "art" / "a.png");
+  CHECK(without.scene().image->sha256 == moved.scene().image->sha256);
+  CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window nobody is asked
+}
+
+TEST_CASE("Pictures are written in the formats of their names and read again") {
+  Image image(37, 21);
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c) {
+      const std::uint8_t pixel[4] = {static_cast<std::uint8_t>(7 * c),
+                                     static_cast<std::uint8_t>(12 * r), 90,
+                                     static_cast<std::uint8_t>(c < 20 ? 255 : 0)};
+      std::copy_n(pixel, 4, image.at(c, r));
+    }
+  const auto written = [&](const char* name) {
+    return decode_image(picture_format_of(name).encode(image), name);
+  };
+  CHECK(written("a.png") == image);
+  CHECK(written("a") == image);
+  const Image webp = written("a.WEBP"), jpeg = written("a.jpeg");
+  REQUIRE(webp.width == image.width);
+  REQUIRE(jpeg.height == image.height);
+  CHECK_FALSE(has_transparency(jpeg));
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c) {
+      CHECK(webp.at(c, r)[3] == image.at(c, r)[3]);
+      for (int k = 0; k < 3 && c < 16; ++k) {
+        CHECK(webp.at(c, r)[k] == image.at(c, r)[k]);
+        CHECK(std::abs(jpeg.at(c, r)[k] - image.at(c, r)[k]) < 24);
+      }
+      if (c >= 24) CHECK(std::min({jpeg.at(c, r)[0], jpeg.at(c, r)[1], jpeg.at(c, r)[2]}) > 240);
+    }
+  CHECK_THROWS_AS(picture_format_of("a.bmp"), Error);
 }
 
 TEST_CASE("A pasted picture goes along when the scene is saved, whatever becomes of its file") {

@@ -12,6 +12,7 @@
 #include "scene/export.h"
 #include "scene/live_map.h"
 #include "scene/scene_json.h"
+#include "support/complaint.h"
 #include "support/folder.h"
 #include "support/shapes.h"
 
@@ -37,13 +38,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    scene_from_json(text, "scene.json");
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::bad_input);
-    return error.what();
-  }
-  return "";
+  return complaint_of([&] { scene_from_json(text, "scene.json"); });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "scene/document.h"
 #include "scene/laid_surface.h"
 #include "scene/scene_json.h"
+#include "support/complaint.h"
 
 using namespace holomorph;
 
@@ -84,13 +85,8 @@ TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and li
 }
 
 TEST_CASE("OBJ: what is damaged is refused with its line") {
-  const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      surface_of_obj(text, "s.obj");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [](const std::string& text) {
+    return complaint_of([&] { surface_of_obj(text, "s.obj"); });
   };
   CHECK_THAT(complaint("v 0 0 0\nv 1 x 0\n"),
              Catch::Contains("s.obj: line 2") && Catch::Contains("'x'"));
@@ -224,16 +220,13 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and what it i
   other.surface->file = (folder / "gone.obj").string();
   CHECK_THROWS_WITH(laid_surface_of(other),
                     Catch::Contains("gone.obj") && Catch::Contains("no such file"));
-  const auto complaint = [&](const std::string& surface) -> std::string {
-    try {
+  const auto complaint = [](const std::string& surface) {
+    return complaint_of([&] {
       scene_from_json(R"({"format": "holomorph", "version": 1, "cage": {"rest": []}, )"
                       R"("outline": [[0, 0], [1, 0], [0, 1]], "surface": )" +
                           surface + "}",
                       "s.json");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   CHECK_THAT(complaint("{}"), Catch::Contains("/surface") && Catch::Contains("'file'"));
   CHECK_THAT(complaint(R"({"file": ""})"), Catch::Contains("/surface/file"));

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "scene/svg_path.h"
+#include "support/complaint.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -44,13 +45,8 @@ TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") 
 }
 
 TEST_CASE("SVG files that hold no cage are refused with the reason") {
-  const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      cage_of_svg(text, "p.svg", 0);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [](const std::string& text) {
+    return complaint_of([&] { cage_of_svg(text, "p.svg", 0); });
   };
   using Catch::Contains;
   CHECK_THAT(complaint("hello"), Contains("p.svg"));

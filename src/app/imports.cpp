@@ -1,0 +1,225 @@
+// Whatever takes long is a job; what comes of it is one step of the history.
+#include "app/imports.h"
+
+#include <map>
+#include <utility>
+
+#include "app/clipboard.h"
+#include "core/error.h"
+#include "edit/keymap.h"
+#include "edit/tool.h"
+#include "scene/outline_import.h"
+#include "scene/svg_path.h"
+
+namespace holomorph {
+
+std::vector<std::string> and_pictures(std::vector<std::string> kinds) {
+  const std::vector<std::string>& pictures = picture_extensions();
+  kinds.insert(kinds.end(), pictures.begin(), pictures.end());
+  return kinds;
+}
+
+std::string Imports::add_layer(const Path& path) {
+  const auto added = std::make_shared<LoadedScene>();
+  return jobs_.run(
+      "Reading " + path.filename().string(),
+      [added, path](Job::Progress&) {
+        *added = is_scene_name(path) ? load_scene(path, true) : scene_of_image(path);
+      },
+      [this, added, path] {
+        add_layers_of(*added, "Add " + path.stem().string());
+        remember_(path);
+      });
+}
+
+void Imports::add_layers_of(const LoadedScene& added, const std::string& label) {
+  Document& document = workspace_.document;
+  const bool first = document.empty();
+  for (size_t i = 0; i < layer_count(added.scene); ++i)
+    if (const auto& image = layer_at(added.scene, i).image)
+      if (const Picture* picture = added.pictures.find(*image))
+        document.put_picture(*image, *picture);
+  Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
+  if (!workspace_.commit_layers(label, std::move(scene))) return;
+  if (first)
+    first_();
+  else
+    workspace_.say(
+        (layer_count(added.scene) > 1 ? std::to_string(layer_count(added.scene)) + " layers are"
+                                      : "It is a layer") +
+        std::string(" above the one that was edited. ") + keys_text(action_named("layer.above")) +
+        " and " + keys_text(action_named("layer.below")) + " go through them.");
+}
+
+void Imports::paste_picture() {
+  const auto pasted = std::make_shared<LoadedScene>();
+  const auto paste = [pasted](Job::Progress& progress) {
+    *pasted = scene_of_pasted(picture_on_clipboard([&] { return !progress.cancelled(); }));
+  };
+  workspace_.complain(jobs_.run("Pasting a picture", paste,
+                                [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
+}
+
+std::string Imports::replace_picture(const Path& path) {
+  const auto picture = std::make_shared<Picture>();
+  return jobs_.run(
+      "Reading " + path.filename().string(),
+      [picture, path](Job::Progress&) { *picture = read_picture(reference_in(path)); },
+      [this, picture, path] {
+        Scene scene = workspace_.document.scene();
+        const std::optional<ImageReference> before = scene.image;
+        scene.image = described(reference_in(path), *picture);
+        workspace_.document.put_picture(*scene.image, std::move(*picture));
+        if (before) scene.image->extra = before->extra;
+        const ImageReference now = *scene.image;
+        if (!workspace_.commit("Replace picture", std::move(scene), From::document)) return;
+        if (before && (before->width != now.width || before->height != now.height))
+          workspace_.say(
+              "The new picture has another size; cage, pins and strokes stay where they are.");
+      });
+}
+
+void Imports::ask_find_picture() {
+  const Document& document = workspace_.document;
+  const Scene& layer = layer_at(document.scene(), document.without_picture().front());
+  chooser_.ask({FileQuestion::Mode::open,
+                "Where is " + Path(layer.image->file).filename().string() + "?",
+                "Take this",
+                and_pictures({}),
+                {},
+                false},
+               [this](const Path& path, double) { return find_picture(path); });
+}
+
+/// The others that are missing may have been moved with it.
+std::string Imports::find_picture(const Path& path) {
+  const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
+  const auto find = [found, path, scene = workspace_.document.scene(),
+                     missing = workspace_.document.without_picture()](Job::Progress&) {
+    const std::string first = layer_at(scene, missing.front()).image->file;
+    for (const size_t i : missing) {
+      const ImageReference& was = *layer_at(scene, i).image;
+      const bool chosen = was.file == first;
+      const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
+      if (!chosen && !std::filesystem::is_regular_file(file)) continue;
+      ImageReference now = reference_in(file, was.entry);
+      now.extra = was.extra;
+      Picture picture = read_picture(now);
+      (*found)[i] = {described(std::move(now), picture), std::move(picture)};
+    }
+  };
+  return jobs_.run("Reading " + path.filename().string(), find, [this, found] {
+    Document& document = workspace_.document;
+    std::vector<Scene> layers = layers_of(document.scene());
+    bool other = false;
+    for (auto& [i, picture] : *found) {
+      const std::string& before = layers[i].image->sha256;
+      other = other || (!before.empty() && before != picture.second.sha256);
+      layers[i].image = picture.first;
+      document.put_picture(picture.first, std::move(picture.second));
+    }
+    Scene scene =
+        scene_of_layers(std::move(layers), edited_layer(document.scene()), document.scene());
+    if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
+    const size_t still = document.without_picture().size();
+    workspace_.say(std::string(other ? "Found; it is not quite the picture that the scene was made "
+                                       "with."
+                                     : "Found.") +
+                   (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
+  });
+}
+
+void Imports::ask_svg(bool pose) {
+  chooser_.ask({FileQuestion::Mode::open,
+                pose ? "Posed cage from an SVG path" : "Cage from an SVG path",
+                "Open",
+                {".svg"},
+                {},
+                false},
+               [this, pose](const Path& path, double) { return svg(path, pose); });
+}
+
+std::string Imports::svg(const Path& path, bool pose) {
+  try {
+    const Image* image = workspace_.document.image();
+    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0,
+                            pose ? PathUse::pose : PathUse::rest);
+    Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
+    if (pose && cage.size() != scene.rest.size())
+      return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
+             std::to_string(scene.rest.size()) + "; they must agree.";
+    if (pose)
+      scene.pose = std::move(cage);
+    else
+      scene = with_cage(std::move(scene), std::move(cage));
+    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
+                           pose ? From::shown : From::document))
+      return "";
+    workspace_.posture = Posture::pose;
+    workspace_.tool = ToolId::select;
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string Imports::outline(const Path& path) {
+  try {
+    const Image* image = workspace_.document.image();
+    const Scene& scene = workspace_.document.scene();
+    take_outline(workspace_, "Outline from file",
+                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))),
+                 surface_of_file(path, Flattening::lscm));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void Imports::answer(Request request) {
+  switch (request) {
+    case Request::import_cage:
+      ask_svg(false);
+      break;
+    case Request::import_pose:
+      ask_svg(true);
+      break;
+    case Request::import_outline:
+      chooser_.ask({FileQuestion::Mode::open,
+                    "Outline from an SVG path, a picture's alpha or an OBJ surface",
+                    "Open",
+                    and_pictures({".svg", ".obj"}),
+                    {},
+                    false},
+                   [this](const Path& path, double) { return outline(path); });
+      break;
+    case Request::add_layer:
+      chooser_.ask({FileQuestion::Mode::open,
+                    "Add a picture, or the layers of a scene",
+                    "Add",
+                    and_pictures({".json", ".holomorph"}),
+                    {},
+                    false},
+                   [this](const Path& path, double) { return add_layer(path); });
+      break;
+    case Request::replace_picture:
+      chooser_.ask({FileQuestion::Mode::open,
+                    "The picture in place of the present one",
+                    "Replace",
+                    and_pictures({}),
+                    {},
+                    false},
+                   [this](const Path& path, double) { return replace_picture(path); });
+      break;
+    case Request::find_picture:
+      ask_find_picture();
+      break;
+    case Request::paste_picture:
+      paste_picture();
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace holomorph

@@ -1,0 +1,46 @@
+// What comes into the open document: pictures as layers or in place of others, cages, outlines.
+#pragma once
+
+#include "app/file_chooser.h"
+#include "app/jobs.h"
+
+namespace holomorph {
+
+/// These extensions and those of pictures.
+std::vector<std::string> and_pictures(std::vector<std::string> kinds);
+
+class Imports {
+ public:
+  /// `remember` is called with what became part of the document, `first` when it was empty before.
+  Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser,
+          std::function<void(const Path&)> remember, std::function<void()> first)
+      : workspace_(workspace),
+        jobs_(jobs),
+        chooser_(chooser),
+        remember_(std::move(remember)),
+        first_(std::move(first)) {}
+
+  /// Does what an action asked for, if it brings something in.
+  void answer(Request request);
+
+  /// Each returns what is wrong, or "".
+  std::string add_layer(const Path& path);
+  std::string replace_picture(const Path& path);
+  std::string svg(const Path& path, bool pose);
+  std::string outline(const Path& path);
+
+ private:
+  void add_layers_of(const LoadedScene& added, const std::string& label);
+  void paste_picture();
+  void ask_find_picture();
+  std::string find_picture(const Path& path);
+  void ask_svg(bool pose);
+
+  Workspace& workspace_;
+  Jobs& jobs_;
+  FileChooser& chooser_;
+  std::function<void(const Path&)> remember_;
+  std::function<void()> first_;
+};
+
+}  // namespace holomorph
