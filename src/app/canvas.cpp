@@ -80,7 +80,9 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   Frame frame = frame_at(workspace.viewport, at);
   frame.from = from;
   frame.to = to;
-  if (scene.background.kind == Background::Kind::color) frame.backdrop = color_of(scene.background);
+  // As in exports it is everywhere.
+  if (scene.background.kind == Background::Kind::color)
+    frame.background = frame.backdrop = color_of(scene.background);
   edited_ = &painter_of(scene);
   std::vector<const Scene*> drawn;
   for (size_t i = 0; i < layer_count(scene); ++i) {

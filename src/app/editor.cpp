@@ -170,11 +170,16 @@ class Editor {
     was_active_ = ImGui::IsAnyItemActive();
     const bool modal = files_.asking() || palette_.open() || keys_.open() || has_popup();
     panel_focus_.look();
-    for (const Shortcut& key : window_.take_keys())
+    for (const Shortcut& key : window_.take_keys()) {
       if (keys_.waits_for_key())
         keys_.take(key);
-      else if (!typing && !modal)
-        panel_focus_.held() ? take_panel_key(key) : take_key(key);
+      else if (typing || modal)
+        continue;
+      else if (panel_focus_.held())
+        take_panel_key(key);
+      else
+        take_key(key);
+    }
     had_popup_ = has_popup();
     const bool holds = !typing && !panel_focus_.held();
     workspace_.hide_overlays = holds && is_held("hold.overlays");
@@ -216,17 +221,18 @@ class Editor {
     if ((key.mods == Modifiers{} || escapes) && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
-    if (current_tool().busy() && !only_looks(key)) {  // a gesture is finished first
-      if (key == Shortcut{'Z', {true, false, false}})
-        current_tool().key(Key::backspace, workspace_);
-      return;
-    }
+    if (current_tool().busy()) return take_key_in_gesture(key);
     if (const Action* action = action_for(key, workspace_)) holomorph::run(*action, workspace_);
   }
 
-  /// Keys that only change the view may be pressed during a gesture.
-  static bool only_looks(const Shortcut& key) {
-    return key.key == 'F' || key.key == '+' || key.key == '-' || key.key == '0';
+  /// A gesture is finished first; only the view may change meanwhile, and undo takes a part back.
+  void take_key_in_gesture(const Shortcut& key) {
+    const Action* action = owner_of(key);
+    if (!action) return;
+    if (action->id == "edit.undo") current_tool().key(Key::backspace, workspace_);
+    for (const char* id : {"view.frame", "view.fit", "view.actual", "view.zoom_in", "view.zoom_out",
+                           "view.overlays"})
+      if (action->id == id) holomorph::run(*action, workspace_);
   }
 
   Input take_input() {

@@ -41,6 +41,7 @@ void Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
         document.put_picture(*image, *picture);
   Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
   if (!workspace_.commit_layers(label, std::move(scene))) return;
+  workspace_.complain(added.warning);
   if (first)
     first_();
   else
@@ -96,6 +97,7 @@ std::string Imports::find_picture(const Path& path) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
   const auto find = [found, path, scene = workspace_.document.scene(),
                      missing = workspace_.document.without_picture()](Job::Progress&) {
+    PictureFiles files;
     const std::string first = layer_at(scene, missing.front()).image->file;
     for (const size_t i : missing) {
       const ImageReference& was = *layer_at(scene, i).image;
@@ -104,8 +106,12 @@ std::string Imports::find_picture(const Path& path) {
       if (!chosen && !std::filesystem::is_regular_file(file)) continue;
       ImageReference now = reference_in(file, was.entry);
       now.extra = was.extra;
-      Picture picture = read_picture(now);
-      (*found)[i] = {described(std::move(now), picture), std::move(picture)};
+      try {
+        Picture picture = files.picture(now);
+        (*found)[i] = {described(std::move(now), picture), std::move(picture)};
+      } catch (const Error&) {
+        if (chosen) throw;
+      }
     }
   };
   return jobs_.run("Reading " + path.filename().string(), find, [this, found] {

@@ -42,8 +42,9 @@ void PictureWatch::start(const std::vector<ImageReference>& changed) {
   }
   read_ = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
   reading_ = std::make_unique<Job>("Reading again", [changed, read = read_](Job::Progress&) {
+    PictureFiles files;
     for (const ImageReference& reference : changed)
-      read->push_back({reference, read_picture(reference)});
+      read->push_back({reference, files.picture(reference)});
   });
 }
 

@@ -85,14 +85,14 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
 
 /// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
 /// it may be.
-std::string load_picture(Scene& layer, Pictures& pictures, const Path& scene,
+std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
                          const std::string& pointer, bool may_be_missing) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
   const Path file = reference.file, moved = beside(scene, file.filename());
   if (!fs::exists(file) && fs::is_regular_file(moved)) reference.file = moved.string();
   try {
-    if (!pictures.find(reference)) pictures.put(reference, read_picture(reference));
+    if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
   } catch (const Error& error) {
     const std::string what = pointer + "/image/file: " + error.what();
     if (!may_be_missing) throw Error(error.kind(), what);
@@ -111,12 +111,13 @@ std::string load_picture(Scene& layer, Pictures& pictures, const Path& scene,
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
   LoadedScene loaded;
   const Scene scene = scene_from_json(read_file(path), path.string());
+  PictureFiles files;
   std::vector<Scene> layers = layers_of(scene);
   for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning = load_picture(layers[i], loaded.pictures, path, pointer,
+    const std::string warning = load_picture(layers[i], loaded.pictures, files, path, pointer,
                                              pictures_may_be_missing || layers.size() > 1);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
@@ -149,9 +150,10 @@ void check_not_a_source(const Path& out, const Sources& sources) {
 namespace {
 
 /// One layer with a picture of a file.
-Scene layer_of_picture(const Path& file, const std::string& entry, Pictures& pictures) {
+Scene layer_of_picture(const Path& file, const std::string& entry, PictureFiles& files,
+                       Pictures& pictures) {
   const ImageReference wanted = reference_in(file, entry);
-  Picture picture = read_picture(wanted);
+  Picture picture = files.picture(wanted);
   Scene layer;
   layer.image = described(wanted, picture);
   pictures.put(*layer.image, std::move(picture));
@@ -162,8 +164,9 @@ Scene layer_of_picture(const Path& file, const std::string& entry, Pictures& pic
 
 LoadedScene scene_of_image(const Path& path) {
   LoadedScene loaded;
+  PictureFiles files;
   if (lower_case(path.extension().string()) != ".ora") {
-    loaded.scene = layer_of_picture(path, "", loaded.pictures);
+    loaded.scene = layer_of_picture(path, "", files, loaded.pictures);
     return loaded;
   }
   std::vector<Scene> layers;
@@ -172,7 +175,7 @@ LoadedScene scene_of_image(const Path& path) {
       loaded.warning = "Only the lowest 100 layers were opened.";
       break;
     }
-    Scene layer = layer_of_picture(path, each.entry, loaded.pictures);
+    Scene layer = layer_of_picture(path, each.entry, files, loaded.pictures);
     layer.layer.id = static_cast<int>(layers.size()) + 1;
     layer.layer.name = each.name;
     layer.layer.visible = each.visible;

@@ -6,14 +6,21 @@
 namespace holomorph {
 namespace fs = std::filesystem;
 
-Picture read_picture(const ImageReference& reference) {
-  const Path file = reference.file;
-  std::error_code ignored;
-  const auto changed = fs::last_write_time(file, ignored);  // before: a later change is seen
-  const std::string bytes = read_file(file);
-  Image image = reference.entry.empty() ? decode_image(bytes, file.string())
-                                        : decode_ora_layer(bytes, reference.entry, file.string());
-  return {std::make_shared<const Image>(std::move(image)), sha256_hex(bytes), changed};
+Picture PictureFiles::picture(const ImageReference& reference) {
+  const std::string& name = reference.file;
+  auto found = files_.find(name);
+  if (found == files_.end()) {
+    File file;
+    std::error_code ignored;
+    file.changed = fs::last_write_time(name, ignored);  // before: a later change is seen
+    file.bytes = read_file(name);
+    file.sha256 = sha256_hex(file.bytes);
+    found = files_.emplace(name, std::move(file)).first;
+  }
+  const File& file = found->second;
+  Image image = reference.entry.empty() ? decode_image(file.bytes, name)
+                                        : decode_ora_layer(file.bytes, reference.entry, name);
+  return {std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
 }
 
 ImageReference reference_in(const Path& file, const std::string& entry) {

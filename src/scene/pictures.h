@@ -17,8 +17,23 @@ struct Picture {
   std::filesystem::file_time_type changed = {};  ///< when the file was
 };
 
-/// Reads what a reference names. Throws Error.
-Picture read_picture(const ImageReference& reference);
+/// Reads what references name; a file that several of them share once.
+class PictureFiles {
+ public:
+  /// Throws Error.
+  Picture picture(const ImageReference& reference);
+
+ private:
+  struct File {
+    std::string bytes, sha256;
+    std::filesystem::file_time_type changed = {};
+  };
+  std::map<std::string, File> files_;  ///< by path
+};
+/// One of them alone. Throws Error.
+inline Picture read_picture(const ImageReference& reference) {
+  return PictureFiles().picture(reference);
+}
 /// What names a picture: its file, whose path becomes absolute, and its layer in there if it is
 /// one.
 ImageReference reference_in(const Path& file, const std::string& entry = "");
