@@ -118,6 +118,7 @@ class Editor {
     parts.exporting = files_.busy();
     parts.settling = fit_;
     parts.pending = window_.has_events();
+    parts.taken = window_.taken();
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
     parts.in_panel = panel_focus_.held();
     parts.theme = window_.theme();

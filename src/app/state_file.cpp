@@ -68,6 +68,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"asking", parts.asking},
       {"in_panel", parts.in_panel},
       {"pending", parts.pending},
+      {"taken", parts.taken},
       {"slowest_ms", parts.slowest_ms},
   };
 }

@@ -15,6 +15,7 @@ struct PartsState {
   double slowest_ms = 0;         ///< frame so far, from its first event to its last pixel
   bool settling = false;         ///< the next frame shows another part of the plane
   bool pending = false;          ///< keys and clicks wait for the next frames
+  int taken = 0;                 ///< keys and buttons that have gone down or up
   bool asking = false;           ///< a dialog takes the keys
   bool in_panel = false;         ///< a panel does
   Theme theme = Theme::dark;

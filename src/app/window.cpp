@@ -227,7 +227,12 @@ void Window::pump_events() {
   ImGuiIO& io = ImGui::GetIO();
   bool button_changed = false;
   std::vector<int> pressed;
-  for (; !events_.empty(); events_.pop_front()) {
+  const auto taken = [&] {
+    const Event::Kind kind = events_.front().kind;
+    if (kind == Event::Kind::button || kind == Event::Kind::key) ++taken_;
+    events_.pop_front();
+  };
+  for (; !events_.empty(); taken()) {
     const Event& event = events_.front();
     if (event.kind == Event::Kind::move || event.kind == Event::Kind::button) {
       if (button_changed) break;
@@ -242,7 +247,7 @@ void Window::pump_events() {
         break;
       if (event.action != GLFW_RELEASE) pressed.push_back(event.code);
       if (event.code == GLFW_KEY_ENTER || event.code == GLFW_KEY_KP_ENTER)
-        enter_activates_ = event.action == GLFW_PRESS    ? !io.WantTextInput
+        enter_activates_ = event.action == GLFW_PRESS    ? !ImGui::IsAnyItemActive()
                            : event.action == GLFW_REPEAT ? enter_activates_
                                                          : false;
       if (event.action == GLFW_RELEASE)

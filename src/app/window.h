@@ -51,6 +51,8 @@ class Window {
   bool is_down(const Shortcut& key) const;
   /// Whether events wait for later frames.
   bool has_events() const { return !events_.empty(); }
+  /// How often keys and buttons have gone down or up so far.
+  int taken() const { return taken_; }
   /// Whether Alt counts as held from the next frame on, besides when it is.
   void stand_in_for_alt(bool held) { alt_ = held; }
   bool stands_in_for_alt() const { return alt_; }
@@ -74,7 +76,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   std::atomic<bool> woken_{false};
-  int owed_frames_ = 3;
+  int owed_frames_ = 3, taken_ = 0;
   double scale_ = 1, wanted_scale_ = 0;
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;

@@ -71,9 +71,9 @@ class Editor:
         with open(self.folder + "/log") as file:
             return file.read()
 
-    def xdotool(self, *words):
+    def xdotool(self, *words, pause=0.12):
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
-        time.sleep(0.12)
+        time.sleep(pause)
 
     def pixel(self, x, y):
         """The window position of a plane point; the window fills the display's corner."""
@@ -85,13 +85,14 @@ class Editor:
         self.xdotool("mousemove", *self.pixel(x, y))
 
     def click(self, x, y, button=1):
-        self.move(x, y)
-        self.xdotool("click", button)
+        self.press(*self.pixel(x, y), button)
 
-    def press(self, x, y):
+    def press(self, x, y, button=1):
         """A click at a window position."""
         self.xdotool("mousemove", int(x), int(y))
-        self.xdotool("click", 1)
+        since = self.taken()
+        self.xdotool("click", button, pause=0.02)
+        self.settle(since, 2)
 
     def drag(self, start, end, steps=6):
         self.move(*start)
@@ -155,23 +156,29 @@ class Editor:
         answer("XdndFinished")
         display.close()
 
-    def settle(self):
-        """Waits until the window has taken all events: each change of a key or button is a frame of its own."""
-        end = time.time() + 20
-        while time.time() < end:
+    def taken(self):
+        """How many changes of keys and buttons the window has taken; 0 for a window that has written nothing yet."""
+        return (self.state() or {"taken": 0})["taken"]
+
+    def settle(self, since, changes):
+        """Waits until the window has taken so many changes of keys and buttons since then, and all that are there: each
+        is a frame of its own, and slow machines draw few of them. Another window may have got them: then for a while."""
+        end = time.time() + 5
+        while time.time() < end and self.process.poll() is None:
             state = self.state()
-            if self.process.poll() is not None or (state and not state["pending"]):
+            if state and not state["pending"] and state["taken"] >= since + changes:
                 return
             time.sleep(0.03)
 
     def key(self, name):
-        self.xdotool("key", "--clearmodifiers", name)
-        self.settle()
+        since = self.taken()
+        self.xdotool("key", "--clearmodifiers", name, pause=0.02)
+        self.settle(since, 2 * len(name.split("+")))
 
     def type(self, text):
-        self.xdotool("type", "--delay", "15", text)
-        time.sleep(0.3)
-        self.settle()
+        since = self.taken()
+        self.xdotool("type", "--delay", "15", text, pause=0.02)
+        self.settle(since, 2 * len(text))
 
     def screenshot(self, path):
         subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)
