@@ -169,19 +169,20 @@ class Editor {
     if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
       workspace_.preview.reset();
     was_active_ = ImGui::IsAnyItemActive();
-    const bool modal = files_.asking() || palette_.open() || keys_.open() || has_popup();
+    // A key that closes a menu has closed it by now.
+    const bool popup = has_popup(), had_popup = std::exchange(had_popup_, popup);
+    const bool modal = files_.asking() || palette_.open() || keys_.open() || popup || had_popup;
     panel_focus_.look();
-    for (const Shortcut& key : window_.take_keys()) {
-      if (keys_.waits_for_key())
-        keys_.take(key);
-      else if (typing || modal)
+    for (const auto& [key, repeats] : window_.take_keys()) {
+      if (keys_.waits_for_key()) {
+        if (!repeats) keys_.take(key);  // one that is held was meant once
+      } else if (typing || modal)
         continue;
       else if (panel_focus_.held())
         take_panel_key(key);
       else
         take_key(key);
     }
-    had_popup_ = has_popup();
     const bool holds = !typing && !panel_focus_.held();
     workspace_.hide_overlays = holds && is_held("hold.overlays");
     workspace_.show_original = holds && is_held("hold.original");
@@ -201,10 +202,13 @@ class Editor {
 
   /// While a panel has the keys, those that go through it and write into it are not actions'.
   void take_panel_key(const Shortcut& key) {
-    if (key == Shortcut(Key::escape) && !had_popup_) return panel_focus_.leave();
+    if (key == Shortcut(Key::escape)) return panel_focus_.leave();
     const Action* action = action_for(key, workspace_);
-    const bool other = key.mods.ctrl || key.key >= static_cast<int>(Key::f1);
-    if (action && other) holomorph::run(*action, workspace_);
+    if (!action) return;
+    const bool leads_on = action->id == "view.next_panel" || action->id == "view.menu",
+               named = key.key >= static_cast<int>(Key::tab) && key.key < static_cast<int>(Key::f1),
+               other = key.key >= static_cast<int>(Key::f1) || key.mods.ctrl;
+    if (leads_on || (other && !named)) holomorph::run(*action, workspace_);
   }
 
   /// Whether a key is down that does something while it is held.
@@ -267,7 +271,12 @@ class Editor {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
       input.inside = input.pressed = input.double_clicked = false;
     }
-    if (off < 0) input.pressed = input.double_clicked = false;  // before: nothing to take hold of
+  }
+
+  /// What is before, in the left half, cannot be taken hold of.
+  bool is_before(Complex px) const {
+    const Viewport& view = workspace_.viewport;
+    return workspace_.split && px.real() < view.left + *workspace_.split * view.width;
   }
 
   void navigate(Input& input) {
@@ -277,7 +286,7 @@ class Editor {
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
     if (space && !std::exchange(space_, true))
-      space_pans_ = files_.asking() || palette_.open() || keys_.open() || panel_focus_.held();
+      space_pans_ = navigates() || palette_.open() || keys_.open();
     space_pans_ = space_pans_ || panning_;
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
       if (const Action* action = action_for(Key::space, workspace_))
@@ -301,6 +310,8 @@ class Editor {
         if (tool->id() == last_tool_) tool->cancel(workspace_);
       last_tool_ = workspace_.tool;
     }
+    if (is_before(input.px) && !current_tool().busy())
+      input.pressed = input.double_clicked = input.inside = false;
     if (input.pressed && !workspace_.require_open_layer())
       input.pressed = input.double_clicked = input.inside = false;
     current_tool().input(input, workspace_);
@@ -309,7 +320,7 @@ class Editor {
   void open_context_menu(const Input& input) {
     if (!input.inside || !ImGui::IsMouseClicked(1)) return;
     if (const auto handle = handle_at(workspace_, input.px);
-        handle && !workspace_.selection.contains(*handle))
+        handle && !is_before(input.px) && !workspace_.selection.contains(*handle))
       workspace_.selection = {*handle};
     ImGui::OpenPopup("context");
   }
@@ -344,6 +355,7 @@ class Editor {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.forget();
     panel_focus_.leave();
+    layers_.forget();
     fit_ = opened_ = true;
     if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
   }
@@ -370,7 +382,8 @@ class Editor {
     answer(draw_menu_bar(workspace_, preferences_, std::exchange(opens_menu_, false)));
     StatusLine status;
     if (workspace_.document.empty()) {
-      status.hint = "Open or drop a picture, or click a sample. F1 shows keys and mouse.";
+      status.hint = "Open or drop a picture, or click a sample. " + key_of("help.keys") +
+                    " shows keys and mouse.";
       answer(draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
@@ -380,8 +393,8 @@ class Editor {
       draw_toolbar(workspace_, scale);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
       draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
-      if (!current_tool().busy()) draw_cage_offer(workspace_, scale);
-      draw_missing_picture(workspace_, scale);
+      const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
+      draw_missing_picture(workspace_, scale, offer);
       if (preferences_.hints && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();
@@ -391,6 +404,9 @@ class Editor {
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
       if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
+      if (panel_focus_.held())
+        status.hint = "Keys go to this panel: arrows and Tab choose, Enter presses; " +
+                      key_of("view.next_panel") + " goes on, Esc leads back to the canvas";
       if (workspace_.timeline.recording) status.hint = recording_hint(workspace_.timeline);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())

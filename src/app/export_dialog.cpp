@@ -32,13 +32,16 @@ std::vector<Format> formats(bool plays) {
   return all;
 }
 
-std::string extension_of(const Path& path) {
-  const std::string extension = lower_case(path.extension().string());
-  return extension == ".jpeg" ? ".jpg" : extension;
+/// Whether an extension is that of pictures or films that somebody writes; what else stands behind
+/// a dot belongs to the name.
+bool is_a_format(const std::string& extension) {
+  const auto is = [&](const std::string& each) { return each == extension; };
+  return std::ranges::any_of(picture_extensions(), is) ||
+         std::ranges::any_of(film_formats(), is, &FilmFormat::extension);
 }
 
 bool is_of(const ExportSettings& settings, const Format& format) {
-  return settings.film == format.film && extension_of(settings.path) == format.extension;
+  return settings.film == format.film && format_extension(settings.path) == format.extension;
 }
 
 }  // namespace
@@ -49,6 +52,16 @@ PictureOptions as_shown(const Workspace& workspace) {
   options.automatic_range = workspace.automatic_range;
   options.time = workspace.time_of_layers();
   return options;
+}
+
+std::string lacking(const Workspace& workspace) {
+  const Document& document = workspace.document;
+  if (as_shown(workspace).view != View::image) return "";
+  for (const size_t i : document.without_picture())
+    if (const Scene& layer = layer_at(document.scene(), i); layer.layer.visible)
+      return Path(layer.image->file).filename().string() +
+             " could not be read: find it (menu File), or hide its layer.";
+  return "";
 }
 
 void ExportDialog::ask(bool film, const Path& folder) {
@@ -133,10 +146,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     else
       picture_format_of(settings.path);
     for (const Path& file : files()) check_not_a_source(file, document.sources());
-    for (const size_t i : document.without_picture())
-      if (const Scene& layer = layer_at(document.scene(), i); layer.layer.visible)
-        return Path(layer.image->file).filename().string() +
-               " is missing: find it (menu File), or hide its layer.";
+    if (const std::string problem = lacking(workspace_); !problem.empty()) return problem;
   } catch (const Error& error) {
     return error.what();
   }
@@ -185,10 +195,18 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   });
 }
 
+/// What can be written, the extension of what is chosen now first: it is the one to be added.
+std::vector<std::string> ExportDialog::extensions() const {
+  std::vector<std::string> all{format_extension(settings_.path)};
+  for (const Format& format : formats(plays(workspace_.document.scene())))
+    if (std::ranges::find(all, format.extension) == all.end()) all.push_back(format.extension);
+  return all;
+}
+
 /// Its extension says the format; one that pictures and films have leaves which of them it is.
 bool ExportDialog::take_path(const Path& path) {
   const std::vector<Format> known = formats(plays(workspace_.document.scene()));
-  const std::string extension = extension_of(path);
+  const std::string extension = format_extension(path);
   const auto is_same = [&](const Format& format) {
     return format.extension == extension && format.film == settings_.film;
   };
@@ -209,17 +227,17 @@ void ExportDialog::accept() {
     message_ = path.string() + " is a folder; add a name.";
     return;
   }
-  if (!path.has_extension()) path += settings_.path.extension();
+  const std::vector<std::string> written = extensions();
+  if (!is_a_format(format_extension(path))) path += settings_.path.extension();
   if (!take_path(path)) {
     message_ = path.extension().string() + " is not written here; choose one of";
-    for (const Format& format : formats(plays(workspace_.document.scene())))
-      if (message_.find(format.extension) == std::string::npos) message_ += " " + format.extension;
+    for (const std::string& extension : written) message_ += " " + extension;
     return;
   }
   name_ = path.string();
   if (!confirming_) {
     std::vector<Path> there = files();
-    std::erase_if(there, [](const Path& file) { return !std::filesystem::exists(file); });
+    std::erase_if(there, [&](const Path& file) { return !std::filesystem::exists(file, error); });
     if (!there.empty()) {
       confirming_ = true;
       message_ = there[0].filename().string() +
@@ -245,16 +263,8 @@ void ExportDialog::draw_file(double scale) {
   if (ImGui::IsItemEdited()) confirming_ = false;
   ImGui::SameLine();
   if (ImGui::Button("Choose...", {-1, 0})) {
-    std::vector<std::string> extensions;
-    for (const Format& format : formats(plays(workspace_.document.scene())))
-      if (std::ranges::find(extensions, format.extension) == extensions.end())
-        extensions.push_back(format.extension);
-    // The extension of what is chosen now is the one to be added.
-    std::stable_partition(extensions.begin(), extensions.end(), [&](const std::string& extension) {
-      return extension == settings_.path.extension().string();
-    });
     chooser_.ask(
-        {FileQuestion::Mode::save, "Export into", "Choose", extensions, Path(name_), false},
+        {FileQuestion::Mode::save, "Export into", "Choose", extensions(), Path(name_), false},
         [this](const Path& path, double) {
           name_ = path.string();
           take_path(path);

@@ -21,6 +21,8 @@ struct ExportSettings {
 
 /// What the canvas shows, as a picture: its view, its range and its time.
 PictureOptions as_shown(const Workspace& workspace);
+/// Says which picture such a picture would lack; "" for none.
+std::string lacking(const Workspace& workspace);
 
 class ExportDialog {
  public:
@@ -47,6 +49,7 @@ class ExportDialog {
   std::vector<Path> files() const;
   /// Returns what is wrong, or "".
   std::string start(const ExportSettings& settings);
+  std::vector<std::string> extensions() const;
   bool take_path(const Path& path);
   void accept();
 

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "scene/image.h"
 #include "scene/process.h"
 
 namespace holomorph {
@@ -75,7 +76,7 @@ void FileChooser::take_native() {
   Path path = *chosen_;
   std::error_code error;
   const bool saves = question.mode == FileQuestion::Mode::save;
-  const std::string kind = lower_case(path.extension().string());
+  const std::string kind = format_extension(path);
   const bool known = std::find(question.extensions.begin(), question.extensions.end(), kind) !=
                      question.extensions.end();
   bool asks = false;

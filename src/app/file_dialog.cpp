@@ -41,9 +41,10 @@ void FileDialog::ask(FileQuestion question, Answer answer) {
 }
 
 bool FileDialog::shows(const Path& path) const {
-  const std::string extension = lower_case(path.extension().string());
-  return std::find(question_.extensions.begin(), question_.extensions.end(), extension) !=
-         question_.extensions.end();
+  const auto is = [&](const std::string& extension) {
+    return std::ranges::find(question_.extensions, extension) != question_.extensions.end();
+  };
+  return is(lower_case(path.extension().string())) || is(format_extension(path));
 }
 
 void FileDialog::enter(const Path& folder) {

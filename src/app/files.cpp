@@ -84,6 +84,8 @@ void Files::drop(const Path& path) {
 }
 
 void Files::copy_picture() {
+  if (const std::string problem = lacking(workspace_); !problem.empty())
+    return workspace_.complain(problem);
   const Document& document = workspace_.document;
   const auto copy = [scene = document.scene(), pictures = document.pictures(),
                      options = as_shown(workspace_)](Job::Progress& progress) {
@@ -272,8 +274,24 @@ void Files::answer(Request request) {
         quit_ = true;
       });
       break;
-    default:
+    case Request::import_cage:
+    case Request::import_pose:
+    case Request::import_outline:
+    case Request::add_layer:
+    case Request::replace_picture:
+    case Request::find_picture:
+    case Request::paste_picture:
       imports_.answer(request);
+      break;
+    case Request::none:
+    case Request::help:
+    case Request::palette:
+    case Request::menu:
+    case Request::next_panel:
+    case Request::rename_layer:
+    case Request::context_menu:
+    case Request::compare:
+      break;
   }
 }
 

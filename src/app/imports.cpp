@@ -27,12 +27,11 @@ std::string Imports::add_layer(const Path& path) {
         *added = is_scene_name(path) ? load_scene(path, true) : scene_of_image(path);
       },
       [this, added, path] {
-        add_layers_of(*added, "Add " + path.stem().string());
-        remember_(path);
+        if (add_layers_of(*added, "Add " + path.stem().string())) remember_(path);
       });
 }
 
-void Imports::add_layers_of(const LoadedScene& added, const std::string& label) {
+bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) {
   Document& document = workspace_.document;
   const bool first = document.empty();
   for (size_t i = 0; i < layer_count(added.scene); ++i)
@@ -40,7 +39,7 @@ void Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
       if (const Picture* picture = added.pictures.find(*image))
         document.put_picture(*image, *picture);
   Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
-  if (!workspace_.commit_layers(label, std::move(scene))) return;
+  if (!workspace_.commit_layers(label, std::move(scene))) return false;
   workspace_.complain(added.warning);
   if (first)
     first_();
@@ -50,6 +49,7 @@ void Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
                                       : "It is a layer") +
         std::string(" above the one that was edited. ") + keys_text(action_named("layer.above")) +
         " and " + keys_text(action_named("layer.below")) + " go through them.");
+  return true;
 }
 
 void Imports::paste_picture() {
@@ -82,33 +82,34 @@ std::string Imports::replace_picture(const Path& path) {
 
 void Imports::ask_find_picture() {
   const Document& document = workspace_.document;
-  const Scene& layer = layer_at(document.scene(), document.without_picture().front());
+  const std::vector<size_t> missing = document.without_picture();
+  if (missing.empty()) return;
+  const std::string asked = layer_at(document.scene(), missing.front()).image->file;
   chooser_.ask({FileQuestion::Mode::open,
-                "Where is " + Path(layer.image->file).filename().string() + "?",
+                "Where is " + Path(asked).filename().string() + "?",
                 "Take this",
                 and_pictures({}),
                 {},
                 false},
-               [this](const Path& path, double) { return find_picture(path); });
+               [this, asked](const Path& path, double) { return find_picture(path, asked); });
 }
 
 /// The others that are missing may have been moved with it.
-std::string Imports::find_picture(const Path& path) {
+std::string Imports::find_picture(const Path& path, const std::string& asked) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
-  const auto find = [found, path, scene = workspace_.document.scene(),
+  const auto find = [found, path, asked, scene = workspace_.document.scene(),
                      missing = workspace_.document.without_picture()](Job::Progress&) {
     PictureFiles files;
-    const std::string first = layer_at(scene, missing.front()).image->file;
     for (const size_t i : missing) {
       const ImageReference& was = *layer_at(scene, i).image;
-      const bool chosen = was.file == first;
+      const bool chosen = was.file == asked;
       const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
-      if (!chosen && !std::filesystem::is_regular_file(file)) continue;
       ImageReference now = reference_in(file, was.entry);
       now.extra = was.extra;
       try {
         Picture picture = files.picture(now);
-        (*found)[i] = {described(std::move(now), picture), std::move(picture)};
+        if (chosen || picture.sha256 == was.sha256)
+          (*found)[i] = {described(std::move(now), picture), std::move(picture)};
       } catch (const Error&) {
         if (chosen) throw;
       }
@@ -224,7 +225,7 @@ void Imports::answer(Request request) {
       paste_picture();
       break;
     default:
-      break;
+      break;  // not brought in
   }
 }
 

@@ -11,7 +11,8 @@ std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 
 class Imports {
  public:
-  /// `remember` is called with what became part of the document, `first` when it was empty before.
+  /// `remember` is called with files that became layers, `first` when the document was empty
+  /// before.
   Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser,
           std::function<void(const Path&)> remember, std::function<void()> first)
       : workspace_(workspace),
@@ -30,10 +31,10 @@ class Imports {
   std::string outline(const Path& path);
 
  private:
-  void add_layers_of(const LoadedScene& added, const std::string& label);
+  bool add_layers_of(const LoadedScene& added, const std::string& label);
   void paste_picture();
   void ask_find_picture();
-  std::string find_picture(const Path& path);
+  std::string find_picture(const Path& path, const std::string& asked);
   void ask_svg(bool pose);
 
   Workspace& workspace_;

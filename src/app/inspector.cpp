@@ -367,7 +367,7 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const auto section = [&](const char* title, bool opens, auto draw) {
-    ImGui::SetNextItemOpen(opens, ImGuiCond_Appearing);
+    if (ImGui::IsWindowAppearing()) ImGui::SetNextItemOpen(opens);
     // A quiet line: what is in it matters more.
     ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -380,6 +380,7 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
     ImGui::Spacing();
   };
   // First, because it alone does not move when others grow.
+  if (layers.naming()) ImGui::SetNextItemOpen(true);
   section("Layers", true, [&] { layers.draw(workspace, scale); });
   section("Method", true, [&] {
     method_section(workspace);

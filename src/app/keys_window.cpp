@@ -50,6 +50,7 @@ void KeysWindow::take(const Shortcut& key) {
 }
 
 void KeysWindow::export_keys() {
+  stop_waiting();
   chooser_.ask({FileQuestion::Mode::save,
                 "Export the keys",
                 "Export",
@@ -70,6 +71,7 @@ void KeysWindow::export_keys() {
 }
 
 void KeysWindow::import_keys() {
+  stop_waiting();
   chooser_.ask({FileQuestion::Mode::open, "Import keys", "Open", {".json"}, {}, false},
                [this](const Path& path, double) -> std::string {
                  try {
@@ -103,12 +105,16 @@ void KeysWindow::draw_row(const Action& action, float s) {
   }
   if (has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
-    if (ImGui::Button("\uf0e2", {30 * s, 0})) say_lost(reset_keys(action.id));
+    if (ImGui::Button("\uf0e2", {30 * s, 0})) {
+      stop_waiting();
+      say_lost(reset_keys(action.id));
+    }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  wrapped_text(waits && asked_ ? "'" + owner_of(*asked_)->label + "' has this key" : action.label);
+  const Action* owner = waits && asked_ ? owner_of(*asked_) : nullptr;
+  wrapped_text(owner ? "'" + owner->label + "' has this key" : action.label);
   ImGui::PopID();
 }
 
@@ -155,6 +161,7 @@ void KeysWindow::draw(double scale) {
   }
   ImGui::SetNextItemWidth(-340 * s);
   ImGui::InputTextWithHint("##search", "Search keys and what they do", &search_);
+  if (ImGui::IsItemActive()) stop_waiting();  // what is typed is no key
   ImGui::SameLine();
   if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
   ImGui::SameLine();
@@ -162,6 +169,7 @@ void KeysWindow::draw(double scale) {
   ImGui::SameLine();
   ImGui::BeginDisabled(changed_keys().empty());
   if (ImGui::Button("Reset all", {-1, 0})) {
+    stop_waiting();
     use_keys({});
     changed_();
   }

@@ -9,6 +9,10 @@ class LayerPanel {
  public:
   /// The edited layer's name is typed from now on.
   void rename(const Scene& scene);
+  /// Another document.
+  void forget() { named_ = 0; }
+  /// Whether a name is typed, which has to be seen.
+  bool naming() const { return named_ != 0; }
   void draw(Workspace& workspace, double scale);
 
  private:

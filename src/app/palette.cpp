@@ -17,31 +17,36 @@ struct Row {
   std::function<void()> run;
 };
 
-/// A row that makes another scene of the shown one.
-Row scene_row(Workspace& workspace, const std::string& label, Scene scene) {
-  const bool is = scene == workspace.scene();
-  return {label, "", workspace.scene().has_cage(), is,
-          [&workspace, label, scene = std::move(scene)] { workspace.commit(label, scene); }};
-}
-
+/// What the method can be: scenes are made when a row is run.
 void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
   const Scene& scene = workspace.scene();
-  for (const Method& method : methods())
-    rows.push_back(scene_row(workspace, "Method: " + method.label,
-                             method.id == scene.method ? scene : with_method(scene, method.id)));
   const Method& method = method_named(scene.method);
-  for (const Preset& preset : method.presets)
-    rows.push_back(scene_row(workspace, "Preset: " + preset.label, with_preset(scene, preset)));
+  const auto add = [&](const std::string& label, bool is, std::function<void(Scene&)> change) {
+    rows.push_back({label, "", scene.has_cage(), is, [&workspace, label, change] {
+                      Scene after = workspace.scene();
+                      change(after);
+                      workspace.commit(label, std::move(after));
+                    }});
+  };
+  for (const Method& other : methods())
+    add("Method: " + other.label, other.id == method.id,
+        [id = other.id](Scene& after) { after = with_method(std::move(after), id); });
+  for (const Preset& preset : method.presets) {
+    const bool is = std::ranges::all_of(preset.parameters, [&](const auto& entry) {
+      return parameter(method, scene.parameters, entry.first) == entry.second;
+    });
+    add("Preset: " + preset.label, is,
+        [preset](Scene& after) { after = with_preset(std::move(after), preset); });
+  }
   for (const ParameterSpec& spec : method.parameters) {
     std::vector<std::string> names;
     if (spec.kind == ParameterSpec::Kind::toggle) names = {"off", "on"};
     if (spec.kind == ParameterSpec::Kind::choice)
       for (const auto& option : spec.options) names.push_back(option.label);
-    const double now = parameter(method, scene.parameters, spec.key);
     for (size_t i = 0; i < names.size(); ++i) {
-      Scene after = scene;
-      if (now != static_cast<double>(i)) after.parameters[spec.key] = static_cast<double>(i);
-      rows.push_back(scene_row(workspace, spec.label + ": " + names[i], std::move(after)));
+      const double value = static_cast<double>(i);
+      add(spec.label + ": " + names[i], parameter(method, scene.parameters, spec.key) == value,
+          [key = spec.key, value](Scene& after) { after.parameters[key] = value; });
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 
 namespace holomorph {
 namespace {
@@ -43,7 +44,13 @@ void PanelFocus::leave() {
 }
 
 void PanelFocus::look() {
-  if (panel_ && !shown(panel_)) leave();
+  if (!panel_) return;
+  if (!shown(panel_)) return leave();
+  const ImGuiWindow* window = ImGui::GetCurrentContext()->NavWindow;
+  if (!window) return;
+  const auto* now = std::ranges::find(kPanels, std::string_view(window->RootWindow->Name),
+                                      [](const char* name) { return std::string_view(name); });
+  if (now != std::end(kPanels)) panel_ = *now;
 }
 
 }  // namespace holomorph

@@ -11,7 +11,8 @@ class PanelFocus {
   bool held() const { return panel_ != nullptr; }
   /// The canvas has them again.
   void leave();
-  /// Once a frame: lets go of a panel that is gone.
+  /// Once a frame: lets go of a panel that is gone, and goes along where a click has led to
+  /// another.
   void look();
 
  private:

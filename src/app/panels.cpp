@@ -301,33 +301,33 @@ void draw_context_menu(Workspace& workspace) {
   ImGui::EndPopup();
 }
 
-void draw_missing_picture(Workspace& workspace, double scale) {
+void draw_missing_picture(Workspace& workspace, double scale, float above) {
   const std::vector<size_t> missing = workspace.document.without_picture();
   if (missing.empty()) return;
   const Path file = layer_at(workspace.document.scene(), missing.front()).image->file;
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
-  const bool offers_cage = workspace.document.image() && !workspace.scene().has_cage();
   ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
-                           static_cast<float>(view.top + view.height) -
-                               (offers_cage ? 140 : 24) * s},  // above the other
+                           static_cast<float>(view.top + view.height) - std::max(24 * s, above)},
                           ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("Missing picture", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  std::error_code ignored;
+  const bool is_there = std::filesystem::exists(file, ignored);
   ImGui::Text(
-      "\uf071  %s is missing%s", file.filename().c_str(),
+      "\uf071  %s %s%s", file.filename().c_str(), is_there ? "cannot be read" : "is missing",
       missing.size() > 1 ? (", and " + std::to_string(missing.size() - 1) + " more").c_str() : "");
   ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
-  ImGui::TextDisabled("It was in %s.", file.parent_path().c_str());
+  ImGui::TextDisabled("It %s in %s.", is_there ? "is" : "was", file.parent_path().c_str());
   ImGui::PopTextWrapPos();
   if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
 
-void draw_cage_offer(Workspace& workspace, double scale) {
-  if (!workspace.document.image() || workspace.scene().has_cage()) return;
+float draw_cage_offer(Workspace& workspace, double scale) {
+  if (!workspace.document.image() || workspace.scene().has_cage()) return 0;
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
   ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
@@ -351,8 +351,10 @@ void draw_cage_offer(Workspace& workspace, double scale) {
   points_slider(workspace, 190 * s);
   ImGui::SameLine();
   ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+  const float height = ImGui::GetWindowHeight();
   ImGui::End();
   ImGui::PopStyleVar(2);
+  return height + 32 * s;
 }
 
 PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,

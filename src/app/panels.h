@@ -80,10 +80,11 @@ bool begin_combo(const char* label, const char* preview);
 /// How many points the next cage from the picture has.
 void points_slider(Workspace& workspace, float width);
 
-/// Says which picture is missing and asks for it.
-void draw_missing_picture(Workspace& workspace, double scale);
+/// The ways to a cage for a picture without one. Returns how high it stands, in px; 0 where there
+/// is nothing to offer.
+float draw_cage_offer(Workspace& workspace, double scale);
 
-/// The ways to a cage for a picture without one.
-void draw_cage_offer(Workspace& workspace, double scale);
+/// Says which picture is missing and asks for it, so high above the canvas' lower edge.
+void draw_missing_picture(Workspace& workspace, double scale, float above);
 
 }  // namespace holomorph

@@ -7,7 +7,7 @@ namespace holomorph {
 
 void PictureWatch::forget() {
   changing_.clear();
-  absent_.clear();
+  tried_.clear();
   if (reading_) reading_->cancel();
 }
 
@@ -16,55 +16,68 @@ void PictureWatch::look() {
     if (reading_->ended()) take();
     return;
   }
-  const Document& document = workspace_.document;
-  std::vector<ImageReference> changed = document.pictures().changed();
-  for (const size_t i : document.without_picture())  // it may be there again
-    if (const ImageReference& missing = *layer_at(document.scene(), i).image;
-        !std::filesystem::is_regular_file(missing.file))
-      absent_.insert(missing.file);
-    else if (absent_.contains(missing.file))
-      changed.push_back(reference_in(missing.file, missing.entry));
-  if (!changed.empty() && changed == changing_)
-    start(changed);
+  Changed now = changed();
+  if (!now.empty() && now == changing_)
+    start(now);
   else
-    changing_ = std::move(changed);
+    changing_ = std::move(now);
 }
 
-void PictureWatch::start(const std::vector<ImageReference>& changed) {
-  for (const ImageReference& reference : changed) {
-    absent_.erase(reference.file);
+PictureWatch::Changed PictureWatch::changed() {
+  const Document& document = workspace_.document;
+  Changed all;
+  std::error_code error;
+  for (const ImageReference& reference : document.pictures().changed())
+    all.emplace_back(reference, std::filesystem::last_write_time(reference.file, error));
+  for (const size_t i : document.without_picture()) {
+    const ImageReference& image = *layer_at(document.scene(), i).image;
+    const Time time = std::filesystem::last_write_time(image.file, error);
+    const Time now = error ? Time::min() : time;
+    const auto [tried, first] = tried_.try_emplace(image.file, now);
+    if (!error && tried->second != now)
+      all.emplace_back(reference_in(image.file, image.entry), now);
+    else
+      tried->second = now;
+  }
+  return all;
+}
+
+void PictureWatch::start(const Changed& changed) {
+  for (const auto& [reference, time] : changed) {
+    tried_[reference.file] = time;
     const Picture* known = workspace_.document.pictures().find(reference);
     if (!known) continue;
-    std::error_code ignored;
     Picture same = *known;
-    same.changed = std::filesystem::last_write_time(reference.file, ignored);
+    same.changed = time;
     workspace_.document.put_picture(reference, std::move(same));
   }
   read_ = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
   reading_ = std::make_unique<Job>("Reading again", [changed, read = read_](Job::Progress&) {
     PictureFiles files;
-    for (const ImageReference& reference : changed)
-      read->push_back({reference, files.picture(reference)});
+    for (const auto& each : changed) read->push_back({each.first, files.picture(each.first)});
   });
 }
 
 void PictureWatch::take() {
   const std::unique_ptr<Job> ended = std::move(reading_);
   if (ended->cancelled()) return;  // it was another document's
-  bool resized = false;
+  bool resized = false, back = false;
   for (auto& [reference, picture] : *read_) {
     if (const Picture* known = workspace_.document.pictures().find(reference)) {
       const Image &before = *known->image, &now = *picture.image;
       resized = resized || before.width != now.width || before.height != now.height;
+    } else {
+      back = true;
     }
     workspace_.document.put_picture(reference, std::move(picture));
   }
   if (const auto error = ended->error()) return workspace_.complain(*error);
-  workspace_.say(Path(read_->front().first.file).filename().string() +
-                 " was changed by another program and is read again." +
-                 (resized ? " It has another size now; cage, pins and strokes stay where they "
-                            "are, in pixels."
-                          : ""));
+  workspace_.say(
+      Path(read_->front().first.file).filename().string() +
+      (back ? " is there again." : " was changed by another program and is read again.") +
+      (resized ? " It has another size now; cage, pins and strokes stay where they "
+                 "are, in pixels."
+               : ""));
 }
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Flat and small, one value a key.
+// Flat and small.
 #include "app/state_file.h"
 
 #include <nlohmann/json.hpp>

@@ -175,11 +175,11 @@ std::string fitted_text(const std::string& text, float width) {
   }
   if (!fitted.empty() || text.empty()) return fitted;
   // Not even the first clause: as much of it as fits, whole characters.
-  size_t kept = text.find_first_of(",;");
+  size_t kept = std::min(text.find_first_of(",;"), text.size());
+  if (kept == 0) return "";
   do {
-    kept = std::min(kept, text.size());
-    while (kept > 0 && (static_cast<unsigned char>(text[--kept]) & 0xc0) == 0x80) {
-    }
+    do --kept;
+    while (kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xc0) == 0x80);
     fitted = text.substr(0, kept) + "...";
   } while (kept > 0 && is_wide());
   return kept > 0 ? fitted : "";

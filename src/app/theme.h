@@ -19,7 +19,7 @@ ImFont* title_font();
 /// Text on as many lines as it needs; ImGui's own wrapping breaks within numbers like 1.6, too.
 void wrapped_text(const std::string& text);
 /// As many clauses of a text, which commas and semicolons end, as fit into a width; where not even
-/// the first one does its beginning and "...".
+/// the first one does, its beginning and "...".
 std::string fitted_text(const std::string& text, float width);
 
 /// Colours of what is drawn over the canvas.

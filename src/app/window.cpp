@@ -201,6 +201,10 @@ void Window::begin_frame(bool navigates) {
   ImGui_ImplGlfw_NewFrame();
   pump_events();
   ImGuiIO& io = ImGui::GetIO();
+  const bool presses = is_down(Key::enter) || is_down(Key::space);
+  held_over_ = presses && (held_over_ || !navigates);
+  if (!navigates) enter_activates_ = false;
+  navigates = navigates && !held_over_;
   io.ConfigFlags = navigates ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
   // Tab goes from one field to the next while one is being typed into, too; else it is an action's.
   const bool tabs = (io.WantTextInput || navigates) && !io.KeyCtrl;
@@ -277,14 +281,14 @@ void Window::take_key(const Event& event) {
   Shortcut shortcut;
   shortcut.key = printed;
   shortcut.mods = {ctrl, (event.mods & GLFW_MOD_SHIFT) != 0, (event.mods & GLFW_MOD_ALT) != 0};
-  keys_.push_back(shortcut);
+  keys_.push_back({shortcut, event.action == GLFW_REPEAT});
 }
 
 void Window::take_character(unsigned code) {
-  if (code == '?' || code == '+') keys_.push_back(Shortcut(static_cast<char>(code)));
+  if (code == '?' || code == '+') keys_.push_back({Shortcut(static_cast<char>(code)), false});
 }
 
-std::vector<Shortcut> Window::take_keys() {
+std::vector<KeyPress> Window::take_keys() {
   return std::exchange(keys_, {});
 }
 std::vector<Path> Window::take_drops() {

@@ -15,6 +15,11 @@ struct GLFWwindow;
 
 namespace holomorph {
 
+struct KeyPress {
+  Shortcut key;
+  bool repeats = false;  ///< because it is held
+};
+
 /// Owns the window, its OpenGL context and ImGui. Throws Error{failed} without a display or
 /// OpenGL 3.3.
 class Window {
@@ -32,7 +37,7 @@ class Window {
   /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at
   /// most one change of the mouse buttons, at the place where it happened, however slow frames are.
   /// In a frame that `navigates`, arrows, Tab, Space and Enter go through the items of the dialog
-  /// or panel that has ImGui's focus.
+  /// or panel that has ImGui's focus; Enter and Space once they were let go of.
   void begin_frame(bool navigates);
   void end_frame();
 
@@ -41,8 +46,8 @@ class Window {
   double scale() const { return scale_; }
   Theme theme() const { return theme_; }
 
-  /// Key presses since the last call, repeats included.
-  std::vector<Shortcut> take_keys();
+  /// Key presses since the last call.
+  std::vector<KeyPress> take_keys();
   /// Files dropped on the window since the last call.
   std::vector<Path> take_drops();
   /// Whether the user asked to close the window; asked once, answered by the program.
@@ -81,7 +86,8 @@ class Window {
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;
   bool enter_activates_ = false;  ///< held since it was pressed outside a text field
-  std::vector<Shortcut> keys_;
+  bool held_over_ = false;        ///< Enter or Space, since before frames navigate
+  std::vector<KeyPress> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
   std::deque<Event> events_;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;

@@ -4,10 +4,9 @@
 // several times faster than refining; refinement then finishes the seam between lattice and
 // boundary.
 //
-// CGAL's assertions stay on in optimised builds: between edges that nearly touch, midpoints that
-// are rounded to the wrong side break the mesher's invariants, and a broken one has to end in an
-// Error.
-#define CGAL_DEBUG
+// CGAL's assertions stay on in optimised builds (CGAL_DEBUG): between edges that nearly touch,
+// midpoints that are rounded to the wrong side break the mesher's invariants, and a broken one has
+// to end in an Error.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
@@ -345,7 +344,9 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 
 Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   // The exception says enough; the default handler prints, too.
-  CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  static const auto printing =
+      CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  static_cast<void>(printing);
   try {
     return refined_mesh(polygon, options);
   } catch (const CGAL::Failure_exception&) {

@@ -78,9 +78,9 @@ class AngleTool final : public Tool {
 
   std::string hint(const Workspace& workspace) const override {
     const Scene& scene = workspace.scene();
-    if (!scene.has_cage())
-      return "Angles are those of a cage: draw one with " + key_of("tool.pen") + " first";
-    if (workspace.posture == Posture::rest) return "Tab shows the pose, where corners turn";
+    if (!scene.has_cage()) return needs_a_cage("Angles are those of a cage");
+    if (workspace.posture == Posture::rest)
+      return key_of("cage.rest") + " shows the pose, where corners turn";
     if (dragging_ && edge_)
       return "Tension " + text_of_number(corner_at(scene, corner_before(scene, *edge_)).tension) +
              ": drag down to let the edge bend";

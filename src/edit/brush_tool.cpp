@@ -21,8 +21,7 @@ class BrushTool final : public Tool {
     radius_ = workspace.brush_radius;
     if (input.inside && input.pressed) {
       if (!workspace.scene().has_cage())
-        return workspace.say("Stiffness acts inside a cage: draw one with " + key_of("tool.pen") +
-                             " first.");
+        return workspace.say(needs_a_cage("Stiffness acts inside a cage"));
       painting_ = true;
       last_.reset();
       dabs_ = workspace.scene().stiffness;

@@ -1,4 +1,5 @@
 // P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
+#include "edit/actions.h"
 #include "edit/pen_path.h"
 
 namespace holomorph {
@@ -85,8 +86,8 @@ class PenTool final : public Tool {
     if (scene.has_cage() && scene != at_rest(scene)) {
       if (workspace.posture == Posture::pose)
         workspace.say(
-            "Drawing another cage on the picture at rest. Closing it replaces the cage; Ctrl+Z "
-            "brings it back.");
+            "Drawing another cage on the picture at rest. Closing it replaces the cage; " +
+            key_of("edit.undo") + " brings it back.");
       workspace.posture = Posture::rest;
     }
     workspace.selection.clear();

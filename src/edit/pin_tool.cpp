@@ -26,8 +26,7 @@ class PinTool final : public Tool {
       return;
     }
     if (!workspace.scene().has_cage()) {
-      workspace.say(
-          "Pins act inside a cage: draw one with P, or make one from the picture (Cage menu).");
+      workspace.say(needs_a_cage("Pins act inside a cage"));
       return;
     }
     const auto rest = workspace.rest_at(input.position);
@@ -73,8 +72,7 @@ class PinTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage())
-      return "Pins act inside a cage: draw one with " + key_of("tool.pen") + " first";
+    if (!workspace.scene().has_cage()) return needs_a_cage("Pins act inside a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"

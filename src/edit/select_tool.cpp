@@ -1,4 +1,5 @@
 // V: pick, move, box-select, turn pins, insert by double-click, delete by Alt-click.
+#include "edit/actions.h"
 #include "edit/tool.h"
 
 namespace holomorph {
@@ -71,8 +72,7 @@ class SelectTool final : public Tool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage())
-      return "Draw a cage with P, or make one from the picture (Cage menu)";
+    if (!workspace.scene().has_cage()) return needs_a_cage("What bends is inside a cage");
     if (drag_.active()) return "Shift keeps the axis";
     if (box_.active() || (box_.hovered() && !hover_)) return box_.hint();
     if (ring_.active()) return "Shift snaps to 15 degrees";
@@ -85,10 +85,10 @@ class SelectTool final : public Tool {
       return "Drag to move, with Ctrl to record motion; Shift-click adds; Alt-click deletes; "
              "Ctrl-click: smooth or corner";
     return workspace.posture == Posture::rest
-               ? "Rest: drag points, the pose stays; double-click an "
-                 "edge inserts; Tab returns to the pose"
-               : "Drag points or pins; drag a box to select; "
-                 "double-click an edge inserts; Tab shows the rest";
+               ? "Rest: drag points, the pose stays; double-click an edge inserts; " +
+                     key_of("cage.rest") + " returns to the pose"
+               : "Drag points or pins; drag a box to select; double-click an edge inserts; " +
+                     key_of("cage.rest") + " shows the rest";
   }
 
  private:

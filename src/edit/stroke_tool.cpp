@@ -61,8 +61,7 @@ class StrokeTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage())
-      return "Strokes act inside a cage: draw one with " + key_of("tool.pen") + " first";
+    if (!workspace.scene().has_cage()) return needs_a_cage("Strokes act inside a cage");
     if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";
@@ -87,8 +86,7 @@ class StrokeTool final : public Tool {
 
   void start_drawing(const Input& input, Workspace& workspace) {
     if (!workspace.scene().has_cage())
-      return workspace.say(
-          "Strokes act inside a cage: draw one with P, or make one from the picture (Cage menu).");
+      return workspace.say(needs_a_cage("Strokes act inside a cage"));
     if (input.mods.shift && !selected_stroke(workspace) && !workspace.scene().strokes.empty())
       return workspace.say("Click a stroke first: Shift-drag draws its new place.");
     redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;

@@ -1,5 +1,6 @@
 // The gestures that tools share.
 #include "edit/tool.h"
+#include "edit/actions.h"
 
 #include <algorithm>
 
@@ -134,6 +135,10 @@ bool PinRing::scroll(const Input& input, Workspace& workspace) {
 void PinRing::cancel(Workspace& workspace) {
   if (active_) workspace.preview.reset();
   active_ = false;
+}
+
+std::string needs_a_cage(const std::string& what) {
+  return what + ": draw one with " + key_of("tool.pen") + ", or make one from the picture";
 }
 
 }  // namespace holomorph

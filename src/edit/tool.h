@@ -52,6 +52,9 @@ class Tool {
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
+/// "Pins act inside a cage: draw one with P, or make one from the picture".
+std::string needs_a_cage(const std::string& what);
+
 std::unique_ptr<Tool> select_tool();
 std::unique_ptr<Tool> pen_tool();
 std::unique_ptr<Tool> pin_tool();

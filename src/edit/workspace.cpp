@@ -81,6 +81,7 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
   with_others.above = before.above;
   with_others.background = before.background;
   with_others.animation = before.animation;
+  if (before.image && !document.image()) with_others.image = before.image;  // found again
   return with_others != before;
 }
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 #include "core/error.h"
@@ -79,14 +80,17 @@ class FfmpegWriter final : public FilmWriter {
  private:
   void start(const std::vector<std::string>& words) {
     if (!log_) throw Error(ErrorKind::failed, "no temporary file for ffmpeg can be made");
-    if (!has_program(words[0]))
+    if (const auto child = start_program(words, ::fileno(log_.get()))) {
+      child_ = *child;
+      return;
+    }
+    if (errno != ENOENT)
       throw Error(ErrorKind::failed,
-                  "films of kind " + out_.extension().string() +
-                      " are made by the program ffmpeg, which is not installed here; install it, "
-                      "or choose .webp, .gif, .apng or .png");
-    const std::optional<Child> child = start_program(words, ::fileno(log_.get()));
-    if (!child) throw Error(ErrorKind::failed, "ffmpeg cannot be started");
-    child_ = *child;
+                  std::string("ffmpeg cannot be started: ") + std::strerror(errno));
+    throw Error(ErrorKind::failed,
+                "films of kind " + out_.extension().string() +
+                    " are made by the program ffmpeg, which is not installed here; install it, or "
+                    "choose .webp, .gif, .apng or .png");
   }
 
   /// Waits for the end; returns the exit status.

@@ -83,14 +83,27 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
   }
 }
 
+/// Lets a reference name the picture's namesake beside the scene when that is the picture and the
+/// file that it names is gone.
+void look_beside(const Path& scene, ImageReference& reference, PictureFiles& files) {
+  std::error_code ignored;
+  if (fs::exists(reference.file, ignored)) return;
+  ImageReference moved = reference;
+  moved.file = beside(scene, Path(reference.file).filename()).string();
+  try {
+    if (files.picture(moved).sha256 == reference.sha256) reference = std::move(moved);
+  } catch (const Error&) {
+    // There is none either.
+  }
+}
+
 /// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
 /// it may be.
 std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
                          const std::string& pointer, bool may_be_missing) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
-  const Path file = reference.file, moved = beside(scene, file.filename());
-  if (!fs::exists(file) && fs::is_regular_file(moved)) reference.file = moved.string();
+  look_beside(scene, reference, files);
   try {
     if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
   } catch (const Error& error) {
@@ -117,8 +130,8 @@ LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning = load_picture(layers[i], loaded.pictures, files, path, pointer,
-                                             pictures_may_be_missing || layers.size() > 1);
+    const std::string warning =
+        load_picture(layers[i], loaded.pictures, files, path, pointer, pictures_may_be_missing);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene = scene_of_layers(std::move(layers), edited_layer(scene), scene);
@@ -172,14 +185,14 @@ LoadedScene scene_of_image(const Path& path) {
   std::vector<Scene> layers;
   for (const OraLayer& each : ora_layers(read_file(path), path.string())) {
     if (layers.size() == kMostLayers) {
-      loaded.warning = "Only the lowest 100 layers were opened.";
+      loaded.warning += "Only the lowest 100 layers were opened.";
       break;
     }
     Scene layer = layer_of_picture(path, each.entry, files, loaded.pictures);
     layer.layer.id = static_cast<int>(layers.size()) + 1;
     layer.layer.name = each.name;
     layer.layer.visible = each.visible;
-    if (each.blended) loaded.warning = "The blending modes of this file's layers are not kept.";
+    if (each.blended) loaded.warning = "The blending modes of this file's layers are not kept. ";
     layers.push_back(std::move(layer));
   }
   size_t edited = layers.size() - 1;

@@ -19,8 +19,8 @@ struct LoadedScene {
   const Image* image() const { return pictures.of(scene); }  ///< the edited layer's
 };
 /// Reads a scene file and the pictures that it names, relative to the file's folder; one that is
-/// not where it was is looked for beside the scene. A picture of several layers that cannot be read
-/// is a warning, and the only one is, if it may be missing. Throws Error.
+/// not where it was is looked for beside the scene. One that cannot be read is a warning, if it may
+/// be missing. Throws Error.
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing = false);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);

@@ -135,11 +135,15 @@ const std::vector<PictureFormat>& picture_formats() {
   return all;
 }
 
+std::string format_extension(const Path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  return extension == ".jpeg" ? ".jpg" : extension;
+}
+
 const PictureFormat& picture_format_of(const Path& file) {
-  std::string extension = lower_case(file.extension().string());
-  if (extension.empty()) extension = ".png";
-  if (extension == ".jpeg") extension = ".jpg";
-  const auto found = std::ranges::find(picture_formats(), extension, &PictureFormat::extension);
+  const std::string extension = format_extension(file);
+  const auto found = std::ranges::find(picture_formats(), extension.empty() ? ".png" : extension,
+                                       &PictureFormat::extension);
   if (found == picture_formats().end())
     throw Error(ErrorKind::bad_input,
                 file.string() + ": pictures are written as .png, .jpg or .webp");

@@ -45,8 +45,10 @@ struct PictureFormat {
   std::string label, extension;
   std::string (*encode)(const Image& image);
 };
-/// PNG; JPEG, which has no transparency and is white there; WebP without loss.
+/// PNG; JPEG, which has no transparency and is white there; WebP without loss of what is seen.
 const std::vector<PictureFormat>& picture_formats();
+/// A file's extension as formats name it: lower case, .jpg for .jpeg.
+std::string format_extension(const Path& file);
 /// By a file's extension, which is PNG's where there is none. Throws Error{bad_input} for others.
 const PictureFormat& picture_format_of(const Path& file);
 

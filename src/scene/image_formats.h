@@ -11,7 +11,7 @@ bool is_tiff(const std::string& bytes);
 Image decode_webp(const std::string& bytes, const std::string& name);
 Image decode_tiff(const std::string& bytes, const std::string& name);
 
-/// Without loss. Throws Error{failed}.
+/// Without loss of what is seen: colours under no alpha may be others. Throws Error{failed}.
 std::string encode_webp(const Image& image);
 
 /// OpenRaster: the picture of all layers together, as the file has it. Throws Error{bad_input}.

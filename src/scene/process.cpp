@@ -42,6 +42,7 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
   child.socket = ends[0];
   if (wrong == 0) return child;
   ::close(child.socket);
+  errno = wrong;
   return {};
 }
 

@@ -22,7 +22,7 @@ struct Child {
   int pid = 0, socket = -1;
 };
 /// Starts a program found on the PATH; what it says of errors goes to the descriptor `messages`, or
-/// nowhere. None when it cannot be started.
+/// nowhere. None when it cannot be started; errno says why.
 std::optional<Child> start_program(const std::vector<std::string>& words, int messages = -1);
 
 /// Runs a program found on the PATH, gives it `input` and waits. None when it cannot be started, or

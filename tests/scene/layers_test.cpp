@@ -237,6 +237,25 @@ TEST_CASE(
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window nobody is asked
 }
 
+TEST_CASE("A namesake beside the scene is not taken for the picture") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "a");
+  std::filesystem::create_directories(folder.path / "b");
+  write_file(folder.path / "a" / "hero.png", encode_png(Image(8, 6)));
+  write_file(folder.path / "b" / "hero.png", encode_png(Image(5, 4)));
+  Document document = Document::open(folder.path / "a" / "hero.png");
+  const LoadedScene other = scene_of_image(folder.path / "b" / "hero.png");
+  document.put_picture(*other.scene.image, *other.pictures.find(*other.scene.image));
+  document.commit("Add", with_layer_added(document.scene(), other.scene));
+  document.save(folder.path / "s.json");
+  std::filesystem::rename(folder.path / "a" / "hero.png", folder.path / "hero.png");
+  std::filesystem::remove(folder.path / "b" / "hero.png");
+  const Document opened = Document::open(folder.path / "s.json");
+  CHECK(opened.without_picture() == std::vector<size_t>{1});
+  CHECK(opened.pictures().of(layer_at(opened.scene(), 0))->width == 8);
+  CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);
+}
+
 TEST_CASE("Pictures are written in the formats of their names and read again") {
   Image image(37, 21);
   for (int r = 0; r < image.height; ++r)

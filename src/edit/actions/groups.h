@@ -27,7 +27,7 @@ inline bool has_surface(const Workspace& w) {
   return w.scene().surface.has_value();
 }
 inline bool has_content(const Workspace& w) {
-  return w.scene().has_cage() || w.document.image();
+  return !w.document.empty();
 }
 inline bool has_selection(const Workspace& w) {
   return !w.selection.empty();
