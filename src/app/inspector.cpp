@@ -270,7 +270,7 @@ void selection_section(Workspace& workspace) {
   for (const char* id : {"edit.reset", "edit.delete"}) {
     const Action& action = action_named(id);
     if (ImGui::Button(action.label.c_str())) run(action, workspace);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+    tooltip_of(id);
     ImGui::SameLine();
   }
   ImGui::NewLine();

@@ -129,8 +129,7 @@ void LayerPanel::draw(Workspace& workspace, double scale) {
     if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
       run(action, workspace);
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-      ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+    tooltip_of(id);
     ImGui::SameLine(0, 4 * s);
   }
   ImGui::NewLine();

@@ -11,6 +11,9 @@ struct OverlayStyle {
   double scale = 1;  ///< of the display
 };
 
+/// Where a place of the plane is in the window.
+ImVec2 px(const Workspace& workspace, Complex z);
+
 /// Draws the shown posture's cage and pins and the tool's gesture into ImGui's background.
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);

@@ -70,6 +70,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 /// What a right click on the canvas offers.
 void draw_context_menu(Workspace& workspace);
 
+/// Says what the item that was drawn last does, with its keys.
+void tooltip_of(const char* id);
+
 /// Whether Escape is for the dialog that is being drawn: not for a list that it has open. To be
 /// asked once a frame, after its items.
 bool escape_pressed();
