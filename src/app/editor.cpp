@@ -331,7 +331,7 @@ class Editor {
     if (request == Request::context_menu) ImGui::OpenPopup("context");
     if (request == Request::compare) comparison_.start(workspace_.document.scene());
     if (request == Request::palette) palette_.show();
-    if (request == Request::menu) opens_menu_ = true;
+    if (request == Request::menu) goes_to_menu_ = true;
     if (request == Request::rename_layer) layers_.rename(workspace_.document.scene());
     if (request == Request::next_panel) panel_focus_.next();
   }
@@ -379,7 +379,8 @@ class Editor {
   void draw_panels(const Input& input) {
     const double scale = window_.scale();
     const OverlayStyle style{canvas_colors(window_.theme()), scale};
-    answer(draw_menu_bar(workspace_, preferences_, std::exchange(opens_menu_, false)));
+    answer(draw_menu_bar(workspace_, preferences_,
+                         std::exchange(goes_to_menu_, false) ? &panel_focus_ : nullptr));
     StatusLine status;
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. " + key_of("help.keys") +
@@ -395,7 +396,8 @@ class Editor {
       draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
       const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
       draw_missing_picture(workspace_, scale, offer);
-      if (preferences_.hints && !draw_hints(workspace_, files_.has_kept(), scale)) {
+      // The offer is the first step.
+      if (preferences_.hints && offer == 0 && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();
       }
@@ -405,8 +407,8 @@ class Editor {
       status.hint = current_tool().hint(workspace_);
       if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
       if (panel_focus_.held())
-        status.hint = "Keys go to this panel: arrows and Tab choose, Enter presses; " +
-                      key_of("view.next_panel") + " goes on, Esc leads back to the canvas";
+        status.hint = "Arrows, Tab, Enter; Esc: back to the canvas; " + key_of("view.next_panel") +
+                      ": the next panel";
       if (workspace_.timeline.recording) status.hint = recording_hint(workspace_.timeline);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
@@ -435,7 +437,7 @@ class Editor {
   std::optional<StateFile> state_file_;
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
-       was_active_ = false, restyle_ = false, had_popup_ = false, opens_menu_ = false;
+       was_active_ = false, restyle_ = false, had_popup_ = false, goes_to_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;

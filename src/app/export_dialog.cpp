@@ -66,8 +66,10 @@ std::string lacking(const Workspace& workspace) {
 
 void ExportDialog::ask(bool film, const Path& folder) {
   const Document& document = workspace_.document;
+  folder_ = folder;
   if (last_) {
     settings_ = *last_;
+    folder_ = settings_.path.parent_path();
   } else {
     const Path source = document.path().empty() ? document.first_picture() : document.path();
     const std::string stem = source.empty() ? "picture" : source.stem().string();
@@ -129,7 +131,13 @@ std::string ExportDialog::result_text() const {
                   ", %d frame%s, %.2f s at %.5g a second", frames, frames == 1 ? "" : "s",
                   frames / rate, rate);
   }
-  return text;
+  std::string result = text;
+  const Background& background =
+      settings_.background ? *settings_.background : workspace_.document.scene().background;
+  if (format_extension(settings_.path) == ".jpg" &&
+      background.kind == Background::Kind::transparent)
+    result += "; what is transparent becomes white";
+  return result;
 }
 
 std::vector<Path> ExportDialog::files() const {
@@ -195,6 +203,10 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   });
 }
 
+Path ExportDialog::in_folder(const Path& path) const {
+  return path.is_relative() ? folder_ / path : path;
+}
+
 /// What can be written, the extension of what is chosen now first: it is the one to be added.
 std::vector<std::string> ExportDialog::extensions() const {
   std::vector<std::string> all{format_extension(settings_.path)};
@@ -219,12 +231,15 @@ bool ExportDialog::take_path(const Path& path) {
 
 void ExportDialog::accept() {
   opening_ = true;  // unless it is closed: the name is typed again
-  Path path = name_;
-  if (path.empty()) return;
-  if (path.is_relative()) path = settings_.path.parent_path() / path;
+  if (name_.empty()) return;
+  Path path = in_folder(name_);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     message_ = path.string() + " is a folder; add a name.";
+    return;
+  }
+  if (!std::filesystem::is_directory(path.parent_path(), error)) {
+    message_ = "There is no folder " + path.parent_path().string() + ".";
     return;
   }
   const std::vector<std::string> written = extensions();
@@ -260,7 +275,10 @@ void ExportDialog::draw_file(double scale) {
   const bool entered = ImGui::InputTextWithHint(
       "##name", "File", &name_,
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  if (ImGui::IsItemEdited()) confirming_ = false;
+  if (ImGui::IsItemEdited()) {
+    confirming_ = false;
+    take_path(in_folder(name_));  // the list of formats goes along
+  }
   ImGui::SameLine();
   if (ImGui::Button("Choose...", {-1, 0})) {
     chooser_.ask(

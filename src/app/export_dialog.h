@@ -50,6 +50,8 @@ class ExportDialog {
   /// Returns what is wrong, or "".
   std::string start(const ExportSettings& settings);
   std::vector<std::string> extensions() const;
+  /// What is typed without a folder lies in the one that was last.
+  Path in_folder(const Path& path) const;
   bool take_path(const Path& path);
   void accept();
 
@@ -59,6 +61,7 @@ class ExportDialog {
   ExportSettings settings_;
   std::optional<ExportSettings> last_;  ///< what was exported
   bool last_all_ = true;                ///< with all frames
+  Path folder_;
   std::string name_, message_;
   bool open_ = false, opening_ = false, confirming_ = false;
 };

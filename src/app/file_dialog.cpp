@@ -183,12 +183,13 @@ void FileDialog::draw(double scale) {
     ImGui::TextWrapped("%s", message_.c_str());
   else
     ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
-                                  ? "Enter or a double click opens."
+                                  ? "Enter or a double click takes a file."
                                   : "The extension is added when it is missing.");
   const bool pressed =
       ImGui::Button(confirming_ ? "Replace" : question_.button.c_str(), {120 * s, 0});
   ImGui::SameLine();
   const bool cancelled = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
+  if ((entered || pressed) && name_.empty()) message_ = "Choose a file, or type its name.";
   if ((entered || pressed) && !name_.empty())
     chosen = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;
   if (go) enter(*go);

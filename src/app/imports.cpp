@@ -45,10 +45,11 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
     first_();
   else
     workspace_.say(
-        (layer_count(added.scene) > 1 ? std::to_string(layer_count(added.scene)) + " layers are"
-                                      : "It is a layer") +
-        std::string(" above the one that was edited. ") + keys_text(action_named("layer.above")) +
-        " and " + keys_text(action_named("layer.below")) + " go through them.");
+        (layer_count(added.scene) > 1
+             ? std::to_string(layer_count(added.scene)) + " layers were"
+             : title_of_layer(document.scene(), edited_layer(document.scene())) + " was") +
+        " added above the layer that was edited. " + key_of("layer.above") + " and " +
+        key_of("layer.below") + " choose layers.");
   return true;
 }
 

@@ -243,12 +243,12 @@ void step_number(const char* label, double neutral, const char* format, Workspac
 void turn_and_scale(Workspace& workspace) {
   const Selection selection = workspace.selection;
   const Posture posture = workspace.posture;
-  step_number("degrees more", 0, "%.1f", workspace, "Turn", [&](const Scene& s, double degrees) {
+  step_number("turn by", 0, "%.1f degrees", workspace, "Turn", [&](const Scene& s, double degrees) {
     const double angle = degrees * kPi / 180;
     return transformed(s, selection, Affine::turning(angle, center_of(s, selection, posture)),
                        angle, posture);
   });
-  step_number("size", 100, "%.1f %%", workspace, "Scale", [&](const Scene& s, double percent) {
+  step_number("scale by", 100, "%.1f %%", workspace, "Scale", [&](const Scene& s, double percent) {
     const double scale = std::max(percent, 1.0) / 100;
     return transformed(s, selection,
                        Affine::scaling(scale, scale, center_of(s, selection, posture)), 0, posture);
@@ -366,8 +366,8 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
   ImGui::Begin("Inspector", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-  const auto section = [&](const char* title, bool opens, auto draw) {
-    if (ImGui::IsWindowAppearing()) ImGui::SetNextItemOpen(opens);
+  const auto section = [&](const char* title, bool opens, auto draw, bool has_to = false) {
+    ImGui::SetNextItemOpen(opens || has_to, has_to ? ImGuiCond_Always : ImGuiCond_Appearing);
     // A quiet line: what is in it matters more.
     ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -380,8 +380,8 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
     ImGui::Spacing();
   };
   // First, because it alone does not move when others grow.
-  if (layers.naming()) ImGui::SetNextItemOpen(true);
-  section("Layers", true, [&] { layers.draw(workspace, scale); });
+  section(
+      "Layers", true, [&] { layers.draw(workspace, scale); }, layers.naming());
   section("Method", true, [&] {
     method_section(workspace);
     convergence_section(workspace, scale);

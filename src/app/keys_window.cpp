@@ -95,8 +95,8 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::PushID(action.id.c_str());
   ImGui::TableNextColumn();
   const bool waits = waiting_ == action.id;
-  const std::string keys = !waits   ? keys_text(action)
-                           : asked_ ? text_of(*asked_) + " again to take it from another"
+  const std::string keys = !waits   ? action.keys.empty() ? "none" : keys_text(action)
+                             : asked_ ? text_of(*asked_) + " again to take it from another"
                                     : "Press a key; Del none, Esc cancels";
   if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
     stop_waiting();
@@ -118,23 +118,28 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::PopID();
 }
 
-void KeysWindow::draw_keys(float s) {
-  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return;
+bool KeysWindow::draw_keys(float s) {
+  const auto is_found = [&](const Action& action) {
+    return has_words(action.label + " " + keys_text(action), search_);
+  };
+  if (std::ranges::none_of(actions(), is_found)) return false;
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return true;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
   for (const Action& action : actions())
-    if (has_words(action.label + " " + keys_text(action), search_)) draw_row(action, s);
+    if (is_found(action)) draw_row(action, s);
   ImGui::EndTable();
+  return true;
 }
 
-void KeysWindow::draw_gestures(float s) {
+bool KeysWindow::draw_gestures(float s) {
   const auto is_found = [&](const Gesture& gesture) {
     return has_words(std::string(gesture.what) + " " + gesture.does, search_);
   };
-  if (std::ranges::none_of(gestures(), is_found)) return;
+  if (std::ranges::none_of(gestures(), is_found)) return false;
   ImGui::Dummy({0, 8 * s});
   ImGui::TextDisabled("Mouse");
-  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_RowBg)) return;
+  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_RowBg)) return true;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
   for (const Gesture& gesture : gestures()) {
@@ -144,6 +149,7 @@ void KeysWindow::draw_gestures(float s) {
     wrapped_cell(gesture.does);
   }
   ImGui::EndTable();
+  return true;
 }
 
 void KeysWindow::draw(double scale) {
@@ -176,8 +182,8 @@ void KeysWindow::draw(double scale) {
   ImGui::EndDisabled();
   begin_part("rows");
   ImGui::TextDisabled("Click a key to change it; Shift-click adds one.");
-  draw_keys(s);
-  draw_gestures(s);
+  const bool any = draw_keys(s), more = draw_gestures(s);
+  if (!any && !more) ImGui::TextDisabled("Nothing is called that.");
   ImGui::EndChild();
   const bool escaped = escape_pressed() && !was_waiting_;
   was_waiting_ = waits_for_key();

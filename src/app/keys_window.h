@@ -22,8 +22,9 @@ class KeysWindow {
 
  private:
   void draw_row(const Action& action, float s);
-  void draw_keys(float s);
-  void draw_gestures(float s);
+  /// Each returns whether it has found anything.
+  bool draw_keys(float s);
+  bool draw_gestures(float s);
   void export_keys();
   void import_keys();
   void assign(const std::vector<Shortcut>& keys);

@@ -94,7 +94,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
     state.locked = !state.locked;
     change(state.locked ? "Lock layer" : "Unlock layer");
   }
-  ImGui::SameLine(0, 2 * s);
+  ImGui::SameLine(0, 8 * s);
   if (named_ == state.id) {
     draw_name(workspace, layer);
   } else {

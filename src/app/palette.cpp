@@ -13,6 +13,7 @@ namespace {
 
 struct Row {
   std::string label, keys;
+  std::string found_by = {};  ///< besides its label
   bool enabled = true, checked = false;
   std::function<void()> run;
 };
@@ -22,7 +23,7 @@ void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
   const Scene& scene = workspace.scene();
   const Method& method = method_named(scene.method);
   const auto add = [&](const std::string& label, bool is, std::function<void(Scene&)> change) {
-    rows.push_back({label, "", scene.has_cage(), is, [&workspace, label, change] {
+    rows.push_back({label, "", "", scene.has_cage(), is, [&workspace, label, change] {
                       Scene after = workspace.scene();
                       change(after);
                       workspace.commit(label, std::move(after));
@@ -56,12 +57,13 @@ std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAn
   for (const Action& action : actions())
     if (action.run)
       rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
-                      action.enabled(workspace), action.checked && action.checked(workspace),
+                      action.id + " " + action.menu, action.enabled(workspace),
+                      action.checked && action.checked(workspace),
                       [&, id = action.id] { run(action_named(id), workspace); }});
   add_method_rows(workspace, rows);
   for (const Look& look : looks(preferences))
     rows.push_back(
-        {look.group + ": " + look.label, "", true, look.preferences == preferences, [&, look] {
+        {look.group + ": " + look.label, "", "", true, look.preferences == preferences, [&, look] {
            preferences = look.preferences;
            answer.style_changed = true;
          }});
@@ -93,7 +95,8 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) chosen_ = 0;
   std::vector<Row> rows = rows_of(workspace, preferences, answer);
-  std::erase_if(rows, [&](const Row& row) { return !has_words(row.label, text_); });
+  std::erase_if(rows,
+                [&](const Row& row) { return !has_words(row.label + " " + row.found_by, text_); });
   // What can be done now comes first.
   std::stable_partition(rows.begin(), rows.end(), [](const Row& row) { return row.enabled; });
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };

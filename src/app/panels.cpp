@@ -78,10 +78,10 @@ void points_slider(Workspace& workspace, float width) {
     ImGui::SetTooltip("For the next cage that is made from the picture; an opaque one gets four");
 }
 
-PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, bool opens) {
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
-  if (opens) ImGui::OpenPopup("File");
+  if (focus) focus->go_to_menu("File");
   const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   for (const char* name : {"File", "Edit", "Tools", "Cage", "Layer", "Time", "View", "Help"}) {
     if (!ImGui::BeginMenu(name)) continue;

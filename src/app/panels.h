@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/layer_panel.h"
+#include "app/panel_focus.h"
 #include "app/samples.h"
 #include "app/theme.h"
 #include "app/window.h"
@@ -46,9 +47,9 @@ struct Look {
 };
 std::vector<Look> looks(const Preferences& now);
 
-/// One menu per name in the action table; `opens` the first one. Returns recent files to open and
-/// style changes.
-PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, bool opens);
+/// One menu per name in the action table; the first one gets `focus`, if that is given. Returns
+/// recent files to open and style changes.
+PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus);
 void draw_toolbar(Workspace& workspace, double scale);
 void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& heat, double scale,
                     Theme theme);

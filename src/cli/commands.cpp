@@ -221,10 +221,10 @@ void require_keyframes(const Scene& scene, const Path& path) {
 }  // namespace
 
 void run(const RenderCommand& command) {
-  picture_format_of(command.out);  // said at once if there is none
   const LoadedScene loaded = load(command.scene);
   if (command.time || !command.frames.empty()) require_keyframes(loaded.scene, command.scene);
   if (command.frames.empty()) check_out(command.out, command.scene, loaded);
+  picture_format_of(command.out);  // said at once if there is none
   PictureOptions options;
   options.view = view_named(command.view);
   options.scale = command.scale;

@@ -103,7 +103,8 @@ const std::vector<Gesture>& gestures() {
       {"Double-click an edge", "insert a cage point"},
       {"Alt-click a point or pin", "delete it"},
       {"Drag the box of what is selected",
-       "scale; the knob turns; Shift free or 15 degrees, Alt from the middle"},
+       "inside it moves, its grips scale, the knob turns; Shift free or 15 degrees, Alt from the "
+       "middle"},
       {"Ctrl-drag points, pins, strokes", "record their motion as keyframes, by the clock"},
       {"Ctrl-click a cage point", "smooth or corner; drag its tangents, Alt breaks them"},
       {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},

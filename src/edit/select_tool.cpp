@@ -28,6 +28,8 @@ class SelectTool final : public Tool {
       pick(input, workspace);
     } else if (input.double_clicked) {
       if (const auto hit = edge_at(workspace, input.px)) insert_at(workspace, *hit);
+    } else if (box_.inside() && !input.mods.shift) {
+      box_.start(input, workspace);
     } else {
       marquee_start_ = input.px;
       marquee_end_ = input.px;
@@ -74,7 +76,7 @@ class SelectTool final : public Tool {
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.scene().has_cage()) return needs_a_cage("What bends is inside a cage");
     if (drag_.active()) return "Shift keeps the axis";
-    if (box_.active() || (box_.hovered() && !hover_)) return box_.hint();
+    if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
     if (ring_.active()) return "Shift snaps to 15 degrees";
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";

@@ -10,7 +10,7 @@ namespace holomorph {
 namespace {
 
 constexpr double kMargin = 1.8, kKnob = 2.6, kPick = 0.8;  // in picking distances
-constexpr int kKnobNumber = 8;
+constexpr int kKnobNumber = 8, kInside = 9;
 constexpr double kLeastScale = 0.02;
 
 /// Where a grip is on a box from -1 to 1.
@@ -85,20 +85,24 @@ BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) con
 
 void TransformBox::hover(const Input& input, const Workspace& workspace) {
   mark_.reset();
+  inside_ = false;
   if (workspace.selection.size() < 2 || !workspace.show_cage || workspace.hide_overlays) return;
   const double unit = workspace.handle_px / workspace.viewport.zoom;
-  box_ = box_around(workspace.scene(), workspace.selection, workspace.posture);
-  const Complex margin(kMargin * unit, kMargin * unit);
-  box_ = {box_.left - margin.real(), box_.bottom - margin.imag(), box_.right + margin.real(),
-          box_.top + margin.imag()};
+  content_ = box_around(workspace.scene(), workspace.selection, workspace.posture);
+  const double margin = kMargin * unit;
+  box_ = {content_.left - margin, content_.bottom - margin, content_.right + margin,
+          content_.top + margin};
   knob_ = kKnob * unit;
   mark_ = mark_of(workspace, {});
   if (!input.inside) return;
   for (int grip = 0; grip <= kKnobNumber; ++grip)
     if (std::abs(mark_->grip(grip) - input.px) < kPick * workspace.handle_px) mark_->hovered = grip;
+  inside_ = !mark_->hovered && box_.contains(input.position);
 }
 
 std::string TransformBox::hint() const {
+  if (grip_ == kInside && active_) return "Shift keeps the axis";
+  if (inside_) return "Drag inside the box to move what is selected; Shift-drag selects more";
   if (!mark_ || !mark_->hovered) return "";
   if (*mark_->hovered == kKnobNumber) return "Drag to turn; Shift snaps to 15 degrees";
   return *mark_->hovered % 2 == 0 ? "Drag to scale; Shift scales freely, Alt about the middle"
@@ -108,7 +112,7 @@ std::string TransformBox::hint() const {
 void TransformBox::start(const Input& input, const Workspace& workspace) {
   active_ = true;
   moving_ = false;
-  grip_ = *mark_->hovered;
+  grip_ = mark_->hovered.value_or(kInside);
   start_px_ = input.px;
   start_ = input.position;
   turn_ = 0;
@@ -116,15 +120,24 @@ void TransformBox::start(const Input& input, const Workspace& workspace) {
 }
 
 Affine TransformBox::map(const Input& input) {
-  const Complex center = box_.center();
+  const Complex center = content_.center();
+  if (grip_ == kInside) {
+    const Complex by = input.position - start_;
+    if (!input.mods.shift) return {1, 0, by};
+    return {1, 0, std::abs(by.real()) > std::abs(by.imag()) ? by.real() : Complex(0, by.imag())};
+  }
   if (grip_ == kKnobNumber) {
     const double angle = std::arg((input.position - center) * std::conj(start_ - center));
     turn_ = angle + 2 * kPi * std::round((turn_ - angle) / (2 * kPi));
     if (input.mods.shift) turn_ = std::round(turn_ / (kPi / 12)) * (kPi / 12);
     return Affine::turning(turn_, center);
   }
+  // What is opposite stays, which is the handles', not the box': handles in line have the box
+  // alone.
+  const bool flat = std::min(content_.width(), content_.height()) < 1e-6 * box_.diagonal();
+  const Box& scaled = flat ? box_ : content_;
   const Complex way = way_of(grip_),
-                half(0.5 * box_.width() * way.real(), 0.5 * box_.height() * way.imag());
+                half(0.5 * scaled.width() * way.real(), 0.5 * scaled.height() * way.imag());
   const Complex about = input.mods.alt ? center : center - half, from = center + half - about,
                 to = from + input.position - start_;
   if (way.real() != 0 && way.imag() != 0 && !input.mods.shift) {
@@ -141,12 +154,17 @@ void TransformBox::follow(const Input& input, Workspace& workspace) {
     const Affine now = map(input);
     workspace.preview = transformed(scene_, workspace.selection, now, turn_, workspace.posture);
     mark_ = mark_of(workspace, now);
-    mark_->hovered = grip_;
+    if (grip_ != kInside) mark_->hovered = grip_;
   }
   if (input.down && !input.released) return;
   active_ = false;
   if (workspace.preview)
-    workspace.commit(grip_ == kKnobNumber ? "Turn" : "Scale", *workspace.preview);
+    workspace.commit(grip_ == kKnobNumber ? "Turn"
+                     : grip_ == kInside   ? "Move"
+                                          : "Scale",
+                     *workspace.preview);
+  else if (grip_ == kInside)
+    workspace.selection.clear();
 }
 
 void TransformBox::cancel(Workspace& workspace) {

@@ -1,4 +1,4 @@
-// A box around several selected handles, which turns and scales them.
+// A box around several selected handles, which moves, turns and scales them.
 #pragma once
 
 #include <array>
@@ -42,12 +42,14 @@ class TransformBox {
   /// Finds the box and what is under the pointer.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return mark_ && mark_->hovered; }
+  /// Whether the pointer is inside of it, beside its grips: a drag from there moves.
+  bool inside() const { return inside_; }
   bool active() const { return active_; }
   const std::optional<BoxMark>& mark() const { return mark_; }
   std::string hint() const;
   void start(const Input& input, const Workspace& workspace);
-  /// Follows the pointer; on release commits. Shift lets corners go freely and turns by 15 degrees,
-  /// Alt scales about the middle.
+  /// Follows the pointer; on release commits. Shift lets corners go freely, turns by 15 degrees and
+  /// moves along an axis, Alt scales about the middle. A click inside selects nothing any more.
   void follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 
@@ -55,11 +57,11 @@ class TransformBox {
   Affine map(const Input& input);
   BoxMark mark_of(const Workspace& workspace, const Affine& map) const;
 
-  Box box_;          ///< in the plane
-  double knob_ = 0;  ///< how far above it the knob is
+  Box content_, box_;  ///< around the handles, and as it is drawn; in the plane
+  double knob_ = 0;    ///< how far above it the knob is
   std::optional<BoxMark> mark_;
   int grip_ = 0;
-  bool active_ = false, moving_ = false;
+  bool active_ = false, moving_ = false, inside_ = false;
   Complex start_px_, start_;
   double turn_ = 0;
   Scene scene_;

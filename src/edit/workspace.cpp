@@ -65,9 +65,8 @@ bool Workspace::amend(Scene scene, From from) {
 bool Workspace::require_open_layer() {
   const LayerState& layer = document.scene().layer;
   if (layer.locked || !layer.visible) {
-    const char* id = layer.locked ? "layer.lock" : "layer.visible";
-    say(std::string(layer.locked ? "The layer is locked" : "The layer is hidden") + "; " +
-        label_with_keys(action_named(id)) + " changes that.");
+    say(layer.locked ? "The layer is locked: " + key_of("layer.lock") + " unlocks it."
+                     : "The layer is hidden: " + key_of("layer.visible") + " shows it.");
   }
   return !layer.locked && layer.visible;
 }
@@ -385,7 +384,8 @@ void Workspace::open(Document opened) {
   split.reset();
   view = View::image;
   tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
-  if (!document.warning().empty()) toasts.push_back({document.warning(), true, {}});
+  // A picture that is missing is offered to be found for as long as it is.
+  if (document.without_picture().empty()) complain(document.warning());
 }
 
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {

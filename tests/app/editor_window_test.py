@@ -354,11 +354,21 @@ class EditorWindowTest(WindowCase):
             editor.key("F10")
             time.sleep(0.4)
             self.screenshot(editor, "menu")
-            for key in ("Up", "Return"):  # the first menu's last entry: Quit
+            for key in ("Down", "Up", "Return"):  # the first menu's last entry: Quit
                 editor.key(key)
+                time.sleep(0.2)
             editor.wait(lambda s: s["asking"], "the question about unsaved work")
             editor.key("Escape")
             editor.wait(lambda s: not s["asking"], "the answer")
+            editor.key("F10")
+            for key in ("Right", "Right", "Right"):  # Edit, Tools, Cage
+                editor.key(key)
+                time.sleep(0.2)
+            self.screenshot(editor, "menu-cage")
+            editor.key("Down")
+            time.sleep(0.2)
+            editor.key("Return")  # its first entry that can be chosen: Make from picture
+            editor.wait(lambda s: s["cage_points"] > 4, "a cage from the picture")
 
     def test_looks_are_chosen_by_name(self):
         with Editor(PROGRAM, [self.picture]) as editor:

@@ -702,6 +702,18 @@ class CommandLine(unittest.TestCase):
         wanted[10:30, 10:30] = (100, 0, 100, 255)
         self.assertLessEqual(numpy.abs(seen - wanted).max(), 1)
 
+    def test_pictures_are_written_in_the_format_of_their_name(self):
+        scene = os.path.join(SOURCE, "assets/gecko.json")
+        sizes = set()
+        for name, kind in [("a.png", "PNG"), ("a.jpeg", "JPEG"), ("a.webp", "WEBP"), ("a", "PNG")]:
+            self.good("render", scene, "--out", self.path(name), "--scale", "0.25")
+            with Image.open(self.path(name)) as image:
+                self.assertEqual(image.format, kind)
+                sizes.add(image.size)
+        self.assertEqual(len(sizes), 1)
+        self.bad("render", scene, "--out", self.path("a.bmp"), says="a.bmp: pictures are written as .png, .jpg or .webp")
+        self.assertFalse(os.path.exists(self.path("a.bmp")))
+
     def test_damaged_open_raster_is_said(self):
         red = Image.new("RGBA", (60, 40), (200, 0, 0, 255))
         layer = '<layer name="a" src="data/a.png"/>'

@@ -112,15 +112,16 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
     return desk.workspace.viewport.plane_at_px(mark->grip(grip));
   };
   // The right side, to twice the width.
-  const Complex right = plane(3), left = plane(7);
-  desk.drag(right, right + Complex(right.real() - left.real(), 0));
+  const Complex right = plane(3);
+  desk.drag(right, right + Complex(200, 0));
+  CHECK(desk.scene().pose.vertex(0) == desk.scene().rest.vertex(0));
   CHECK(desk.scene().pose.vertex(1).imag() == Approx(0).margin(1e-9));
   CHECK(desk.scene().pose.vertex(1).real() - desk.scene().pose.vertex(0).real() == Approx(400));
   CHECK(desk.scene().pose.vertex(2).imag() == Approx(200));
   run(action_named("edit.undo"), desk.workspace);
   CHECK(desk.scene().pose == desk.scene().rest);
   // A corner evenly, about the opposite one; freely with Shift; about the middle with Alt.
-  const Complex corner = plane(4), opposite = plane(0), half = 0.5 * (corner - opposite);
+  const Complex corner = plane(4), half(100, 100);
   desk.drag(corner, corner - half);
   CHECK(desk.scene().pose.vertex(2).real() - desk.scene().pose.vertex(0).real() == Approx(100));
   CHECK(desk.scene().pose.vertex(2).imag() - desk.scene().pose.vertex(0).imag() == Approx(100));
@@ -132,6 +133,28 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
   desk.drag(corner, corner - 0.5 * half, kAlt);
   CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(150, 150)) < 1e-9);
   CHECK(std::abs(desk.scene().pose.vertex(0) - Complex(50, 50)) < 1e-9);
+}
+
+TEST_CASE("A drag inside the box moves what is selected, and a click there lets go of it") {
+  Desk desk(kSquare);
+  const Selection all{vertex(0), vertex(1), vertex(2), vertex(3)};
+  desk.workspace.selection = all;
+  desk.drag({60, 70}, {90, 110});
+  for (Index i = 0; i < 4; ++i)
+    CHECK(std::abs(desk.scene().pose.vertex(i) - desk.scene().rest.vertex(i) - Complex(30, 40)) <
+          1e-9);
+  CHECK(desk.workspace.selection == all);
+  run(action_named("edit.undo"), desk.workspace);
+  desk.drag({60, 70}, {90, 80}, kShift);
+  CHECK(desk.scene().pose.vertex(0) - desk.scene().rest.vertex(0) == Complex(30, 0));
+  run(action_named("edit.undo"), desk.workspace);
+  desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift from the start it selects
+  CHECK(desk.scene().pose == desk.scene().rest);
+  CHECK(desk.workspace.selection == all);
+  const size_t steps = desk.workspace.document.history().index();
+  desk.click({60, 70});
+  CHECK(desk.workspace.selection.empty());
+  CHECK(desk.workspace.document.history().index() == steps);
 }
 
 TEST_CASE("The box' knob turns, pins that turn included, as far around as it is dragged") {

@@ -168,7 +168,7 @@ std::vector<Action> view_actions() {
        {{Key::f10, kShift}},
        has_content,
        ask<Request::context_menu>},
-      {"view.menu", "Open the menu", "", "View", {Key::f10}, always, ask<Request::menu>},
+      {"view.menu", "Keys go to the menu", "", "View", {Key::f10}, always, ask<Request::menu>},
       {"view.next_panel",
        "Keys go to the next panel",
        "",
