@@ -407,8 +407,9 @@ class Editor {
       status.hint = current_tool().hint(workspace_);
       if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
       if (panel_focus_.held())
-        status.hint = "Arrows, Tab, Enter; Esc: back to the canvas; " + key_of("view.next_panel") +
-                      ": the next panel";
+        status.hint =
+            "Esc leads back to the canvas; arrows, Tab and Enter go through this panel; " +
+            key_of("view.next_panel") + " to the next one";
       if (workspace_.timeline.recording) status.hint = recording_hint(workspace_.timeline);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
