@@ -344,17 +344,40 @@ std::optional<Cage> Workspace::solved_cage() const {
   return map().prepared()->deformer->solved_cage(pose_of(*shown));
 }
 
+namespace {
+
+/// The rectangle of a layer's picture where parts of it stay in it; none when the cage takes all of
+/// its corners along.
+Box what_stays(const Scene& layer, const Image* image) {
+  if (!image) return {};
+  constexpr double kOnEdge = 1e-6;  // px
+  const Points outline = outline_of(layer.rest);
+  const double width = image->width, height = image->height;
+  Box box;
+  bool stays = false;
+  for (const Complex& corner : Points{{0, 0}, {width, 0}, {width, height}, {0, height}}) {
+    box.include(corner);
+    stays = stays || outline.empty() ||
+            (winding_number(outline, corner) == 0 &&
+             nearest_on_polygon(outline, corner).distance > kOnEdge);
+  }
+  return stays ? box : Box{};
+}
+
+}  // namespace
+
 Box Workspace::content_box() const {
   Box box;
-  if (const Image* image = document.image()) {
-    box.include({0, 0});
-    box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
-  }
+  const auto include = [&](const Box& part) {
+    if (part.empty()) return;
+    box.include({part.left, part.bottom});
+    box.include({part.right, part.top});
+  };
+  include(what_stays(at_rest() ? Scene{} : document.scene(), document.image()));
   for (size_t i = 0; i < layer_count(document.scene()); ++i) {
     const Scene& layer = layer_at(document.scene(), i);
     if (i == edited_layer(document.scene()) || !layer.layer.visible) continue;
-    if (const Image* image = document.pictures().of(layer))
-      box.include({static_cast<double>(image->width), static_cast<double>(image->height)});
+    include(what_stays(layer, document.pictures().of(layer)));
     for (const Complex& z : maps.of(layer.layer.id).map().f)
       if (is_finite(z)) box.include(z);
   }

@@ -145,3 +145,31 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
     CHECK(w.toasts.back().problem);
   }
 }
+
+TEST_CASE("A box around a picture moves all of it, and the view is of where it is") {
+  Desk desk(Points{});
+  ImageReference reference = reference_in("/nowhere/blank.png");
+  const Picture blank{std::make_shared<const Image>(100, 80), "", {}};
+  reference = described(reference, blank);
+  Scene pictured;
+  pictured.image = reference;
+  desk.workspace.document.put_picture(reference, blank);
+  REQUIRE(desk.workspace.commit_layers("Add", pictured));
+  const auto corners = [&] {
+    const Box box = desk.workspace.content_box();
+    return std::pair(Complex(box.left, box.bottom), Complex(box.right, box.top));
+  };
+  CHECK(corners() == std::pair(Complex(0, 0), Complex(100, 80)));
+  run(action_named("cage.box"), desk.workspace);
+  CHECK(desk.workspace.selection.size() == 4);
+  CHECK(desk.scene().rest.vertex(2) == Complex(100, 80));
+  desk.settle();
+  desk.drag({50, 40}, {350, 140});
+  desk.workspace.update_map({});
+  desk.settle();
+  for (Index i = 0; i < 4; ++i)
+    CHECK(std::abs(desk.scene().pose.vertex(i) - desk.scene().rest.vertex(i) - Complex(300, 100)) <
+          1e-9);
+  CHECK(std::abs(corners().first - Complex(300, 100)) < 1e-3);
+  CHECK(std::abs(corners().second - Complex(400, 180)) < 1e-3);
+}
