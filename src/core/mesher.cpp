@@ -309,7 +309,8 @@ void untangle(Mesh& mesh) {
   }
 }
 
-/// Throws CGAL::Failure_exception when CGAL's invariants break.
+/// Throws CGAL::Failure_exception when CGAL's invariants break, Error when the mesh does not fill
+/// the polygon.
 Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
@@ -339,7 +340,15 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
   size_t steps = 20 * limit;  // a step may also do nothing
   while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
     mesher.step_by_step_refine_mesh();
-  return extract(cdt, corners);
+  Mesh mesh = extract(cdt, corners);
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+  constexpr double kMissing = 1e-10;  // of the square of the polygon's size
+  const double size = box_of(polygon).diagonal();
+  if (std::abs(area - std::abs(signed_area(polygon))) > kMissing * size * size)
+    nearly_touches_itself();
+  return mesh;
 }
 
 Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {

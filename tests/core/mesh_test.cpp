@@ -145,7 +145,13 @@ TEST_CASE("A needle between edges that nearly touch is meshed or refused") {
                                         {-64765.984375, -64733.984375},
                                         {-52992.00001525879, -52944.00001525879},
                                         {-52944.00001525879, -52944.00001525879},
-                                        {17200.015625, -64953.984375}}};
+                                        {17200.015625, -64953.984375}},
+                                       {{1.00390625, -7.275957614183426e-12},
+                                        {10239.999999999993, -2296.9998779296875},
+                                        {190.99999999999272, 28.999999999068677},
+                                        {-2296.99951171875, -255.9998779296875},
+                                        {-0.9921875, -32256.999877929688},
+                                        {-0.9921875, -32256.99999809265}}};
   for (const Points& polygon : needles) {
     std::optional<Mesh> mesh;
     try {
@@ -153,7 +159,12 @@ TEST_CASE("A needle between edges that nearly touch is meshed or refused") {
     } catch (const Error& error) {
       CHECK_THAT(error.what(), Catch::Contains("touches itself"));
     }
-    if (mesh)
-      for (const Triangle& t : mesh->triangles) CHECK(triangle_area(*mesh, t) > 0);
+    if (!mesh) continue;
+    double area = 0;
+    for (const Triangle& t : mesh->triangles) {
+      CHECK(triangle_area(*mesh, t) > 0);
+      area += triangle_area(*mesh, t);
+    }
+    CHECK(area == Approx(std::abs(signed_area(polygon))).epsilon(1e-8));
   }
 }
