@@ -11,35 +11,27 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
   const Path file = layer_at(workspace.document.scene(), missing.front()).image->file;
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
-  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
-                           static_cast<float>(view.top + view.height) - std::max(24 * s, above)},
-                          ImGuiCond_Always, {0.5f, 1.0f});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::Begin("Missing picture", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
-  std::error_code ignored;
-  const bool is_there = std::filesystem::exists(file, ignored);
-  ImGui::Text(
-      "\uf071  %s %s%s", file.filename().c_str(), is_there ? "cannot be read" : "is missing",
-      missing.size() > 1 ? (", and " + std::to_string(missing.size() - 1) + " more").c_str() : "");
+  const float bottom = static_cast<float>(view.top + view.height) - std::max(24 * s, above);
+  begin_card("Missing picture", {static_cast<float>(view.left + view.width / 2), bottom},
+             {0.5f, 1.0f}, scale);
+  const std::string others =
+      missing.size() > 1 ? ", and " + std::to_string(missing.size() - 1) + " more" : "";
+  ImGui::Text("\uf071  %s could not be read%s", file.filename().c_str(), others.c_str());
   ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
-  ImGui::TextDisabled("It %s in %s.", is_there ? "is" : "was", file.parent_path().c_str());
+  ImGui::TextDisabled("The scene looks for it in %s.", file.parent_path().c_str());
   ImGui::PopTextWrapPos();
   if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
-  ImGui::End();
-  ImGui::PopStyleVar(2);
+  end_card();
 }
 
 float draw_cage_offer(Workspace& workspace, double scale) {
   if (!workspace.document.image() || workspace.scene().has_cage()) return 0;
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
-  ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2),
-                           static_cast<float>(view.top + view.height) - 24 * s},
-                          ImGuiCond_Always, {0.5f, 1.0f});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::Begin("Cage offer", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  begin_card("Cage offer",
+             {static_cast<float>(view.left + view.width / 2),
+              static_cast<float>(view.top + view.height) - 24 * s},
+             {0.5f, 1.0f}, scale);
   ImGui::TextUnformatted("This picture needs a cage before it can bend.");
   // Beside each other where there is room.
   const bool row = view.width > 600 * scale;
@@ -56,8 +48,7 @@ float draw_cage_offer(Workspace& workspace, double scale) {
   ImGui::SameLine();
   ImGui::Checkbox("curved", &workspace.auto_cage_curved);
   const float height = ImGui::GetWindowHeight();
-  ImGui::End();
-  ImGui::PopStyleVar(2);
+  end_card();
   return height + 32 * s;
 }
 

@@ -19,6 +19,13 @@ class FileChooser {
 
   /// Questions that ask more than a file are always asked in this window.
   void ask(FileQuestion question, Answer answer);
+  /// The usual question for a file to read. The answer returns what is wrong with it, or "".
+  void ask_open(const std::string& title, const std::string& button,
+                std::vector<std::string> extensions,
+                std::function<std::string(const Path&)> answer) {
+    ask({FileQuestion::Mode::open, title, button, std::move(extensions), {}, false},
+        [answer = std::move(answer)](const Path& path, double) { return answer(path); });
+  }
   void start_in(const Path& folder) { browser_.start_in(folder); }
   const Path& folder() const { return browser_.folder(); }
   bool open() const { return browser_.open() || native_; }

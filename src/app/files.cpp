@@ -235,13 +235,9 @@ void Files::answer(Request request) {
       break;
     case Request::open:
       ask_then([this] {
-        dialog_.ask({FileQuestion::Mode::open,
-                     "Open a picture or a scene",
-                     "Open",
-                     and_pictures({".json", ".holomorph", ".obj"}),
-                     {},
-                     false},
-                    [this](const Path& path, double) { return open(path); });
+        dialog_.ask_open("Open a picture or a scene", "Open",
+                         and_pictures({".json", ".holomorph", ".obj"}),
+                         [this](const Path& path) { return open(path); });
       });
       break;
     case Request::save:

@@ -30,11 +30,9 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
        key_of("file.save") + " saves the scene, " + key_of("file.export") + " exports a picture"}};
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.viewport;
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(view.left) + 12 * s, static_cast<float>(view.top) + 12 * s});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8 * s);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::Begin("First steps", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+  begin_card("First steps",
+             {static_cast<float>(view.left) + 12 * s, static_cast<float>(view.top) + 12 * s},
+             {0, 0}, scale);
   ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
   const Step* next = std::ranges::find(steps, false, &Step::done);  // one at a time
   const bool all = next == std::end(steps);
@@ -49,8 +47,7 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
   }
   ImGui::PopTextWrapPos();
   const bool closed = ImGui::SmallButton(all ? "Done" : "Do not show this again");
-  ImGui::End();
-  ImGui::PopStyleVar(2);
+  end_card();
   return !closed;
 }
 

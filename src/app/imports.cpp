@@ -86,13 +86,9 @@ void Imports::ask_find_picture() {
   const std::vector<size_t> missing = document.without_picture();
   if (missing.empty()) return;
   const std::string asked = layer_at(document.scene(), missing.front()).image->file;
-  chooser_.ask({FileQuestion::Mode::open,
-                "Where is " + Path(asked).filename().string() + "?",
-                "Take this",
-                and_pictures({}),
-                {},
-                false},
-               [this, asked](const Path& path, double) { return find_picture(path, asked); });
+  chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Take this",
+                    and_pictures({}),
+                    [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
 /// The others that are missing may have been moved with it.
@@ -138,13 +134,8 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
 }
 
 void Imports::ask_svg(bool pose) {
-  chooser_.ask({FileQuestion::Mode::open,
-                pose ? "Posed cage from an SVG path" : "Cage from an SVG path",
-                "Open",
-                {".svg"},
-                {},
-                false},
-               [this, pose](const Path& path, double) { return svg(path, pose); });
+  chooser_.ask_open(pose ? "Posed cage from an SVG path" : "Cage from an SVG path", "Open",
+                    {".svg"}, [this, pose](const Path& path) { return svg(path, pose); });
 }
 
 std::string Imports::svg(const Path& path, bool pose) {
@@ -193,31 +184,18 @@ void Imports::answer(Request request) {
       ask_svg(true);
       break;
     case Request::import_outline:
-      chooser_.ask({FileQuestion::Mode::open,
-                    "Outline from an SVG path, a picture's alpha or an OBJ surface",
-                    "Open",
-                    and_pictures({".svg", ".obj"}),
-                    {},
-                    false},
-                   [this](const Path& path, double) { return outline(path); });
+      chooser_.ask_open("Outline from an SVG path, a picture's alpha or an OBJ surface", "Open",
+                        and_pictures({".svg", ".obj"}),
+                        [this](const Path& path) { return outline(path); });
       break;
     case Request::add_layer:
-      chooser_.ask({FileQuestion::Mode::open,
-                    "Add a picture, or the layers of a scene",
-                    "Add",
-                    and_pictures({".json", ".holomorph"}),
-                    {},
-                    false},
-                   [this](const Path& path, double) { return add_layer(path); });
+      chooser_.ask_open("Add a picture, or the layers of a scene", "Add",
+                        and_pictures({".json", ".holomorph"}),
+                        [this](const Path& path) { return add_layer(path); });
       break;
     case Request::replace_picture:
-      chooser_.ask({FileQuestion::Mode::open,
-                    "The picture in place of the present one",
-                    "Replace",
-                    and_pictures({}),
-                    {},
-                    false},
-                   [this](const Path& path, double) { return replace_picture(path); });
+      chooser_.ask_open("The picture in place of the present one", "Replace", and_pictures({}),
+                        [this](const Path& path) { return replace_picture(path); });
       break;
     case Request::find_picture:
       ask_find_picture();

@@ -72,22 +72,19 @@ void KeysWindow::export_keys() {
 
 void KeysWindow::import_keys() {
   stop_waiting();
-  chooser_.ask({FileQuestion::Mode::open, "Import keys", "Open", {".json"}, {}, false},
-               [this](const Path& path, double) -> std::string {
-                 try {
-                   const auto unknown =
-                       use_keys(keys_of_json(read_file(path), path.filename().string()));
-                   if (!unknown.empty())
-                     workspace_.say("Not known here and left out: " + unknown[0] +
-                                    (unknown.size() > 1
-                                         ? " and " + std::to_string(unknown.size() - 1) + " more."
-                                         : "."));
-                   changed_();
-                 } catch (const Error& error) {
-                   return error.what();
-                 }
-                 return "";
-               });
+  chooser_.ask_open("Import keys", "Open", {".json"}, [this](const Path& path) -> std::string {
+    try {
+      const auto unknown = use_keys(keys_of_json(read_file(path), path.filename().string()));
+      if (!unknown.empty())
+        workspace_.say(
+            "Not known here and left out: " + unknown[0] +
+            (unknown.size() > 1 ? " and " + std::to_string(unknown.size() - 1) + " more." : "."));
+      changed_();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  });
 }
 
 void KeysWindow::draw_row(const Action& action, float s) {

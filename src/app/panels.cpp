@@ -37,6 +37,18 @@ void tooltip_of(const char* id) {
     ImGui::SetTooltip("%s", label_with_keys(action_named(id)).c_str());
 }
 
+void begin_card(const char* name, ImVec2 at, ImVec2 pivot, double scale) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(8 * scale));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+void end_card() {
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
 bool escape_pressed() {
   bool& covered = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("covered"));
   const bool was = std::exchange(covered, ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));

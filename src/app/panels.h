@@ -74,6 +74,11 @@ void draw_context_menu(Workspace& workspace);
 /// Says what the item that was drawn last does, with its keys.
 void tooltip_of(const char* id);
 
+/// A small window over the canvas, whose middle of an edge or corner (`pivot`, in parts of it) is
+/// at a place of the window; end_card ends it.
+void begin_card(const char* name, ImVec2 at, ImVec2 pivot, double scale);
+void end_card();
+
 /// Whether Escape is for the dialog that is being drawn: not for a list that it has open. To be
 /// asked once a frame, after its items.
 bool escape_pressed();

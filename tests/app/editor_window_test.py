@@ -245,15 +245,24 @@ class EditorWindowTest(WindowCase):
             self.wait_color(editor, (225, 120), RED, "before, as far as the line")
             self.screenshot(editor, "before-after")
 
-    def test_an_export_shows_what_it_will_be_and_repeats(self):
+    def red_scene(self):
+        """A red picture of 300 x 200 px in a cage 10 px inside of it."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
-        target = os.path.join(self.work, "out.png")
-        with Editor(PROGRAM, [scene]) as editor:
-            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
-            editor.key("ctrl+a")
+        return scene
+
+    def move_right(self, editor, times):
+        """Moves all of the scene's cage by 10 px each time."""
+        editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+        editor.key("ctrl+a")
+        for _ in range(times):
             editor.key("shift+Right")
-            editor.wait(lambda s: s["modified"], "a moved picture")
+        editor.wait(lambda s: s["modified"], "a moved picture")
+
+    def test_an_export_shows_what_it_will_be_and_repeats(self):
+        target = os.path.join(self.work, "out.png")
+        with Editor(PROGRAM, [self.red_scene()]) as editor:
+            self.move_right(editor, 1)
             self.by_palette(editor, "background: the original")
             self.ask(editor, "ctrl+e")
             self.screenshot(editor, "export")
@@ -269,15 +278,9 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: os.path.exists(target), "the export once more")
 
     def test_what_is_exported_is_chosen_without_a_mouse(self):
-        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
-        self.plain("caged.png", RED)
         target = os.path.join(self.work, "out.png")
-        with Editor(PROGRAM, [scene]) as editor:
-            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
-            editor.key("ctrl+a")
-            for _ in range(4):
-                editor.key("shift+Right")  # by 40 in all
-            editor.wait(lambda s: s["modified"], "a moved picture")
+        with Editor(PROGRAM, [self.red_scene()]) as editor:
+            self.move_right(editor, 4)
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(target)
@@ -388,8 +391,7 @@ class EditorWindowTest(WindowCase):
             self.screenshot(editor, "contrast-200")
 
     def test_a_missing_picture_is_found(self):
-        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
-        self.plain("caged.png", RED)
+        scene = self.red_scene()
         away = os.path.join(self.work, "away")
         os.mkdir(away)
         shutil.move(os.path.join(self.work, "caged.png"), os.path.join(away, "renamed.png"))
