@@ -2,6 +2,7 @@
 #include "core/angle_ways.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/arithmetic.h"
 #include "core/cauchy.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
 constexpr double kRatio = 0.3;
+constexpr double kPower = 1e-8;  ///< of the shorter edge: nearer to a vertex there is only a power
 
 /// Gauss nodes for a way whose length is so many times its distance from the nearest corner.
 int nodes_for(double ratio) {
@@ -85,7 +87,13 @@ void AngleWays::plain(Complex a, Complex b, int count, double sign) {
 
 void AngleWays::graded(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
-  for (int panel = 0; panel < panels_; ++panel) {
+  // Where the power is all that is left, or rounding takes over.
+  const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
+  const double edge = std::min(std::abs(corners_[(at + 1) % n] - corner),
+                               std::abs(corners_[(at + n - 1) % n] - corner)),
+               rounding = std::numeric_limits<double>::epsilon() * std::abs(corner),
+               least = std::max(kPower * edge, 1e4 * rounding);
+  for (int panel = 0; panel < panels_ && std::abs(a - corner) > least; ++panel) {
     const Complex b = corner + kRatio * (a - corner);
     plain(a, b, kPanelNodes + more_nodes_, sign);
     a = b;

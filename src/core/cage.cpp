@@ -90,6 +90,21 @@ Cage counter_clockwise(const Cage& cage) {
   return signed_area(outline_of(cage)) < 0 ? reversed(cage) : cage;
 }
 
+Complex beside_vertex(const Cage& cage, Complex z) {
+  for (Index v = 0; v < cage.size(); ++v) {
+    if (cage.vertex(v) != z) continue;
+    const Points before = cage.controls((v + cage.size() - 1) % cage.size()),
+                 after = cage.controls(v);
+    const Complex in = before[before.size() - 2] - z, out = after[1] - z;
+    double angle = std::atan2(cross(out, in), dot(out, in));
+    if (angle <= 0) angle += 2 * kPi;
+    const double shorter = std::min(std::abs(before.front() - z), std::abs(after.back() - z)),
+                 rounding = std::numeric_limits<double>::epsilon() * std::abs(z);
+    return z + std::polar(std::max(1e-9 * shorter, 64 * rounding), std::arg(out) + 0.5 * angle);
+  }
+  return z;
+}
+
 std::vector<Index> reversed_columns(const Cage& cage) {
   Cage tagged = cage;
   Index c = 0;
@@ -242,7 +257,7 @@ std::optional<Error> speed_fault(const Cage& cage, Index segment) {
   for (size_t m = 0; m + 1 < controls.size(); ++m) slopes.push_back(controls[m + 1] - controls[m]);
   const SegmentPolynomial speed(slopes);
   std::vector<Root> stops(std::max(speed.degree(), 0));
-  if (speed.degree() > 0) speed.roots(0, stops);
+  if (speed.degree() > 0) speed.roots(Complex(0), stops);
   constexpr double kNear = 1e-5;
   for (const Root& stop : stops) {
     const double t = stop.s.real();

@@ -69,6 +69,10 @@ Cage reversed(const Cage& cage);
 /// The same loop run through counter-clockwise.
 Cage counter_clockwise(const Cage& cage);
 
+/// z itself but, at a vertex of a counter-clockwise cage, a point inside that is 1e-9 of the
+/// shorter edge away: where derivatives that are infinite at vertices are looked at.
+Complex beside_vertex(const Cage& cage, Complex z);
+
 /// For each control point of the cage its number among those of the reversed cage.
 std::vector<Index> reversed_columns(const Cage& cage);
 

@@ -1,4 +1,5 @@
-// Stable evaluation of Bernstein moments M_n[m] = integral_0^1 B_m^N(t) / (t - s)^(n+1) dt.
+// One segment: stable evaluation of Bernstein moments M_n[m] = integral_0^1 B_m^N(t) / (t -
+// s)^(n+1) dt.
 //
 // Near an edge (small ellipse |s| + |q|) degree raising from one logarithm is stable; far from it
 // the same sums cancel and Gauss-Legendre quadrature converges fast. Together: 1e-14.
@@ -6,8 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <optional>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
@@ -32,16 +31,7 @@ struct View {
 
 View view_of(const Root& root, bool on_edge) {
   const Complex s = on_edge ? root.s.real() : root.s, q = on_edge ? root.q.real() : root.q;
-  return {s,
-          q,
-          {0.5 * std::log(std::norm(q) / std::norm(s)),
-           on_edge ? kPi : std::atan2(cross(-s, q), dot(-s, q))}};
-}
-
-/// Whether a root lies on the open segment, as well as rounding of z and of the curve can tell.
-bool is_on_segment(const Root& root, Complex slope, double magnitude) {
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * magnitude / std::abs(slope);
-  return std::abs(root.s.imag()) <= rounding && root.s.real() > 0 && root.q.real() > 0;
+  return {s, q, {0.5 * std::log(std::norm(q) / std::norm(s)), on_edge ? kPi : angle_of(root)}};
 }
 
 /// Degree raising of the moments, all orders up to `order` at once: row n holds M_n.
@@ -210,157 +200,80 @@ Complex cauchy_factor(int order) {
   return factor;
 }
 
-/// The coordinates of a segment's control points (of a basis of `degree`) at z. `own` is the
-/// parameter that z is known to have on this segment, or none.
-VectorXc coordinates_of(const SegmentPolynomial& segment, int degree, Complex z, int order,
-                        std::optional<double> own) {
-  std::vector<Root> roots(segment.degree());
+/// Without the poles that a segment's first and last control points bring at its own ends.
+///
+/// By parts: integral of B' / (t - s) is what is left of the integral of B / (t - s)^2.
+void drop_poles(const View& view, Ends ends, MatrixXc& moments) {
+  const int order = static_cast<int>(moments.rows()) - 1,
+            degree = static_cast<int>(moments.cols()) - 1;
+  if (order == 0 || !(ends.start || ends.end)) return;
+  const MatrixXc lower = moments_at(view, degree - 1, order - 1);
+  for (int n = 1; n <= order; ++n) {
+    const double factor = static_cast<double>(degree) / n;
+    if (ends.start) moments(n, 0) = -factor * lower(n - 1, 0);
+    if (ends.end) moments(n, degree) = factor * lower(n - 1, degree - 1);
+  }
+}
+
+/// Such a pole for an end of the segment, whose difference from z is given.
+Complex pole_at(Complex from_end, int order) {
+  Complex power = 1;
+  for (int n = 0; n < order; ++n) power = times(power, inverse(from_end));
+  return power / static_cast<double>(order);
+}
+
+}  // namespace
+
+double angle_of(const Root& root) {
+  const double left = std::norm(root.s) <= std::norm(root.q) ? root.s.imag() : -root.q.imag();
+  return std::atan2(left, dot(-root.s, root.q));
+}
+
+VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const FinePoint& z,
+                             int order, const Contact* own, Ends without_poles) {
+  std::vector<Root> roots(static_cast<size_t>(segment.degree()));
   segment.roots(z, roots);
+  auto on = roots.end();
   if (own) {  // the nearest root is this parameter, exactly
-    auto nearest = std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
-      return std::norm(x.s - *own) < std::norm(y.s - *own);
+    on = std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
+      return std::norm(x.s - own->s) < std::norm(y.s - own->s);
     });
-    *nearest = {*own, 1 - *own};
+    *on = {own->s, own->q};
   }
   VectorXc sum = VectorXc::Zero(degree + 1);
-  if (!own && has_twins(roots, order) && add_quadrature(segment, roots, z, 0, 1, order, sum))
+  if (!own && has_twins(roots, order) &&
+      add_quadrature(segment, roots, z.plain(), 0, 1, order, sum)) {
+    if (order > 0 && without_poles.start) sum[0] -= pole_at(segment.start() - z, order);
+    if (order > 0 && without_poles.end) sum[degree] += pole_at(segment.end() - z, order);
     return cauchy_factor(order) * sum;
+  }
   sum.setZero();
-  for (const Root& root : roots) {
-    const bool on =
-        (own && root.s == Complex(*own)) ||
-        is_on_segment(root, segment.derivative(root), 2 * segment.magnitude() + std::abs(z));
-    add_branch(segment, root, moments_at(view_of(root, on), degree, order), sum);
+  for (auto root = roots.begin(); root != roots.end(); ++root) {
+    const View view = view_of(*root, root == on);
+    MatrixXc moments = moments_at(view, degree, order);
+    drop_poles(view, without_poles, moments);
+    add_branch(segment, *root, moments, sum);
   }
   return cauchy_factor(order) * sum;
 }
+
+VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order, bool on_edge) {
+  const std::array<Complex, 2> ends{a, b};
+  const SegmentPolynomial segment(ends);
+  if (!on_edge) return segment_coordinates(segment, degree, z, order);
+  Root root;
+  segment.roots(z, std::span(&root, 1));
+  const Contact own{0, root.s.real(), root.q.real(), z};
+  return segment_coordinates(segment, degree, z, order, &own);
+}
+
+namespace {
 
 double harmonic_number(int n) {
   double sum = 0;
   for (int k = 1; k <= n; ++k) sum += 1.0 / k;
   return sum;
 }
-
-/// One row of coordinates for a counter-clockwise cage. `own` is where on the boundary z is known
-/// to lie, if it is; z may also be a vertex.
-class RowBuilder {
- public:
-  RowBuilder(const Cage& cage, int order) : cage_(cage), order_(order) {
-    for (Index e = 0; e < cage.size(); ++e) {
-      offsets_.push_back(cage.control_offset(e));
-      segments_.emplace_back(cage.controls(e));
-    }
-  }
-
-  VectorXc row(Complex z, std::optional<BoundaryPoint> own) const {
-    const Index n = cage_.size();
-    VectorXc row = VectorXc::Zero(cage_.control_count());
-    for (Index v = 0; v < n; ++v)
-      if (cage_.vertex(v) == z) return vertex_row(v, row);
-    for (Index e = 0; e < n; ++e)
-      add(row, e,
-          coordinates_of(segments_[e], cage_.degree(e), z, order_,
-                         own && own->segment == e ? std::optional(own->t) : std::nullopt));
-    if (order_ == 2) set_second_derivatives(row, z);
-    return row;
-  }
-
- private:
-  Index column(Index segment, int m) const {
-    return m < cage_.degree(segment) ? offsets_[segment] + m
-                                     : offsets_[(segment + 1) % cage_.size()];
-  }
-
-  void add(VectorXc& row, Index segment, const VectorXc& values) const {
-    for (int m = 0; m <= cage_.degree(segment); ++m) row[column(segment, m)] += values[m];
-  }
-
-  VectorXc vertex_row(Index vertex, VectorXc& row) const {
-    const Index n = cage_.size(), before = (vertex + n - 1) % n;
-    if (order_ > 0) {
-      row.setConstant(Complex(std::numeric_limits<double>::quiet_NaN(),
-                              std::numeric_limits<double>::quiet_NaN()));
-      return row;
-    }
-    const Complex z = cage_.vertex(vertex);
-    for (Index e = 0; e < n; ++e)
-      if (e != vertex && e != before)
-        add(row, e, coordinates_of(segments_[e], cage_.degree(e), z, 0, {}));
-    const VertexLimit limit = vertex_limit(segments_[before], cage_.degree(before),
-                                           segments_[vertex], cage_.degree(vertex));
-    add(row, before, limit.before);
-    add(row, vertex, limit.own);
-    return row;
-  }
-
-  /// Between two straight edges the second derivative is rational: no cancellation at all.
-  void set_second_derivatives(VectorXc& row, Complex z) const {
-    const Index n = cage_.size();
-    for (Index v = 0; v < n; ++v) {
-      if (cage_.degree(v) != 1 || cage_.degree((v + n - 1) % n) != 1) continue;
-      const Complex before = cage_.vertex(v - 1), after = cage_.vertex(v + 1);
-      const Complex product = times(times(before - z, cage_.vertex(v) - z), after - z);
-      row[offsets_[v]] = times(after - before, inverse(2 * kPi * times(kI, product)));
-    }
-  }
-
-  const Cage& cage_;
-  int order_;
-  std::vector<Index> offsets_;
-  std::vector<SegmentPolynomial> segments_;
-};
-
-template <class RowOf>
-MatrixXc rows(const Cage& cage, Index count, int order, RowOf row_of) {
-  if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
-  MatrixXc result(count, cage.control_count());
-  const bool clockwise = signed_area(outline_of(cage)) < 0;
-  const Cage turned = clockwise ? reversed(cage) : Cage{};
-  const Cage& oriented = clockwise ? turned : cage;
-  const RowBuilder builder(oriented, order);
-  for (Index i = 0; i < count; ++i) result.row(i) = row_of(builder, i, clockwise).transpose();
-  if (!clockwise) return result;
-  MatrixXc unturned(result.rows(), result.cols());
-  const std::vector<Index> column = reversed_columns(cage);
-  for (Index c = 0; c < result.cols(); ++c) unturned.col(c) = result.col(column[c]);
-  return unturned;
-}
-
-}  // namespace
-
-bool contains(const Cage& cage, Complex z) {
-  double turns = 0;
-  std::vector<Root> roots;
-  for (Index e = 0; e < cage.size(); ++e) {
-    if (cage.vertex(e) == z) return true;
-    const SegmentPolynomial segment(cage.controls(e));
-    roots.resize(segment.degree());
-    segment.roots(z, roots);
-    for (const Root& root : roots) {
-      if (is_on_segment(root, segment.derivative(root), 2 * segment.magnitude() + std::abs(z)))
-        return true;
-      turns += view_of(root, false).log.imag();
-    }
-  }
-  return std::abs(turns) > kPi;
-}
-
-VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, Complex z, int order) {
-  return coordinates_of(segment, degree, z, order, {});
-}
-
-VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order, bool on_edge) {
-  const std::array<Complex, 2> ends{a, b};
-  const SegmentPolynomial segment(ends);
-  Root root;
-  segment.roots(z, std::span(&root, 1));
-  const bool on = on_edge || is_on_segment(root, b - a, std::abs(a) + std::abs(b) + std::abs(z));
-  VectorXc sum = VectorXc::Zero(degree + 1);
-  add_branch(segment, root, moments_at(view_of(root, on), degree, order), sum);
-  return cauchy_factor(order) * sum;
-}
-
-namespace {
 
 /// The moments of a segment's roots at its own end, without that end.
 VectorXc other_roots(const SegmentPolynomial& segment, int degree, bool at_start) {
@@ -394,21 +307,6 @@ VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
                    harmonic_number(degree_before) - harmonic_number(degree)) /
                   turn;
   return limit;
-}
-
-MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
-  return rows(cage, static_cast<Index>(points.size()), order,
-              [&](const RowBuilder& builder, Index i, bool) { return builder.row(points[i], {}); });
-}
-
-MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order) {
-  return rows(cage, static_cast<Index>(points.size()), order,
-              [&](const RowBuilder& builder, Index i, bool clockwise) {
-                const auto [segment, t] = points[i];
-                const Complex z = t == 0 ? cage.vertex(segment) : position_of(cage, points[i]);
-                return builder.row(
-                    z, clockwise ? BoundaryPoint{cage.size() - 1 - segment, 1 - t} : points[i]);
-              });
 }
 
 }  // namespace holomorph

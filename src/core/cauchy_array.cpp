@@ -1,13 +1,12 @@
-// Blocks of points times segments by the kernels; the stable formula for points on a segment
-// itself.
+// Blocks of points times segments by the kernels; the stable formula for points on the boundary.
 #include "core/cauchy_array.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "core/cauchy.h"
 #include "core/cauchy_kernel.h"
+#include "core/cauchy_rows.h"
 #include "core/error.h"
 
 namespace holomorph {
@@ -43,7 +42,11 @@ class BlockFiller {
  public:
   BlockFiller(const Cage& cage, double farthest, int order, const kernel::Table& table,
               PlanarMatrix<T>& out)
-      : cage_(cage), order_(order), table_(table), out_(out) {
+      : cage_(cage),
+        rows_(cage, order, CauchyRows::AtVertices::from_inside),
+        order_(order),
+        table_(table),
+        out_(out) {
     for (Index e = 0; e < cage.size(); ++e) {
       offsets_.push_back(cage.control_offset(e));
       segments_.emplace_back(cage.controls(e));
@@ -61,7 +64,7 @@ class BlockFiller {
     const Index count = std::min<Index>(kernel::kBlock, static_cast<Index>(points.size()) - first);
     here_ = points.subspan(first, count);
     take_points();
-    at_vertex_.fill(false);
+    needs_patch_.fill(false);
     // A vertex's column is the end of the segment before it and the start of the one after.
     const Index n = cage_.size();
     moments_of(n - 1, moments_[1]);
@@ -74,7 +77,7 @@ class BlockFiller {
       for (int m = 1; m < cage_.degree(e); ++m) write(own, m, nullptr, 0, first, offsets_[e] + m);
     }
     for (Index i = 0; i < count; ++i)
-      if (at_vertex_[i]) finish_vertex_row(here_[i], first + i);
+      if (needs_patch_[i]) patch_row(here_[i], first + i);
   }
 
  private:
@@ -103,7 +106,7 @@ class BlockFiller {
     if (!segments_[e].is_straight()) return curved_moments_of(e, moments);
     if (!table_.edge_moments(edges_[e], points_, cage_.degree(e), order_, moments)) return;
     for (size_t i = 0; i < here_.size(); ++i)
-      if (moments.on_edge[i] != 0) set_exactly(e, i, moments);
+      if (moments.on_edge[i] != 0) needs_patch_[i] = true;
   }
 
   /// Each root of a curve is a straight edge's s; those that need care are left to the exact path.
@@ -139,56 +142,46 @@ class BlockFiller {
       if (careful[i]) set_exactly(e, i, moments);
   }
 
-  /// Roots on the segment within rounding or nearly double.
+  /// Whether a root may be on the segment or is near an end.
+  static bool is_near(const Root& root) {
+    constexpr double kOn = 1e-6, kEnd = 1e-4;
+    return (std::abs(root.s.imag()) < kOn && root.s.real() > -kOn && root.q.real() > -kOn) ||
+           std::norm(root.s) < kEnd * kEnd || std::norm(root.q) < kEnd * kEnd;
+  }
+
+  /// Near the segment or nearly double.
   static bool needs_care(std::span<const Root> roots) {
     constexpr double kTwins = 0.05;
     for (size_t r = 0; r < roots.size(); ++r) {
-      const Root& root = roots[r];
-      if (std::abs(root.s.imag()) < 1e-6 && root.s.real() > -1e-6 && root.q.real() > -1e-6)
-        return true;
+      if (is_near(roots[r])) return true;
       for (size_t other = 0; other < r; ++other)
-        if (std::norm(root.s - roots[other].s) < kTwins * kTwins) return true;
+        if (std::norm(roots[r].s - roots[other].s) < kTwins * kTwins) return true;
     }
     return false;
   }
 
   void set_exactly(Index e, size_t i, kernel::Moments& moments) {
-    const Complex z = here_[i];
-    VectorXc values = VectorXc::Zero(cage_.degree(e) + 1);
-    if (z == cage_.vertex(e) || z == cage_.vertex(e + 1))
-      at_vertex_[i] = true;  // finish_vertex_row adds the limit of both its segments
-    else
-      values = segment_coordinates(segments_[e], cage_.degree(e), z, order_);
+    needs_patch_[i] = true;
+    const VectorXc values = segment_coordinates(segments_[e], cage_.degree(e), here_[i], order_);
     for (int m = 0; m <= cage_.degree(e); ++m) {
       moments.re[m][i] = values[m].real();
       moments.im[m][i] = values[m].imag();
     }
   }
 
-  /// The limit at a vertex: its two segments have been left out so far.
-  void finish_vertex_row(Complex z, Index row) {
-    if (order_ > 0) {
-      out_.re.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
-      out_.im.row(row).setConstant(std::numeric_limits<T>::quiet_NaN());
-      return;
+  /// On the boundary and next to vertices the segments must be seen from one place.
+  void patch_row(Complex z, Index row) {
+    const auto patch = rows_.patch(z);
+    if (!patch) return;
+    for (Index k = 0; k < patch->values.size(); ++k) {
+      const Index column = (patch->first + k) % out_.cols();
+      out_.re(row, column) = static_cast<T>(patch->values[k].real());
+      out_.im(row, column) = static_cast<T>(patch->values[k].imag());
     }
-    const Index n = cage_.size();
-    Index vertex = 0;
-    while (cage_.vertex(vertex) != z) ++vertex;
-    const Index before = (vertex + n - 1) % n;
-    const VertexLimit limit = vertex_limit(segments_[before], cage_.degree(before),
-                                           segments_[vertex], cage_.degree(vertex));
-    const auto add = [&](Index segment, int m, Complex value) {
-      const Index column =
-          m < cage_.degree(segment) ? offsets_[segment] + m : offsets_[(segment + 1) % n];
-      out_.re(row, column) += static_cast<T>(value.real());
-      out_.im(row, column) += static_cast<T>(value.imag());
-    };
-    for (int m = 0; m <= cage_.degree(before); ++m) add(before, m, limit.before[m]);
-    for (int m = 0; m <= cage_.degree(vertex); ++m) add(vertex, m, limit.own[m]);
   }
 
   const Cage& cage_;
+  CauchyRows rows_;
   int order_;
   const kernel::Table& table_;
   PlanarMatrix<T>& out_;
@@ -202,15 +195,19 @@ class BlockFiller {
   std::span<const Complex> here_;
   kernel::Moments moments_[2]{};
   kernel::Block points_{};
-  std::array<bool, kernel::kBlock> at_vertex_{};
+  std::array<bool, kernel::kBlock> needs_patch_{};
 };
 
 /// The exact path for what the kernels do not integrate.
 template <class T>
 void exactly(const Cage& cage, std::span<const Complex> points, int order, PlanarMatrix<T>& out) {
-  const MatrixXc exact = cauchy_coordinates(cage, points, order);
-  out.re = exact.real().template cast<T>();
-  out.im = exact.imag().template cast<T>();
+  const CauchyRows rows(cage, order, CauchyRows::AtVertices::from_inside);
+  out.resize(static_cast<Index>(points.size()), cage.control_count());
+  for (Index i = 0; i < out.rows(); ++i) {
+    const VectorXc row = rows.row(points[static_cast<size_t>(i)]);
+    out.re.row(i) = row.real().template cast<T>();
+    out.im.row(i) = row.imag().template cast<T>();
+  }
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ struct alignas(64) Moments {
 };
 
 /// Fills `out` for the points of a block: a basis of degree 1 to kMostDegree, order 0 or 1. Returns
-/// whether some points may be on the edge or its end points; then on_edge marks them with 1 and
-/// their moments are not meaningful.
+/// whether some points may be on the edge or next to its ends; then on_edge marks them with 1 and
+/// their moments need not be meaningful.
 using EdgeMoments = bool (*)(const Edge& edge, const Block& block, int degree, int order,
                              Moments& out);
 

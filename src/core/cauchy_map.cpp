@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/quadrature.h"
@@ -39,31 +40,36 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
     Points d;
     for (int m = 0; m <= rest.degree(e); ++m)
       d.push_back(displacement[(rest.control_offset(e) + m) % displacement.size()]);
+    const Points backwards(d.rbegin(), d.rend());
     Segment segment{
         SegmentPolynomial(rest.controls(e)),
         powers_about_middle(d),
+        powers_about_start(d),
+        powers_about_start(backwards),
         {at_nodes(d, kRules[0].nodes), at_nodes(d, kRules[1].nodes), at_nodes(d, kRules[2].nodes)},
+        0,
         0,
         false};
     for (const Complex& by : d) segment.is_moved = segment.is_moved || by != Complex(0);
     segments_.push_back(std::move(segment));
   }
-  double step = 1e-12 * box_of(outline_of(rest)).diagonal();
-  for (const Segment& segment : segments_)  // a step that rounding does not swallow
-    step = std::max(step, 1e-14 * segment.curve.magnitude());
   for (Index e = 0; e < rest.size(); ++e) {
-    const Segment& before = segments_[(e + rest.size() - 1) % rest.size()];
-    const Complex in = -before.curve.derivative({1, 0}),
-                  out = segments_[e].curve.derivative({0, 1});
+    const Segment& before = segments_[static_cast<size_t>((e + rest.size() - 1) % rest.size())];
+    Segment& own = segments_[static_cast<size_t>(e)];
+    const Complex in = -before.curve.derivative({1, 0}), out = own.curve.derivative({0, 1});
     double angle = std::atan2(cross(out, in), dot(out, in));
     if (angle <= 0) angle += 2 * kPi;
-    segments_[e].inwards = step * std::polar(1.0, std::arg(out) + 0.5 * angle);
+    const double shorter = std::min(std::abs(own.curve.end() - own.curve.start()),
+                                    std::abs(before.curve.end() - before.curve.start()));
+    own.inwards = 1e-12 * shorter * std::polar(1.0, std::arg(out) + 0.5 * angle);
+    own.reach = 0.05 * shorter;
   }
 }
 
 // With v_s = s - q = -W:  integral of d / (v - v_s) over [-1, 1] = d(v_s) L + R(v_s), where
 // R = sum d_k sum_{j even < k} 2 / (j + 1) v_s^{k-1-j}. Derivatives are in s: dv_s / ds = 2.
-CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, Complex log) {
+CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, Complex log,
+                                     Ends without_poles) {
   const Complex v = root.s - root.q;
   const double size = std::norm(v);
   for (size_t r = 0; r < kRules.size(); ++r) {
@@ -77,6 +83,8 @@ CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, C
       sum.f += part;
       sum.df += times(part, kernel);
     }
+    if (without_poles.start) sum.df += times(segment.from_start[0], inverse(root.s));
+    if (without_poles.end) sum.df += times(segment.from_end[0], inverse(root.q));
     return sum;
   }
   // Horner's scheme for d and R together: R_{k} = v R_{k+1} + (the even part of what follows).
@@ -96,14 +104,23 @@ CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, C
       rest_slope += 2.0 / static_cast<double>(j + 1) * e_slope;
     }
   }
-  const Complex log_slope = -(inverse(root.q) + inverse(root.s));  // in s
-  return {times(d, log) + rest, 2.0 * (times(slope, log) + rest_slope) + times(d, log_slope)};
+  // d times the logarithm's slope, -1 / s - 1 / q: (d(s) - d(0)) / s is left of a pole.
+  const auto over = [&](const Points& powers, Complex x, bool without_pole) {
+    if (!without_pole) return times(d, inverse(x));
+    Complex quotient = 0;
+    for (size_t k = powers.size() - 1; k > 0; --k) quotient = times(quotient, x) + powers[k];
+    return quotient;
+  };
+  const Complex poles = over(segment.from_start, root.s, without_poles.start) +
+                        over(segment.from_end, root.q, without_poles.end);
+  return {times(d, log) + rest, 2.0 * (times(slope, log) + rest_slope) - poles};
 }
 
-CauchySum::Value CauchySum::at(Complex z) const {
+CauchySum::Value CauchySum::at(Complex point) const {
+  FinePoint z = point;
   for (const Segment& segment : segments_)
-    if (segment.curve.start() == z) {
-      z += segment.inwards;
+    if (segment.curve.start() == point) {
+      z.offset = segment.inwards;
       break;
     }
   Value sum{0, 0};
@@ -111,13 +128,19 @@ CauchySum::Value CauchySum::at(Complex z) const {
   const Segment* across = nullptr;
   Root crossed;
   std::array<Root, kHighestDegree> roots;
-  for (const Segment& segment : segments_) {
+  const auto is_near = [&](const Segment& segment) {
+    return std::norm(segment.curve.start() - z) < segment.reach * segment.reach;
+  };
+  bool near_start = is_near(segments_[0]);
+  for (size_t e = 0; e < segments_.size(); ++e) {
+    const Segment& segment = segments_[e];
+    const bool near_end = is_near(segments_[(e + 1) % segments_.size()]);
+    const Ends near{std::exchange(near_start, near_end), near_end};
     const std::span<Root> found(roots.data(), static_cast<size_t>(segment.curve.degree()));
     segment.curve.roots(z, found);
     for (Root& root : found) {
       const Complex slope = segment.curve.derivative(root);
-      const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)),
-                        std::atan2(cross(-root.s, root.q), dot(-root.s, root.q)));
+      const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)), angle_of(root));
       turns += log.imag();
       // Where a curve goes on smoothly, its neighbours' extensions come as near: beyond its ends
       // a segment is as far as its end.
@@ -129,7 +152,7 @@ CauchySum::Value CauchySum::at(Complex z) const {
         crossed = root;
       }
       if (!segment.is_moved) continue;
-      const Value part = integral(segment, root, log);
+      const Value part = integral(segment, root, log, near);
       sum.f += part.f;
       sum.df += times(part.df, inverse(slope));
     }

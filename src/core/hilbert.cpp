@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "core/cauchy.h"
 #include "core/cauchy_array.h"
 #include "core/dense.h"
 #include "core/quadrature.h"
@@ -259,18 +258,7 @@ MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int ord
 }
 
 MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) const {
-  MatrixXc cauchy = as_complex(planar_coordinates<double>(boundary_, points, order));
-  if (order > 0) {  // where pieces join, from just inside
-    constexpr double kInside = 1e-7;
-    for (Index e = 0; e < boundary_.size(); ++e)
-      for (size_t i = 0; i < points.size(); ++i) {
-        if (points[i] != boundary_.vertex(e)) continue;
-        const Complex way = boundary_.controls(e)[1] - boundary_.vertex(e),
-                      beside = points[i] + kInside * kI * way;
-        cauchy.row(static_cast<Index>(i)) =
-            cauchy_coordinates(boundary_, std::span<const Complex>(&beside, 1), order);
-      }
-  }
+  const MatrixXc cauchy = as_complex(planar_coordinates<double>(boundary_, points, order));
   Index column = cauchy.cols(), powers = 0;
   for (const Vertex& vertex : vertices_) powers += static_cast<Index>(vertex.powers.size());
   MatrixXc basis(cauchy.rows(), cauchy.cols() + powers);

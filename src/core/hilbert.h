@@ -41,7 +41,8 @@ class HilbertCoordinates {
   double error() const { return error_; }
 
   /// Row i holds the coordinates at points[i], or their derivatives with order 1; points must be
-  /// inside or on the boundary, but at no vertex of the cage. Imaginary constants are arbitrary.
+  /// inside or on the boundary. At a vertex of the cage derivatives are not finite, nor are
+  /// coordinates whose real parts jump there. Imaginary constants are arbitrary.
   /// The sums in `linear` are 1, z and -i z to rounding. Cost: a row of Cauchy coordinates and
   /// `unknowns` multiplications for each column.
   MatrixXc at(std::span<const Complex> points, int order = 0) const;

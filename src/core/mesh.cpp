@@ -2,6 +2,9 @@
 #include "core/mesh.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "core/error.h"
 
 namespace holomorph {
 
@@ -22,6 +25,23 @@ std::optional<Location> locate(const Mesh& mesh, std::span<const Complex> positi
     if (inside) return Location{t, {wa / area, wb / area, wc / area}};
   }
   return {};
+}
+
+Location locate_near(const Mesh& mesh, Complex z) {
+  if (const auto inside = locate(mesh, mesh.vertices, z)) return *inside;
+  Location best;
+  double least = -std::numeric_limits<double>::infinity();
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [i, j, k] = mesh.triangles[t];
+    const Complex a = mesh.vertices[i] - z, b = mesh.vertices[j] - z, c = mesh.vertices[k] - z;
+    const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
+    const double here = std::min({wa, wb, wc}) / area;
+    if (!(area > 0) || !(here > least)) continue;
+    least = here;
+    best = {static_cast<int>(t), {wa / area, wb / area, wc / area}};
+  }
+  check(best.triangle >= 0, "locate_near: a mesh with triangles");
+  return best;
 }
 
 Points derivative_samples(const Mesh& mesh) {

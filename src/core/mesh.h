@@ -51,6 +51,10 @@ struct Location {
 /// `positions`; folded triangles count too. Cost: linear in the triangles, about 1 ns each.
 std::optional<Location> locate(const Mesh& mesh, std::span<const Complex> positions, Complex z);
 
+/// The same over the mesh itself, and for points outside the triangle beyond whose sides they are
+/// least, in barycentric coordinates. The mesh must have triangles.
+Location locate_near(const Mesh& mesh, Complex z);
+
 /// Where derivatives are sampled: each vertex itself, but cage vertices, where f' is in general
 /// infinite, moved to the mean of the centres of the triangles around them.
 Points derivative_samples(const Mesh& mesh);

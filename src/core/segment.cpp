@@ -33,7 +33,7 @@ struct Value {
 };
 
 /// The polynomial less z, and its derivative, by Horner's scheme.
-Value horner(const Points& powers, Complex z, Complex x) {
+Value horner(const Points& powers, const FinePoint& z, Complex x) {
   Value at{powers.back(), 0};
   for (size_t k = powers.size() - 1; k-- > 0;) {
     at.slope = times(at.slope, x) + at.value;
@@ -44,6 +44,10 @@ Value horner(const Points& powers, Complex z, Complex x) {
 
 }  // namespace
 
+Points powers_about_start(std::span<const Complex> controls) {
+  return powers_of(Points(controls.begin(), controls.end()));
+}
+
 Points powers_about_middle(std::span<const Complex> controls) {
   return powers_of(split(controls, 0.5).after);
 }
@@ -51,6 +55,7 @@ Points powers_about_middle(std::span<const Complex> controls) {
 SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
   check(!controls.empty() && controls.size() <= kHighestDegree + 1, "a segment of degree 0 to 8");
   for (const Complex& z : controls) magnitude_ = std::max(magnitude_, std::abs(z));
+  box_ = box_of(controls);
   Points backwards(controls.rbegin(), controls.rend());
   middle_ = powers_about_middle(controls);
   start_ = powers_of(Points(controls.begin(), controls.end()));
@@ -73,7 +78,7 @@ SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
   end_[1] = -start_[1];
 }
 
-void SegmentPolynomial::refine(Complex z, Root& root) const {
+void SegmentPolynomial::refine(const FinePoint& z, Root& root) const {
   const bool from_start = std::norm(root.s) <= std::norm(root.q);
   Complex& x = from_start ? root.s : root.q;
   const Points& powers = from_start ? start_ : end_;
@@ -87,12 +92,13 @@ void SegmentPolynomial::refine(Complex z, Root& root) const {
   (from_start ? root.q : root.s) = 1.0 - x;
 }
 
-void SegmentPolynomial::roots(Complex z, std::span<Root> out, std::span<const Root> near) const {
+void SegmentPolynomial::roots(const FinePoint& z, std::span<Root> out,
+                              std::span<const Root> near) const {
   const int n = degree();
   if (n == 0) return;
   if (n == 1) {
     const Complex unit = quotient(1.0, start_[1]);
-    out[0] = {times(z - start_[0], unit), times(end_[0] - z, unit)};
+    out[0] = {times(-(start_[0] - z), unit), times(end_[0] - z, unit)};
     return;
   }
   std::array<Complex, kHighestDegree> v;
@@ -137,14 +143,18 @@ void SegmentPolynomial::taylor(const Root& at, std::span<Complex> out) const {
   }
 }
 
-Complex SegmentPolynomial::at(const Root& parameter) const {
+FinePoint SegmentPolynomial::fine_at(const Root& parameter) const {
   const bool from_start = std::norm(parameter.s) <= std::norm(parameter.q);
-  return horner(from_start ? start_ : end_, 0, from_start ? parameter.s : parameter.q).value;
+  const Points& powers = from_start ? start_ : end_;
+  const Complex x = from_start ? parameter.s : parameter.q;
+  Complex offset = 0;
+  for (size_t k = powers.size() - 1; k > 0; --k) offset = times(offset + powers[k], x);
+  return {powers[0], offset};
 }
 
 Complex SegmentPolynomial::derivative(const Root& at) const {
   const bool from_start = std::norm(at.s) <= std::norm(at.q);
-  const Value value = horner(from_start ? start_ : end_, 0, from_start ? at.s : at.q);
+  const Value value = horner(from_start ? start_ : end_, Complex(0), from_start ? at.s : at.q);
   return from_start ? value.slope : -value.slope;
 }
 

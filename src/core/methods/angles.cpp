@@ -78,9 +78,9 @@ class AnglePoints final : public PointMap {
     VectorXc nodes = VectorXc::Zero(ways.nodes());
     nodes[from] = at_vertices_[from];
     ways.integrate(slopes, map_.exponents(placed_.theta), nodes);
-    const bool corner = std::ranges::find(mesh_->cage_vertices, node) != mesh_->cage_vertices.end();
-    const Complex slope = corner ? NAN : slopes_at({&z, 1})[0];
-    return {placed_.scale * nodes[node] + placed_.move, placed_.scale * slope, 0};
+    const Complex beside = beside_vertex(map_.coordinates().cage(), z);
+    return {placed_.scale * nodes[node] + placed_.move, placed_.scale * slopes_at({&beside, 1})[0],
+            0};
   }
 
  private:
@@ -136,9 +136,11 @@ class AnglesDeformer final : public Deformer {
     VectorXc f;
     map_.map(placed.theta, f, wanted.draft);
     out.f = (placed.scale * f).array() + placed.move;
-    if (!out.f.allFinite())
+    const Index lost = count - out.f.array().isFinite().count();
+    if (lost > 0 && lost == count)
       throw Error(ErrorKind::bad_input,
                   "the angles bend the picture beyond all numbers; turn the corners less");
+    if (lost > 0) say(out, std::to_string(lost) + " points are bent beyond all numbers");
     if (!wanted.derivatives || count == 0) return;
     if (slopes_.rows() != count) slopes_ = slopes();
     const VectorXc theta = placed.theta.cast<Complex>();
@@ -218,13 +220,10 @@ class AnglesDeformer final : public Deformer {
     out.note += (out.note.empty() ? "" : "; ") + text;
   }
 
-  /// H at the derivative samples; at vertices of the cage, where f' may be infinite, from beside.
+  /// H at the derivative samples.
   PlanarMatrix<double> slopes() const {
     Points places = rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
-    constexpr double kBeside = 0.02;  // of a segment
-    for (Complex& z : places)
-      for (Index j = 0; j < boundary_.cage.size(); ++j)
-        if (z == boundary_.cage.vertex(j)) z = position_of(boundary_.cage, {j, kBeside});
+    for (Complex& z : places) z = beside_vertex(boundary_.cage, z);
     const MatrixXc rows = map_.rows(places);
     PlanarMatrix<double> slopes(rows.rows(), rows.cols());
     slopes.re = rows.real();

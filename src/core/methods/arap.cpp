@@ -159,30 +159,12 @@ class ArapDeformer final : public Deformer {
     out.fzbar.resize(count);
     for (Index i = 0; i < count; ++i) {
       const Complex z = rest_.samples[static_cast<size_t>(i)];
-      const Location at = location_of(z);
+      const Location at = locate_near(mesh_, z);
       const Derivatives d = derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)]);
       out.f[i] = at.in(mesh_, f);
       out.fz[i] = d.fz;
       out.fzbar[i] = d.fzbar;
     }
-  }
-
-  /// The triangle around z; just outside the mesh the nearest vertex' one goes on.
-  Location location_of(Complex z) const {
-    if (const auto at = locate(mesh_, mesh_.vertices, z)) return *at;
-    const auto nearest =
-        std::ranges::min_element(mesh_.vertices, {}, [&](Complex v) { return std::norm(v - z); });
-    const int vertex = static_cast<int>(nearest - mesh_.vertices.begin());
-    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const Triangle& corners = mesh_.triangles[t];
-      if (std::ranges::find(corners, vertex) == corners.end()) continue;
-      const Complex a = mesh_.vertices[static_cast<size_t>(corners[0])] - z,
-                    b = mesh_.vertices[static_cast<size_t>(corners[1])] - z,
-                    c = mesh_.vertices[static_cast<size_t>(corners[2])] - z;
-      const double area = 2 * area_of(corners);
-      return {static_cast<int>(t), {cross(b, c) / area, cross(c, a) / area, cross(a, b) / area}};
-    }
-    return {0, {1, 0, 0}};
   }
 
   /// At a vertex the mean over its triangles, by area.

@@ -24,64 +24,62 @@ RealParts control_weights(const Cage& cage) {
 /// h as the real parts of holomorphic functions g.
 class HarmonicCoordinates final : public RealCoordinates {
  public:
-  /// Of a counter-clockwise cage. Just outside of it the functions go on linearly.
+  /// For a counter-clockwise cage. Outside of it the functions are continued linearly.
   explicit HarmonicCoordinates(const Cage& cage)
       : cage_(cage),
         flat_(flattened(cage)),
         edge_(flat_.points, true),
-        hilbert_(cage, control_weights(cage)) {}
+        hilbert_(cage, control_weights(cage)) {
+    for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
+  }
 
-  /// One row for each point: g, or g' with order 1; at vertices g is their own weights.
+  /// One row for each point: g, or g' with order 1.
   MatrixXc at(std::span<const Complex> points, int order) const override {
-    Points inside;
+    Points places, slope_places, steps;
     std::vector<Index> outside;
     for (const Complex& z : points) {
-      inside.push_back(is_inside(z) ? z : beside(z));
-      if (inside.back() != z) outside.push_back(static_cast<Index>(inside.size()) - 1);
+      if (is_inside(z)) {
+        places.push_back(order == 0 ? z : beside_vertex(cage_, z));
+        continue;
+      }
+      outside.push_back(static_cast<Index>(places.size()));
+      const BoundaryPoint foot = nearest(z);
+      constexpr double kLeast = 0.02;  // of a segment: slopes may be infinite at its ends
+      const Complex on = position_of(cage_, foot),
+                    off_ends =
+                        position_of(cage_, {foot.segment, std::clamp(foot.t, kLeast, 1 - kLeast)});
+      places.push_back(order == 0 ? on : off_ends);
+      slope_places.push_back(off_ends);
+      steps.push_back(z - on);
     }
-    MatrixXc g = hilbert_.at(inside, order);
-    if (order > 0) return g;
-    Points moved;
-    for (const Index i : outside) moved.push_back(inside[static_cast<size_t>(i)]);
-    const MatrixXc slopes = hilbert_.at(moved, 1);
-    for (size_t k = 0; k < outside.size(); ++k) {
-      const Complex z = points[static_cast<size_t>(outside[k])];
-      if (const auto vertex = vertex_at(z))
-        g.row(outside[k]) =
-            weights_at(cage_, std::array{BoundaryPoint{*vertex, 0}}).cast<Complex>();
-      else
-        g.row(outside[k]) += (z - moved[k]) * slopes.row(static_cast<Index>(k));
-    }
+    MatrixXc g = hilbert_.at(places, order);
+    if (order > 0 || outside.empty()) return g;
+    const MatrixXc slopes = hilbert_.at(slope_places, 1);
+    for (size_t k = 0; k < outside.size(); ++k)
+      g.row(outside[k]) += steps[k] * slopes.row(static_cast<Index>(k));
     return g;
   }
 
  private:
-  std::optional<Index> vertex_at(Complex z) const {
-    for (Index j = 0; j < cage_.size(); ++j)
-      if (cage_.vertex(j) == z) return j;
-    return {};
-  }
+  /// Or on the boundary.
   bool is_inside(Complex z) const {
-    if (vertex_at(z)) return false;
+    if (contact_of(segments_, z)) return true;
     return is_straight(cage_) ? winding_number(flat_.points, z) != 0 : contains(cage_, z);
   }
 
-  /// The place of the boundary next to a point on it or outside, but none of its vertices.
-  Complex beside(Complex z) const {
-    constexpr double kLeast = 0.02;  // of a segment
+  BoundaryPoint nearest(Complex z) const {
     const Polyline::Nearest near = edge_.nearest(z);
     const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.places.size();
     const auto& [segment, from] = flat_.places[i];
     const double to = flat_.places[next].segment == segment && next > 0 ? flat_.places[next].t : 1;
-    const double t = from + near.parameter * (to - from),
-                 clamped = std::clamp(t, kLeast, 1 - kLeast);
-    return t == clamped && near.distance == 0 ? z : position_of(cage_, {segment, clamped});
+    return {segment, from + near.parameter * (to - from)};
   }
 
   Cage cage_;
   FlatCage flat_;
   Polyline edge_;
   HilbertCoordinates hilbert_;
+  std::vector<SegmentPolynomial> segments_;
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {

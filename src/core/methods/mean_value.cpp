@@ -1,8 +1,9 @@
 // Method `mean_value`: f = sum w_c b_c with mean value coordinates (Floater 2003; Hormann, Floater
 // 2006 for polygons of any shape): closed form, along the cage, but negative beyond reflex corners.
+#include <algorithm>
+
 #include "core/methods/real_coordinates.h"
 #include "core/methods/rows.h"
-#include "core/polyline.h"
 
 namespace holomorph {
 namespace {
@@ -27,7 +28,11 @@ Dual root(const Dual& a) {
   return {r, a.x / (2 * r), a.y / (2 * r)};
 }
 
-/// The mean value coordinates of a polygon's vertices at z, inside it but not on it.
+/// The mean value coordinates of a polygon's vertices at z, which is none of them.
+///
+/// All weights are multiplied by the distance of the nearest vertex and, where an edge is seen
+/// under more than a right angle, by the cotangent of half the widest one: nothing is large then,
+/// on the edges neither.
 std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   struct Side {
     Dual x, y, length;
@@ -37,20 +42,48 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
     const Dual x{(vertex - z).real(), -1, 0}, y{(vertex - z).imag(), 0, -1};
     sides.push_back({x, y, root(x * x + y * y)});
   }
+  const auto nearest_side =
+      std::ranges::min_element(sides, {}, [](const Side& s) { return s.length.value; });
+  const Dual nearest = nearest_side->length;
   const size_t n = polygon.size();
+  struct Angle {
+    Dual along, across, product;
+    /// Of half the angle, in the forms that lose no digits.
+    Dual tangent() const {
+      return along.value > 0 ? across / (product + along) : (product - along) / across;
+    }
+    Dual cotangent() const { return across / (product - along); }
+  };
+  std::vector<Angle> angles;
+  for (size_t i = 0; i < n; ++i) {
+    const Side &a = sides[i], &b = sides[(i + 1) % n];
+    angles.push_back({a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, a.length * b.length});
+  }
+  const size_t widest = static_cast<size_t>(
+      std::ranges::min_element(angles, {},
+                               [](const Angle& a) { return a.along.value / a.product.value; }) -
+      angles.begin());
+  const bool is_wide = angles[widest].along.value < 0;
+  const Dual scale = is_wide ? angles[widest].cotangent() : Dual{1, 0, 0};
   std::vector<Dual> weights(n);
   Dual sum;
   for (size_t i = 0; i < n; ++i) {
-    const Side &a = sides[i], &b = sides[(i + 1) % n];
-    const Dual along = a.x * b.x + a.y * b.y, across = a.x * b.y - a.y * b.x,
-               product = a.length * b.length;
-    // tan of half the angle that the edge is seen under, in the form that loses no digits.
-    const Dual half = along.value > 0 ? across / (product + along) : (product - along) / across;
-    weights[i] = weights[i] + half / a.length;
-    weights[(i + 1) % n] = weights[(i + 1) % n] + half / b.length;
-    sum = sum + half / a.length + half / b.length;
+    const Dual half = is_wide && i == widest ? Dual{1, 0, 0} : angles[i].tangent() * scale;
+    const Dual start = half * (nearest / sides[i].length),
+               end = half * (nearest / sides[(i + 1) % n].length);
+    weights[i] = weights[i] + start;
+    weights[(i + 1) % n] = weights[(i + 1) % n] + end;
+    sum = sum + start + end;
   }
-  for (Dual& weight : weights) weight = weight / sum;
+  // The nearest vertex has the rest of 1: next to it its own weight's derivative has lost digits.
+  Dual rest{1, 0, 0};
+  const size_t own = static_cast<size_t>(nearest_side - sides.begin());
+  for (size_t i = 0; i < n; ++i) {
+    if (i == own) continue;
+    weights[i] = weights[i] / sum;
+    rest = rest - weights[i];
+  }
+  weights[own] = rest;
   return weights;
 }
 
@@ -59,59 +92,37 @@ class MeanValueCoordinates final : public RealCoordinates {
  public:
   explicit MeanValueCoordinates(const Cage& cage)
       : flat_(flattened(cage)),
-        edge_(flat_.points, true),
+        polygon_(polygon_cage(flat_.points)),
         controls_(weights_at(cage, flat_.places)) {}
 
   MatrixXc at(std::span<const Complex> points, int order) const override {
     MatrixXc of_vertices(static_cast<Index>(points.size()), controls_.rows());
-    for (size_t i = 0; i < points.size(); ++i) {
-      const Index row = static_cast<Index>(i);
-      if (order == 0)
-        of_vertices.row(row) = values(points[i]).cast<Complex>();
-      else
-        of_vertices.row(row) = slopes(points[i]);
-    }
+    for (size_t i = 0; i < points.size(); ++i)
+      of_vertices.row(static_cast<Index>(i)) = row(points[i], order);
     return of_vertices * controls_.cast<Complex>();
   }
 
  private:
-  static constexpr double kOnEdge = 1e-12;  ///< of the size
-
-  /// On the polygon they are linear between its vertices.
-  Eigen::RowVectorXd values(Complex z) const {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(controls_.rows());
-    const Polyline::Nearest near = edge_.nearest(z);
-    if (near.distance <= kOnEdge * edge_.diagonal()) {
-      row[near.segment] = 1 - near.parameter;
-      row[(near.segment + 1) % row.size()] += near.parameter;
-      return row;
+  Eigen::RowVectorXcd row(Complex z, int order) const {
+    Eigen::RowVectorXcd row = Eigen::RowVectorXcd::Zero(controls_.rows());
+    const auto vertex = std::ranges::find(flat_.points, z);
+    if (vertex != flat_.points.end()) {
+      if (order == 0) {
+        row[vertex - flat_.points.begin()] = 1;
+        return row;
+      }
+      z = beside_vertex(polygon_, z);
     }
     const std::vector<Dual> weights = mean_value_coordinates(flat_.points, z);
-    for (Index c = 0; c < row.size(); ++c) row[c] = weights[static_cast<size_t>(c)].value;
-    return row;
-  }
-
-  /// At the edge, from just inside.
-  Eigen::RowVectorXcd slopes(Complex z) const {
-    constexpr double kInside = 1e-4;
-    const Polyline::Nearest near = edge_.nearest(z);
-    if (near.distance <= kInside * edge_.diagonal()) {
-      const size_t i = static_cast<size_t>(near.segment);
-      const Complex a = flat_.points[i], way = flat_.points[(i + 1) % flat_.points.size()] - a;
-      const double t = std::clamp(near.parameter, 0.02, 0.98);
-      z = a + t * way + kInside * edge_.diagonal() * kI * way / std::abs(way);
-    }
-    const std::vector<Dual> weights = mean_value_coordinates(flat_.points, z);
-    Eigen::RowVectorXcd row(controls_.rows());
     for (Index c = 0; c < row.size(); ++c) {
       const Dual& weight = weights[static_cast<size_t>(c)];
-      row[c] = {weight.x, -weight.y};
+      row[c] = order == 0 ? Complex(weight.value) : Complex(weight.x, -weight.y);
     }
     return row;
   }
 
   FlatCage flat_;
-  Polyline edge_;
+  Cage polygon_;
   MatrixXd controls_;  ///< of the polygon's vertices
 };
 

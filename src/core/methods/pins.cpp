@@ -184,7 +184,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
  protected:
   PlanarMatrix<T> derivative_matrix() const override {
-    const Points points = inset(this->derivative_points());
+    const bool at_samples = this->rest_.derivative_samples.empty();
+    const Points points = at_samples ? this->rest_.samples : inset(this->derivative_points());
     PlanarMatrix<T> cage = planar_coordinates<T>(this->rest_.cage, points, 1);
     if (used_.empty()) return cage;
     PlanarMatrix<T> correction(static_cast<Index>(points.size()), coefficients_.re.cols());
@@ -194,8 +195,9 @@ class PinsDeformer final : public LinearDeformer<T> {
   }
 
  private:
-  /// The basis has corners all along the boundary, where its derivatives have logarithmic poles:
-  /// places on the boundary are moved inwards by a part of the nearest segment's length.
+  /// The basis has corners all along the boundary, where its derivatives have logarithmic poles.
+  /// Points of the boundary that stand for their neighborhood are moved inwards by a part of the
+  /// nearest segment's length.
   Points inset(Points points) const {
     constexpr double kOn = 0.05, kBy = 0.2;
     const Points outline = outline_of(basis_->basis, 4);

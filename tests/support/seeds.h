@@ -1,0 +1,22 @@
+// Seeds of random tests: fixed ones, and one that is drawn in each run and printed.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+namespace holomorph {
+
+/// The fixed seeds and a fresh one; HOLOMORPH_SEED in the environment stands in for all of them, so
+/// that a failure can be repeated.
+inline std::vector<unsigned> seeds_of(const char* test, std::vector<unsigned> fixed) {
+  if (const char* given = std::getenv("HOLOMORPH_SEED"))
+    return {static_cast<unsigned>(std::strtoul(given, nullptr, 10))};
+  fixed.push_back(std::random_device{}());
+  std::printf("%s: HOLOMORPH_SEED=%u\n", test, fixed.back());
+  std::fflush(stdout);
+  return fixed;
+}
+
+}  // namespace holomorph
