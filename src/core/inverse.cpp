@@ -12,42 +12,90 @@ namespace holomorph {
 namespace {
 
 constexpr double kNear = 1e-4;  ///< of the control points' box: what `flattened` may be off, twice
+constexpr double kSame = 1e-7;  ///< of the size: nearer to each other, preimages are one
+constexpr double kOn = 1e-12;
+constexpr double kBranch = 1e-5;
+constexpr double kOnCurve = 8;  ///< roundings that a mesh's boundary is off its curve
+
+int oriented(const std::vector<Preimage>& found) {
+  int sum = 0;
+  for (const Preimage& preimage : found) sum += preimage.orientation;
+  return sum;
+}
 
 }  // namespace
 
 InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
                        const PointMap& map)
-    : rest_(rest), mesh_(mesh), positions_(positions.begin(), positions.end()), map_(map) {
+    : rest_(counter_clockwise(rest)),
+      mesh_(mesh),
+      positions_(positions.begin(), positions.end()),
+      map_(map),
+      winding_(rest_, map) {
   size_ = box_of(mesh.vertices).diagonal();
-  flat_ = flattened(rest);
-  near_ = kNear * std::max(size_, box_of(controls_of(rest)).diagonal());
-  for (const int v : mesh.boundary) boundary_.push_back(positions_[v]);
-  for (size_t i = 0; i < boundary_.size(); ++i)
-    reach_ = std::max(reach_, std::abs(boundary_[(i + 1) % boundary_.size()] - boundary_[i]));
+  flat_ = flattened(rest_);
+  near_ = kNear * std::max(size_, box_of(controls_of(rest_)).diagonal());
   box_ = box_of(positions_);
   const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
                                 static_cast<double>(mesh.triangles.size() + 1));
   columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
   rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
-  cells_.resize(static_cast<size_t>(columns_) * rows_);
-  // Twice over the triangles: how many a cell has, then which.
-  const auto for_each_cell = [&](int t, auto visit) {
+  cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  fill_cells();
+  take_boundary();
+}
+
+template <class Visit>
+void InverseMap::for_each_cell(const Box& box, Visit visit) {
+  const size_t columns = static_cast<size_t>(columns_), low = cell_of({box.left, box.bottom}),
+               high = cell_of({box.right, box.top});
+  for (size_t r = low / columns; r <= high / columns; ++r)
+    for (size_t c = low % columns; c <= high % columns; ++c) visit(cells_[r * columns + c]);
+}
+
+/// Twice over the triangles: how many a cell has, then which.
+void InverseMap::fill_cells() {
+  const auto box_of_triangle = [&](int t) {
     Box box;
-    for (const int v : mesh.triangles[t]) box.include(positions_[v]);
-    const size_t low = cell_of({box.left, box.bottom}), high = cell_of({box.right, box.top});
-    for (size_t r = low / columns_; r <= high / columns_; ++r)
-      for (size_t c = low % columns_; c <= high % columns_; ++c) visit(cells_[r * columns_ + c]);
+    for (const int v : mesh_.triangles[t]) box.include(positions_[v]);
+    return box;
   };
-  const int count = static_cast<int>(mesh.triangles.size());
-  for (int t = 0; t < count; ++t) for_each_cell(t, [](Cell& cell) { ++cell.count; });
+  const int count = static_cast<int>(mesh_.triangles.size());
+  for (int t = 0; t < count; ++t)
+    for_each_cell(box_of_triangle(t), [](Cell& cell) { ++cell.count; });
   int total = 0;
   for (Cell& here : cells_) {
     here.first = total;
     total += std::exchange(here.count, 0);
   }
-  triangles_.resize(total);
+  triangles_.resize(static_cast<size_t>(total));
   for (int t = 0; t < count; ++t)
-    for_each_cell(t, [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
+    for_each_cell(box_of_triangle(t),
+                  [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
+}
+
+void InverseMap::take_boundary() {
+  std::vector<SegmentPolynomial> loop;
+  for (Index e = 0; e < rest_.size(); ++e) loop.emplace_back(rest_.controls(e));
+  piece_at_.assign(mesh_.vertices.size(), -1);
+  for (size_t i = 0; i < mesh_.boundary.size(); ++i) {
+    const int v = mesh_.boundary[i], next = mesh_.boundary[(i + 1) % mesh_.boundary.size()];
+    boundary_.push_back(positions_[v]);
+    Arc arc{mesh_.vertices[v], mesh_.vertices[next]};
+    const auto from = contact_of(loop, arc.from, kOnCurve), to = contact_of(loop, arc.to, kOnCurve);
+    if (from && to && !loop[static_cast<size_t>(from->segment)].is_straight()) {
+      const bool ends = to->is_vertex();
+      arc = {arc.from, arc.to, from->segment, from->s, ends ? 1 : to->s};
+    }
+    piece_at_[v] = static_cast<int>(pieces_.size());
+    pieces_.push_back(winding_.piece(arc));
+    const ImageWinding::Piece& piece = pieces_.back();
+    reach_ = std::max(reach_, std::abs(piece.to - piece.from));
+    Box box;
+    for (const Complex& z : {piece.from, piece.to})
+      for (const Complex& by : {Complex(1, 1), Complex(-1, -1)}) box.include(z + piece.bulge * by);
+    for_each_cell(box, [](Cell& cell) { cell.on_boundary = true; });
+  }
 }
 
 size_t InverseMap::cell_of(Complex w) const {
@@ -59,8 +107,9 @@ size_t InverseMap::cell_of(Complex w) const {
          index(w.real(), box_.left, box_.width(), columns_);
 }
 
-int InverseMap::expected(Complex w) const {
-  return winding_number(boundary_, w);
+std::optional<int> InverseMap::winding(Complex w) const {
+  if (box_.contains(w) && !cells_[cell_of(w)].on_boundary) return winding_number(boundary_, w);
+  return winding_.turns(pieces_, w);
 }
 
 bool InverseMap::improve(Complex w, Preimage& at) const {
@@ -87,14 +136,15 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
     }
     if (!nearer) break;
   }
+  at.orientation = std::norm(value.fz) < std::norm(value.fzbar) ? -1 : 1;
   return at.residual <= good;
 }
 
-void InverseMap::add(Complex w, Complex start, std::vector<Preimage>& found) const {
-  Preimage preimage{start, 0};
+void InverseMap::add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const {
+  Preimage preimage{start, 0, triangle};
   if (!improve(w, preimage)) return;
   for (const Preimage& other : found)
-    if (std::abs(other.z - preimage.z) < 1e-7 * size_) return;
+    if (std::abs(other.z - preimage.z) < kSame * size_) return;
   if (is_inside(preimage.z)) found.push_back(preimage);
 }
 
@@ -110,37 +160,157 @@ bool InverseMap::is_inside(Complex z) const {
 }
 
 std::vector<Preimage> InverseMap::at(Complex w) const {
+  if (!is_finite(w)) return {};
+  const std::optional<int> wanted = winding(w);
+  std::vector<Preimage> found = quickly(w, wanted);
+  if (!wanted || oriented(found) == *wanted) return found;
+  // What is beyond the boundary by a little was counted; on it there is no telling.
+  std::vector<Preimage> inner;
+  for (const Preimage& preimage : found) {
+    if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
+    if (contains(rest_, preimage.z)) inner.push_back(preimage);
+  }
+  if (oriented(inner) == *wanted) return inner;
+  std::vector<Preimage> all = thoroughly(w, *wanted);
+  return oriented(all) == *wanted ? all : found;
+}
+
+/// From the triangles whose images are around w, or near it.
+std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) const {
   std::vector<Preimage> found;
-  if (!is_finite(w)) return found;
   constexpr double kSlack = 0.3;  // a triangle's image is not the image's triangle
-  constexpr size_t kAll = std::numeric_limits<size_t>::max();
-  const auto try_cell = [&](size_t cell, double slack, size_t enough) {
-    for (int i = cells_[cell].count; i-- > 0 && found.size() < enough;) {
-      const auto [a, b, c] = mesh_.triangles[triangles_[cells_[cell].first + i]];
+  constexpr int kAll = std::numeric_limits<int>::max();
+  const auto try_cell = [&](size_t cell, double slack, int enough) {
+    for (int i = cells_[cell].count; i-- > 0 && static_cast<int>(found.size()) < enough;) {
+      const int t = triangles_[cells_[cell].first + i];
+      const auto [a, b, c] = mesh_.triangles[t];
       const Complex p = positions_[a] - w, q = positions_[b] - w, r = positions_[c] - w;
       const double wa = cross(q, r), wb = cross(r, p), wc = cross(p, q), area = wa + wb + wc;
       if (area == 0 || std::min({wa / area, wb / area, wc / area}) < -slack) continue;
-      add(w, (wa * mesh_.vertices[a] + wb * mesh_.vertices[b] + wc * mesh_.vertices[c]) / area,
+      add(w, (wa * mesh_.vertices[a] + wb * mesh_.vertices[b] + wc * mesh_.vertices[c]) / area, t,
           found);
     }
   };
+  const auto is_enough = [&] { return wanted ? oriented(found) == *wanted : !found.empty(); };
   const size_t cell = cell_of(w);
   try_cell(cell, 1e-9, kAll);
-  const size_t wanted = static_cast<size_t>(std::abs(expected(w)));
-  if (!found.empty() && found.size() >= wanted) return found;
-  if (wanted == 0 && nearest_on_polygon(boundary_, w).distance > reach_) return found;
+  if (is_enough()) return found;
   // Between the mesh's edge and the map's, or where triangles are too coarse: look around.
-  const int column = static_cast<int>(cell % columns_), row = static_cast<int>(cell / columns_);
+  const int column = static_cast<int>(cell) % columns_, row = static_cast<int>(cell) / columns_;
+  const int enough = wanted ? std::max(std::abs(*wanted), 1) : 1;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
     for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
-      try_cell(static_cast<size_t>(r) * columns_ + c, kSlack, std::max<size_t>(wanted, 1));
-  if (!found.empty() && found.size() >= wanted) return found;
+      try_cell(static_cast<size_t>(r * columns_ + c), kSlack, enough);
+  if (is_enough()) return found;
   std::vector<std::pair<double, int>> near;
   for (const int v : mesh_.boundary) near.push_back({std::norm(positions_[v] - w), v});
   const size_t starts = std::min<size_t>(near.size(), 6);
   std::partial_sort(near.begin(), near.begin() + static_cast<long>(starts), near.end());
-  for (size_t i = 0; i < starts; ++i) add(w, mesh_.vertices[near[i].second], found);
+  for (size_t i = 0; i < starts; ++i) add(w, mesh_.vertices[near[i].second], -1, found);
   return found;
+}
+
+Arc InverseMap::side(int from, int to) const {
+  const int own = piece_at_[from], back = piece_at_[to];
+  if (own >= 0 && pieces_[own].arc.to == mesh_.vertices[to]) return pieces_[own].arc;
+  if (back >= 0 && pieces_[back].arc.to == mesh_.vertices[from]) {
+    const Arc& arc = pieces_[back].arc;
+    return {arc.to, arc.from, arc.segment, arc.end, arc.start};
+  }
+  return {mesh_.vertices[from], mesh_.vertices[to]};
+}
+
+std::optional<int> InverseMap::turns(const Region& region, Complex w) const {
+  std::array<ImageWinding::Piece, 3> loop;
+  for (size_t k = 0; k < 3; ++k) loop[k] = winding_.piece(region[k]);
+  return winding_.turns(loop, w);
+}
+
+/// Triangle by triangle by the argument principle, those near w first.
+std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
+  std::vector<Preimage> found;
+  std::vector<char> seen(mesh_.triangles.size(), 0);
+  std::vector<char> outer(mesh_.vertices.size(), 0);
+  for (const int v : mesh_.boundary) outer[v] = 1;
+  for (const double around : {1.0, 8.0, 1e300}) {
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      Box box;
+      for (const int v : {a, b, c}) box.include(positions_[v]);
+      const double slack =
+          around * box.diagonal() + (outer[a] || outer[b] || outer[c] ? reach_ : 0);
+      if (seen[t] || std::abs(w - box.center()) > slack) continue;
+      seen[t] = 1;
+      const Region region{side(a, b), side(b, c), side(c, a)};
+      const auto count = turns(region, w);
+      const size_t before = found.size();
+      if (count && *count != 0) take_region(region, *count, w, 0, found);
+      for (size_t i = before; i < found.size(); ++i) found[i].triangle = static_cast<int>(t);
+    }
+    if (oriented(found) == wanted) break;
+  }
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
+  return found;
+}
+
+/// The preimages in a region around which the image turns so often; false when they stay unknown.
+bool InverseMap::take_region(const Region& region, int count, Complex w, int depth,
+                             std::vector<Preimage>& found) const {
+  const Complex a = region[0].from, b = region[1].from, c = region[2].from;
+  const auto is_in = [&](Complex z) {
+    const double area = cross(b - a, c - a), slack = 1e-9 * std::abs(area);
+    const bool curved =
+        std::ranges::any_of(region, [](const Arc& arc) { return arc.segment >= 0; });
+    const double beyond = (curved ? -0.2 * std::abs(area) : -slack);
+    const double sign = area < 0 ? -1 : 1;
+    return sign * cross(b - a, z - a) >= beyond && sign * cross(c - b, z - b) >= beyond &&
+           sign * cross(a - c, z - c) >= beyond && (!curved || is_inside(z));
+  };
+  std::vector<Preimage> here;
+  for (const Complex start : {(a + b + c) / 3.0, (4.0 * a + b + c) / 6.0, (a + 4.0 * b + c) / 6.0,
+                              (a + b + 4.0 * c) / 6.0}) {
+    Preimage preimage{start};
+    if (!improve(w, preimage) || !is_in(preimage.z)) continue;
+    if (std::ranges::none_of(here, [&](const Preimage& other) {
+          return std::abs(other.z - preimage.z) < kSame * size_;
+        }))
+      here.push_back(preimage);
+  }
+  if (oriented(here) == count) {
+    found.insert(found.end(), here.begin(), here.end());
+    return true;
+  }
+  const double size = std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
+  constexpr int kDeepest = 40;
+  // Cut in four; elsewhere where a cut would go through a preimage.
+  for (const double share : {0.5, 0.43, 0.59, 0.37}) {
+    if (size < kBranch * size_ || depth == kDeepest) break;
+    std::array<std::array<Arc, 2>, 3> halves;
+    for (size_t k = 0; k < 3; ++k) halves[k] = winding_.cut(region[k], share);
+    const Complex p = halves[0][0].to, q = halves[1][0].to, r = halves[2][0].to;
+    const std::array<Region, 4> parts{Region{halves[0][0], Arc{p, r}, halves[2][1]},
+                                      Region{halves[0][1], halves[1][0], Arc{q, p}},
+                                      Region{halves[1][1], halves[2][0], Arc{r, q}},
+                                      Region{Arc{p, q}, Arc{q, r}, Arc{r, p}}};
+    std::array<int, 4> counts{};
+    int sum = 0;
+    bool known = true;
+    for (size_t k = 0; k < 4 && known; ++k) {
+      const auto turned = turns(parts[k], w);
+      known = turned.has_value();
+      if (known) sum += counts[k] = *turned;
+    }
+    if (!known || sum != count) continue;
+    for (size_t k = 0; k < 4; ++k)
+      if (counts[k] != 0 && !take_region(parts[k], counts[k], w, depth + 1, found)) return false;
+    return true;
+  }
+  // Sheets meet here, or are nearer to each other than can be told.
+  Preimage branch{here.empty() ? (a + b + c) / 3.0 : here[0].z};
+  improve(w, branch);
+  branch.orientation = count < 0 ? -1 : 1;
+  found.insert(found.end(), static_cast<size_t>(std::abs(count)), branch);
+  return true;
 }
 
 }  // namespace holomorph

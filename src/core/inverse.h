@@ -1,12 +1,13 @@
 // Where a point of the posed picture comes from: all preimages of a map.
 //
-// Lin, Chen 2024, 4.3 integrate around the boundary, to first order. Here the posed mesh tells how
-// many preimages there are and roughly where, and Newton's method on the map itself does the rest.
+// Lin, Chen 2024, 4.3 integrate around the boundary, to first order. Here the posed mesh tells
+// where preimages are, the boundary's image how many, and Newton's method on the map itself does
+// the rest.
 #pragma once
 
 #include <memory>
 
-#include "core/deformer.h"
+#include "core/image_winding.h"
 #include "core/mesh.h"
 
 namespace holomorph {
@@ -15,6 +16,8 @@ namespace holomorph {
 struct Preimage {
   Complex z;
   double residual = 0;
+  int triangle = -1;    ///< of the mesh; later ones are drawn on top
+  int orientation = 1;  ///< -1 where the map turns the plane over
 };
 
 class InverseMap {
@@ -24,31 +27,51 @@ class InverseMap {
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
 
-  /// All preimages of w inside the cage that the mesh resolves, the one drawn on top first; empty
-  /// when there is none. A sheet of the map that lies within one triangle may be missed.
-  /// Residuals are mostly a few rounding errors, at most 1e-11 of the cage's size and of |w|. Cost:
-  /// about ten evaluations of the map, many more just outside its boundary.
+  /// All preimages of w inside the cage, the one drawn on top first; empty when there is none. For
+  /// w off the boundary's image they are as many as it winds around w, counted with their
+  /// orientation: all there are where the map is holomorphic, branch points as often as sheets meet
+  /// there. Residuals are mostly a few rounding errors, at most 1e-11 of the cage's size and of
+  /// |w|. Cost: about ten evaluations of the map, up to a few thousand where sheets are smaller
+  /// than triangles.
   std::vector<Preimage> at(Complex w) const;
 
-  /// How many preimages the winding number of the boundary's image promises for a conformal map.
-  int expected(Complex w) const;
+  /// How often the boundary's image winds around w; none when w is on it, as well as rounding can
+  /// tell.
+  std::optional<int> winding(Complex w) const;
 
  private:
   struct Cell {
     int first = 0, count = 0;
+    bool on_boundary = false;  ///< whether the boundary's image may be between it and its chords
   };
+  /// Three arcs around a part of the domain.
+  using Region = std::array<Arc, 3>;
+
+  template <class Visit>
+  void for_each_cell(const Box& box, Visit visit);
+  void fill_cells();
+  void take_boundary();
   size_t cell_of(Complex w) const;
   bool improve(Complex w, Preimage& start) const;
   bool is_inside(Complex z) const;
-  void add(Complex w, Complex start, std::vector<Preimage>& found) const;
+  void add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const;
+  std::vector<Preimage> quickly(Complex w, std::optional<int> wanted) const;
+  std::vector<Preimage> thoroughly(Complex w, int wanted) const;
+  Arc side(int from, int to) const;
+  std::optional<int> turns(const Region& region, Complex w) const;
+  bool take_region(const Region& region, int count, Complex w, int depth,
+                   std::vector<Preimage>& found) const;
 
   Cage rest_;
   const Mesh& mesh_;
   Points positions_;
   const PointMap& map_;
-  Points boundary_;   ///< the mesh's, posed
-  double reach_ = 0;  ///< its longest edge: the map's boundary is rarely farther from it
-  double near_ = 0;   ///< how near to the boundary the exact test decides
+  ImageWinding winding_;
+  Points boundary_;                          ///< the mesh's, posed
+  std::vector<ImageWinding::Piece> pieces_;  ///< of the boundary
+  std::vector<int> piece_at_;                ///< that starts at a vertex, or -1
+  double reach_ = 0;                         ///< the longest posed edge of the boundary
+  double near_ = 0;                          ///< how near to the boundary the exact test decides
   FlatCage flat_;
   double size_ = 1;
   Box box_;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/cauchy.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -109,7 +110,7 @@ TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
   for (int i = 0; i < 40; ++i) {
     const Complex w = std::conj(std::polar(168.0, i / 40.0 * 2 * kPi));
     const auto found = warp.inverse->at(w);
-    CHECK(static_cast<int>(found.size()) == std::abs(warp.inverse->expected(w)));
+    CHECK(static_cast<int>(found.size()) == std::abs(*warp.inverse->winding(w)));
     once += found.size() == 1;
     twice += found.size() == 2;
     for (const Preimage& p : found) CHECK(std::abs(warp.map->at(p.z).f - w) <= 1e-10);
@@ -158,4 +159,96 @@ TEST_CASE("Inverse: the identity's is the identity") {
     REQUIRE(found.size() == 1);
     CHECK(std::abs(found[0].z - z) <= 1e-12);
   }
+}
+
+namespace {
+
+/// How often a map's boundary winds around w, by very many points; none close to it.
+std::optional<int> wound(const Warp& warp, Complex w) {
+  double turn = 0;
+  constexpr int kSteps = 20000;
+  for (Index e = 0; e < warp.rest.size(); ++e) {
+    Complex last = warp.map->at(warp.rest.vertex(e)).f;
+    for (int k = 1; k <= kSteps; ++k) {
+      // Denser towards the vertices, where the derivative is not bounded.
+      const double x = static_cast<double>(k) / kSteps, t = x * x * x * (10 - 15 * x + 6 * x * x);
+      const Complex next =
+          warp.map->at(k == kSteps ? warp.rest.vertex(e + 1) : position_of(warp.rest, {e, t})).f;
+      if (std::abs(next - last) > 0.5 * std::abs(next - w)) return {};
+      turn += std::arg((next - w) / (last - w));
+      last = next;
+    }
+  }
+  return static_cast<int>(std::lround(turn / (2 * kPi)));
+}
+
+}  // namespace
+
+TEST_CASE("Inverse: a sheet that lies within a triangle at the boundary is found") {
+  // The bottom edge runs backwards.
+  const Warp warp(polygon_cage(Points{{0, 0}, {100, 0}, {100, 100}, {0, 100}}),
+                  polygon_cage(Points{{0, 0}, {150, 60}, {-50, 60}, {0, 100}}), 8000);
+  const Complex z(48, 0.01);
+  const auto found = warp.inverse->at(warp.map->at(z).f);
+  double nearest = 1e300;
+  for (const Preimage& p : found) nearest = std::min(nearest, std::abs(p.z - z));
+  CHECK(nearest <= 1e-9);
+}
+
+TEST_CASE("Inverse: preimages are as many as the boundary's image winds around, with overlaps") {
+  for (const unsigned seed : seeds_of("preimages", {31, 32, 33})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int round = 0; round < 3; ++round) {
+      const int n = 3 + static_cast<int>(random() % 5);
+      const Cage rest = round == 1 ? curved_star(n, 3, 0.2, random())
+                                   : polygon_cage(shapes::star(n, 0.3, random()));
+      Cage pose = rest;
+      for (Points& segment : pose.segments)
+        for (Complex& z : segment) z += 120.0 * Complex(unit(random) - 0.5, unit(random) - 0.5);
+      const Warp warp(rest, pose, 800);
+      int queries = 0, wrong = 0;
+      for (const Complex z : inner_points(rest, 40, random(), 0.6)) {
+        const Complex w = warp.map->at(z).f;
+        const auto wanted = warp.inverse->winding(w);
+        if (!wanted) continue;
+        const auto found = warp.inverse->at(w);
+        ++queries;
+        wrong += static_cast<int>(found.size()) != *wanted;
+        for (const Preimage& p : found) CHECK(std::abs(warp.map->at(p.z).f - w) <= 1e-8);
+      }
+      INFO("seed " << seed << ", round " << round << ": " << wrong << " of " << queries);
+      CHECK(queries > 30);
+      CHECK(wrong == 0);
+      // The winding number itself, independently.
+      for (int k = 0; k < 2; ++k) {
+        const Complex z = inner_points(rest, 1, random(), 1)[0], w = warp.map->at(z).f;
+        if (const auto judged = wound(warp, w)) CHECK(warp.inverse->winding(w) == judged);
+      }
+    }
+  }
+}
+
+TEST_CASE("Inverse: a branch point counts as often as sheets meet in it") {
+  // z^2 along the boundary of a square around 0 winds twice around 0.
+  Points square;
+  for (int k = 0; k < 400; ++k) {
+    const Complex corner = std::polar(100 * std::sqrt(2.0), kPi / 4 + k / 100 * kPi / 2),
+                  next = kI * corner;
+    square.push_back(corner + (k % 100) / 100.0 * (next - corner));
+  }
+  Points squared;
+  for (const Complex& z : square) squared.push_back(z * z / 100.0);
+  const Warp warp(polygon_cage(square), polygon_cage(squared), 800);
+  Complex branch = 0;
+  for (int step = 0; step < 50; ++step) {  // where f' is 0, by its secant
+    const double h = 1e-3;
+    const Complex slope = warp.map->at(branch).fz,
+                  bend = (warp.map->at(branch + h).fz - warp.map->at(branch - h).fz) / (2 * h);
+    branch -= slope / bend;
+  }
+  const Complex w = warp.map->at(branch).f;
+  CHECK(warp.inverse->winding(w) == 2);
+  CHECK(warp.inverse->at(w).size() == 2);
+  CHECK(warp.inverse->at(w + Complex(1e-4, 0)).size() == 2);
 }
