@@ -1,10 +1,13 @@
 // Along the tree: first derivatives by the trapezoidal rule, second ones for its correction.
 #include "core/map_on_mesh.h"
 
+#include "core/path_integral.h"
+
 namespace holomorph {
 
 MapOnMesh::MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh)
-    : mesh_(mesh),
+    : basis_(basis),
+      mesh_(mesh),
       tree_(mesh),
       values_(planar_coordinates<double>(polygon_cage(basis.polygon()), mesh.vertices, 0)),
       slopes_(planar_coordinates<double>(polygon_cage(basis.polygon()), mesh.vertices, 1)) {}
@@ -18,6 +21,20 @@ MapOnMesh::Values MapOnMesh::values(const LogMap& map) const {
   values.f = tree_.antiderivative(values.first.phi, second.phi) +
              tree_.antiderivative(values.first.psi, second.psi).conjugate();
   return values;
+}
+
+VectorXc MapOnMesh::integrated(const LogMap& map) const {
+  std::vector<Line> lines;
+  for (const auto [from, to] : tree_.edges())
+    lines.push_back(
+        {mesh_.vertices[static_cast<size_t>(from)], mesh_.vertices[static_cast<size_t>(to)]});
+  const VectorXc growth = growth_along(basis_, map, lines);
+  VectorXc f = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
+  for (size_t e = 0; e < lines.size(); ++e) {
+    const auto [from, to] = tree_.edges()[e];
+    f[to] = f[from] + growth[static_cast<Index>(e)];
+  }
+  return f;
 }
 
 VectorXc MapOnMesh::phi(const VectorXc& l) const {

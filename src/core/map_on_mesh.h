@@ -19,6 +19,8 @@ class MapOnMesh {
   };
   /// Cost: four products with vertices x polygon vertices.
   Values values(const LogMap& map) const;
+  /// The same f to rounding. Cost: 12 rows of the basis for each of the mesh's edges at least.
+  VectorXc integrated(const LogMap& map) const;
   /// Phi alone.
   VectorXc phi(const VectorXc& l) const;
   /// Psi at places, one row each, of the functions whose coefficients are the columns.
@@ -30,6 +32,7 @@ class MapOnMesh {
   VectorXc function(const VectorXc& coefficients) const { return product(values_, coefficients); }
 
  private:
+  const BoundaryBasis& basis_;
   const Mesh& mesh_;
   MeshTree tree_;
   PlanarMatrix<double> values_, slopes_;  ///< C and C' at the vertices

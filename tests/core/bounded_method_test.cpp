@@ -2,8 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "core/boundary_basis.h"
+#include "core/cauchy.h"
 #include "core/deformer.h"
 #include "core/error.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -346,4 +348,52 @@ TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
   for (Points& segment : mirrored.pose.cage.segments)
     for (Complex& z : segment) z = std::conj(z);
   ends_well("mirrored", mirrored);
+}
+
+TEST_CASE("Bounded method: positions are continuous, and their differences keep the bounds") {
+  constexpr double kStep = 1e-6, kSlack = 1e-4;
+  for (const unsigned seed : seeds_of("bounded differences", {41, 42})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (const double k : {0.0, 0.6}) {
+      const Cage cage = polygon_cage(shapes::star(7, 0.3, seed));
+      Setting setting(cage, {}, {{"k", k}, {"sigma", 0.4}, {"Sigma", 2.5}});
+      for (Points& segment : setting.pose.cage.segments)
+        for (Complex& z : segment) z += 60.0 * Complex(unit(random) - 0.5, unit(random) - 0.5);
+      Rest rest = setting.rest;
+      rest.precision = Precision::full;
+      rest.samples.clear();
+      // Across the sides of triangles, next to the boundary, and anywhere.
+      Points at;
+      for (int i = 0; i < 120; ++i) {
+        const Mesh& mesh = *rest.mesh;
+        const Triangle& corners = mesh.triangles[random() % mesh.triangles.size()];
+        const Complex a = mesh.vertices[static_cast<size_t>(corners[0])],
+                      b = mesh.vertices[static_cast<size_t>(corners[1])],
+                      c = mesh.vertices[static_cast<size_t>(corners[2])];
+        const double s = unit(random), t = (1 - s) * (i % 2 ? unit(random) : 0);
+        const Complex z = a + s * (b - a) + t * (c - a) + 0.5 * kStep * (c - a) / std::abs(c - a);
+        if (!contains(cage, z) || !contains(cage, z + kStep) || !contains(cage, z + kI * kStep))
+          continue;
+        at.push_back(z);
+        for (const Complex by : {Complex(0), Complex(kStep), kI * kStep, Complex(-1e-12, 1e-12)})
+          rest.samples.push_back(z + by);
+      }
+      REQUIRE(at.size() > 80);
+      SampledMap map;
+      method_named("bounded").prepare(rest, nullptr)->deform(setting.pose, map, {true});
+      REQUIRE(map.status == SampledMap::Status::certified);
+      for (size_t i = 0; i < at.size(); ++i) {
+        const Index first = static_cast<Index>(4 * i);
+        const Complex x = (map.f[first + 1] - map.f[first]) / kStep,
+                      y = (map.f[first + 2] - map.f[first]) / (kI * kStep);
+        const double fz = std::abs(0.5 * (x + y)), fzbar = std::abs(0.5 * (x - y));
+        INFO("seed " << seed << ", k " << k << ", at " << at[i].real() << " " << at[i].imag());
+        CHECK(fzbar <= (k + kSlack) * fz);
+        CHECK(fz + fzbar <= 2.5 + kSlack);
+        CHECK(fz - fzbar >= 0.4 - kSlack);
+        CHECK(std::abs(map.f[first + 3] - map.f[first]) <= 2e-10);  // 1e-12 of the size
+      }
+    }
+  }
 }
