@@ -122,7 +122,7 @@ class BlockFiller {
       segment.roots(z, found, warm_[e] ? std::span<const Root>(roots) : std::span<const Root>());
       warm_[e] = true;
       roots = found;
-      careful[i] = needs_care(found);
+      careful[i] = needs_care(found, std::max(1e-6, 4 * edges_[static_cast<size_t>(e)].rounding));
       for (size_t r = 0; r < roots.size(); ++r) {
         const Complex factor = order_ == 0 || careful[i] ? 1.0 : 1.0 / segment.derivative(roots[r]);
         kernel::Roots& block = all_roots_[r];
@@ -142,18 +142,19 @@ class BlockFiller {
       if (careful[i]) set_exactly(e, i, moments);
   }
 
-  /// Whether a root may be on the segment or is near an end.
-  static bool is_near(const Root& root) {
-    constexpr double kOn = 1e-6, kEnd = 1e-4;
-    return (std::abs(root.s.imag()) < kOn && root.s.real() > -kOn && root.q.real() > -kOn) ||
+  /// Whether a root may be on the segment, within rounding in its lengths, or is near an end.
+  static bool is_near(const Root& root, double rounding) {
+    constexpr double kEnd = 1e-4;
+    return (std::abs(root.s.imag()) < rounding && root.s.real() > -rounding &&
+            root.q.real() > -rounding) ||
            std::norm(root.s) < kEnd * kEnd || std::norm(root.q) < kEnd * kEnd;
   }
 
   /// Near the segment or nearly double.
-  static bool needs_care(std::span<const Root> roots) {
+  static bool needs_care(std::span<const Root> roots, double rounding) {
     constexpr double kTwins = 0.05;
     for (size_t r = 0; r < roots.size(); ++r) {
-      if (is_near(roots[r])) return true;
+      if (is_near(roots[r], rounding)) return true;
       for (size_t other = 0; other < r; ++other)
         if (std::norm(roots[r].s - roots[other].s) < kTwins * kTwins) return true;
     }

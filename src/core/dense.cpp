@@ -11,6 +11,9 @@ void zgeqrf_(const int* m, const int* n, void* a, const int* lda, void* tau, voi
              const int* lwork, int* info);
 void zungqr_(const int* m, const int* n, const int* k, void* a, const int* lda, const void* tau,
              void* work, const int* lwork, int* info);
+void zunmqr_(const char* side, const char* trans, const int* m, const int* n, const int* k,
+             const void* a, const int* lda, const void* tau, void* c, const int* ldc, void* work,
+             const int* lwork, int* info);
 }
 
 namespace holomorph {
@@ -111,6 +114,22 @@ Orthonormal orthonormal(MatrixXc a) {
   zungqr_(&m, &n, &n, a.data(), &m, tau.data(), work.data(), &room, &wrong);
   check(wrong == 0, "orthonormal: LAPACK's arguments");
   return {std::move(a), std::move(r)};
+}
+
+VectorXc least_squares(MatrixXc a, VectorXc b) {
+  const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols()), one = 1;
+  check(m >= n && n > 0 && b.size() == m, "least squares: as many rows as columns");
+  constexpr int kBlock = 64;
+  const int room = (n + 1) * kBlock;
+  VectorXc tau(n), work(room);
+  int wrong = 0;
+  zgeqrf_(&m, &n, a.data(), &m, tau.data(), work.data(), &room, &wrong);
+  check(wrong == 0, "least squares: LAPACK's arguments");
+  const char left = 'L', adjoint = 'C';
+  zunmqr_(&left, &adjoint, &m, &one, &n, a.data(), &m, tau.data(), b.data(), &m, work.data(), &room,
+          &wrong);
+  check(wrong == 0, "least squares: LAPACK's arguments");
+  return a.topRows(n).triangularView<Eigen::Upper>().solve(b.head(n));
 }
 
 bool Cholesky::factor(const MatrixXd& matrix) {

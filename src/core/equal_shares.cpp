@@ -9,13 +9,11 @@ constexpr Index kShifts = 200;
 /// Equal shares of both lengths, the source's start being `shift` / kShifts of the target's length
 /// after the target's.
 Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
-  Correspondence result;
-  result.source_length = source.length();
-  result.target_length = target.length();
-  result.source = {0, 0.5 * source.length()};
   const double offset = target.length() * static_cast<double>(shift) / kShifts;
-  result.target = {offset, offset + 0.5 * target.length()};
-  return result;
+  return {{{0, 0.5 * source.length()},
+           {offset, offset + 0.5 * target.length()},
+           source.length(),
+           target.length()}};
 }
 
 Complex mean(const Points& points) {

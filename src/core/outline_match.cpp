@@ -4,16 +4,21 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/argument.h"
 #include "core/cauchy.h"
+#include "core/dense.h"
 #include "core/equal_shares.h"
+#include "core/graded_cuts.h"
+#include "core/inner_loop.h"
+#include "core/outline_samples.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
-constexpr double kInset = 0.02;  ///< of the loop that zeros are counted in, in edges
+constexpr double kInset = 7e-4;    ///< of the loop that zeros are counted in, in diagonals
+constexpr double kReached = 0.01;  ///< of the outline's diagonal: nearer counts as met
+constexpr double kFinest = 0.01;   ///< smoothness: with more, corners are to be rounded
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
 constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
@@ -28,7 +33,7 @@ Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
   Cuts cuts(static_cast<size_t>(cage.size()));
   std::ranges::sort(lengths);
   for (const double length : lengths) {
-    const Polyline::Nearest at = line.nearest(line.at(length));
+    const Polyline::Place at = line.place_at(length);
     const size_t i = static_cast<size_t>(at.segment), next = (i + 1) % flat.places.size();
     const Index segment = flat.places[i].segment;
     const double from = flat.places[i].t,
@@ -41,16 +46,14 @@ Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
   return cuts;
 }
 
-/// All the cage's own vertices are kept.
-Cage cut(const Cage& cage, const Cuts& cuts) {
-  // Pieces of less than a thousandth are none.
-  constexpr double kLeast = 1e-3;
+/// All the cage's own vertices are kept; pieces are longer than `least` of their segment.
+Cage cut(const Cage& cage, const Cuts& cuts, double least) {
   Cage fine;
   for (Index e = 0; e < cage.size(); ++e) {
     Points rest = cage.controls(e);
     double before = 0;
     for (const double t : cuts[static_cast<size_t>(e)]) {
-      if (t - before < kLeast || 1 - t < kLeast) continue;
+      if (t - before <= least || 1 - t <= least) continue;
       SplitCurve halves = split(rest, (t - before) / (1 - before));
       halves.before.pop_back();
       fine.segments.push_back(std::move(halves.before));
@@ -105,23 +108,18 @@ Points checked(Points points) {
 /// How far two correspondences of the same outlines lie apart, in turns of the target.
 double difference(const Correspondence& a, const Correspondence& b) {
   double most = 0;
-  for (const double s : a.source) {
-    const double off = (a(s) - b(s)) / a.target_length;
+  for (const double s : a.lengths.x) {
+    const double off = (a(s) - b(s)) / a.target_length();
     most = std::max(most, std::abs(off - std::round(off)));
   }
   return most;
 }
 
-/// The arc lengths of a closed polyline's vertices that are none of a smooth curve's.
+/// The arc lengths of a closed polyline's corners.
 std::vector<double> corners_of(const Polyline& curve) {
-  constexpr double kCorner = kPi / 6;
   std::vector<double> corners;
-  const Points& points = curve.points();
-  for (Index i = 0; i < curve.segments(); ++i) {
-    const size_t n = points.size(), k = static_cast<size_t>(i);
-    const Complex in = points[k] - points[(k + n - 1) % n], out = points[(k + 1) % n] - points[k];
-    if (std::abs(std::arg(out / in)) > kCorner) corners.push_back(curve.length_at(i, 0));
-  }
+  for (Index i = 0; i < curve.segments(); ++i)
+    if (std::abs(turn_at(curve, i)) > kCorner) corners.push_back(curve.length_at(i, 0));
   return corners;
 }
 
@@ -137,6 +135,7 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       source_(flat_.points, true),
       target_(in(frame_, checked(outline)), true),
       pins_(in(frame_, pins)),
+      loop_(inner_loop(flat_.points, kInset * source_.diagonal())),
       unit_(source_.length() / (2 * kPi)),
       centre_(box_of(target_.points()).center()) {
   if (!settings_.published)
@@ -150,6 +149,7 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
 void OutlineFit::build(const Correspondence& start) {
   built_ = start;
   ++builds_;
+  refined_ = false;
   take_basis(start);
   take_samples();
   fit_.emplace(terms());
@@ -163,20 +163,62 @@ void OutlineFit::solve(const Points& pinned) {
   begin(built_, wanted);
   run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
       kSettled, settings_.most_iterations);
+  if (may_refine() && !is_met()) refine();
+}
+
+bool OutlineFit::may_refine() const {
+  return start_ && settings_.stiffness == 0 && settings_.smoothness <= kFinest;
+}
+
+bool OutlineFit::is_met() const {
+  return misses().total() <= 1;
+}
+
+OutlineFit::Misses OutlineFit::misses() const {
+  const OutlineMatch match = after(iterations());
+  const double size = target_.diagonal() / std::abs(frame_.factor);
+  return {match.zeros, match.hausdorff / (kReached * size), match.pins_missed / (kReached * size)};
+}
+
+// A map that was iterated stays where it is the better one. Leaving the picture upright is a wish:
+// where that map is not met, the one that is stretched least may be.
+void OutlineFit::refine() {
+  const Misses before = misses();
+  follow_start(built_);
+  const bool may_sharpen = !start_->is_near_crowded();
+  if (may_sharpen && misses().total() > 1 && start_->sharpen())
+    follow_start(start_->last(held(pinned_)));
+  Misses now = misses();
+  if (may_sharpen && now.total() > 1 && settings_.upright > 0 && pins_.empty()) {
+    const Correspondence upright = built_;
+    follow_start(start_->least_stretched());
+    if (const Misses free = misses(); free.total() < now.total())
+      now = free;
+    else
+      follow_start(upright);
+  }
+  if (now.total() <= before.total()) return;
+  build(built_);
+  begin(built_, held(pinned_));
+  run(AlternatingFit::Mode::first_order, kSettled, settings_.most_iterations);
 }
 
 void OutlineFit::follow(const Points& pinned) {
-  if (iterates_.empty()) return solve(pinned);
+  if (iterates_.empty() || (refined_ && pins_.empty())) return solve(pinned);
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
   if (start_ && !pins_.empty()) {
     const Correspondence start = start_->follow(wanted);
+    if (refined_) return follow_start(start);
     if (difference(start, built_) > kFar) build(start);
     begin(start, wanted);
-  } else {
-    if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
-    fit_->resume();
+    run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
+    // One pin chooses; more of them may want what no conformal map does.
+    if (pins_.size() == 1 && may_refine() && !is_met()) follow_start(start);
+    return;
   }
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  fit_->resume();
   run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
 }
 
@@ -225,7 +267,10 @@ OutlineMatch OutlineFit::after(int iteration) const {
   const Polyline image(Points(values.begin(), values.end()), true);
   match.hausdorff =
       size * std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
-  match.zeros = turns_of(product(slopes_inside_, phi));
+  const auto slopes = [&](const Points& places) {
+    return product(planar_coordinates<double>(basis_, places, 1), phi);
+  };
+  match.zeros = zeros_inside(loop_, product(slopes_inside_, phi), slopes);
   return match;
 }
 
@@ -235,7 +280,8 @@ OutlineMatch OutlineFit::after(int iteration) const {
 void OutlineFit::take_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto share = [&](double s) {
-    return own * s / start.source_length + (1 - own) * (start(s) - start(0)) / start.target_length;
+    return own * s / start.source_length() +
+           (1 - own) * (start(s) - start(0)) / start.target_length();
   };
   std::vector<double> ends, cuts;
   for (size_t i = 0; i < flat_.places.size(); ++i)
@@ -257,7 +303,7 @@ void OutlineFit::take_basis(const Correspondence& start) {
     }
   }
   const Correspondence back = start.inverse();
-  const double length = start.source_length;
+  const double length = start.source_length();
   for (const double corner : corners_of(target_)) {
     const double at = back(corner), once = at - std::floor(at / length) * length;
     const auto nearest =
@@ -265,24 +311,166 @@ void OutlineFit::take_basis(const Correspondence& start) {
     if (nearest != cuts.end()) *nearest = once;
   }
   const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
-  basis_ = cut(cage_, places);
-  given_basis_ = cut(given_, places);
+  constexpr double kLeast = 1e-3;  // of a segment: shorter pieces are none
+  basis_ = cut(cage_, places, kLeast);
+  given_basis_ = cut(given_, places, kLeast);
+}
+
+std::vector<double> OutlineFit::vertex_lengths() const {
+  std::vector<double> lengths;
+  for (size_t i = 0; i < flat_.places.size(); ++i)
+    if (flat_.places[i].t == 0) lengths.push_back(source_.length_at(static_cast<Index>(i), 0));
+  return lengths;
+}
+
+// As graded_cuts has them, all the cage's vertices and what goes to the target's corners among
+// them.
+void OutlineFit::take_graded_basis(const Correspondence& start) {
+  const double length = source_.length(), close = 1e-9 * length;
+  std::vector<double> kept = vertex_lengths();
+  const std::vector<double> own = kept;
+  const Correspondence back = start.inverse();
+  for (const double corner : corners_of(target_)) {
+    const double at = back(corner), once = at - std::floor(at / length) * length;
+    const bool is_new = std::ranges::all_of(kept, [&](double other) {
+      return std::abs(other - once) > close && length - once > close;
+    });
+    if (is_new) kept.push_back(once);
+  }
+  std::ranges::sort(kept);
+  CutRules rules;
+  rules.length = length;
+  rules.size = target_.diagonal();
+  int degree = 1;
+  for (Index e = 0; e < cage_.size(); ++e) degree = std::max(degree, cage_.degree(e));
+  rules.longest *= degree;
+  rules.bent *= degree;
+  rules.most /= degree;
+  constexpr double kLeastCurve = 1e-5;  // of shorter ones rounding decides how they bend
+  if (degree > 1) rules.least = kLeastCurve;
+  const Thickness thickness(source_);
+  constexpr double kOfThickness = 1.5;  // pieces see the other side of a limb from not too near
+  cut_lengths_ = graded_cuts(
+      kept, [&](double s) { return target_.at(start(s)); },
+      [&](double s) { return kOfThickness * thickness(s); }, rules);
+  std::vector<double> inner;
+  std::ranges::set_difference(cut_lengths_, own, std::back_inserter(inner));
+  const Cuts places = cuts_at(cage_, flat_, source_, std::move(inner));
+  basis_ = cut(cage_, places, 0);
+  given_basis_ = cut(given_, places, 0);
+  cut_lengths_.push_back(length);
+}
+
+// Targets are where the correspondence has them, and misses are weighed by the sizes of the images
+// around: where those are small f' is, too, and has no zeros if it is right to a share of itself.
+void OutlineFit::follow_start(const Correspondence& start) {
+  built_ = start;
+  ++builds_;
+  refined_ = true;
+  take_graded_basis(start);
+  take_samples();
+  const std::vector<FitRow> rows = fit_rows(image_sizes());
+  const VectorXc targets = graded_targets();
+  const MatrixXc bends = coordinates(basis_, middles_, 2);
+  MatrixXc left(static_cast<Index>(rows.size()), basis_.control_count());
+  VectorXc right = VectorXc::Zero(left.rows());
+  for (Index i = 0; i < left.rows(); ++i) {
+    const auto [weight, row, is_bend] = rows[static_cast<size_t>(i)];
+    if (is_bend) {
+      const double size = sizes_[static_cast<size_t>(row)];
+      left.row(i) = weight * size * size * bends.row(row);
+    } else {
+      left.row(i) = weight * at_samples_.row(row);
+      right[i] = weight * targets[row];
+    }
+  }
+  if (!is_straight(basis_)) add_ridge(left, right);
+  iterates_ = {least_squares(std::move(left), std::move(right))};
+  energies_ = {mean_square_miss() / (unit_ * unit_)};
+}
+
+/// What is holomorphic outside has no Cauchy integral inside: curves have enough freedom for that.
+/// Weak rows hold their control points to where the correspondence has the nearest vertices.
+void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
+  constexpr double kWeak = 1e-4;
+  const Index rows = left.rows(), n = left.cols();
+  left.conservativeResize(rows + n, n);
+  right.conservativeResize(rows + n);
+  left.bottomRows(n).setZero();
+  const VectorXd sizes = image_sizes();
+  for (Index e = 0; e < basis_.size(); ++e)
+    for (int m = 0; m < basis_.degree(e); ++m) {
+      const Index c = basis_.control_offset(e) + m, row = rows + c;
+      const double share = static_cast<double>(m) / basis_.degree(e);
+      const size_t i = static_cast<size_t>(e);
+      const double length = (1 - share) * cut_lengths_[i] + share * cut_lengths_[i + 1];
+      left(row, c) = kWeak / sizes[e];
+      right[row] = left(row, c) * (target_.at(built_(length)) - centre_);
+    }
+}
+
+/// Of the images of the basis' pieces.
+VectorXd OutlineFit::image_sizes() const {
+  constexpr double kLeast = 1e-13;  // of the target: what rounding leaves
+  VectorXd sizes(basis_.size());
+  const auto image = [&](Index e) {
+    return target_.at(built_(cut_lengths_[static_cast<size_t>(e)]));
+  };
+  for (Index e = 0; e < sizes.size(); ++e)
+    sizes[e] = std::max(kLeast * target_.diagonal(), std::abs(image(e + 1) - image(e)));
+  return sizes;
+}
+
+/// Those of the samples and of f'', the heaviest ones first, as least_squares wants them.
+std::vector<OutlineFit::FitRow> OutlineFit::fit_rows(const VectorXd& sizes) const {
+  std::vector<FitRow> rows;
+  const Index n = sizes.size();
+  constexpr size_t kStride = 2;  // of the samples: as good as all of them, in half the time
+  for (size_t i = 0; i < samples_.size(); i += kStride) {
+    const Index e = samples_[i].segment;
+    const double size = samples_[i].t == 0 ? std::min(sizes[e], sizes[(e + n - 1) % n]) : sizes[e];
+    rows.push_back({1 / size, static_cast<Index>(i), false});
+  }
+  const double smooth = std::sqrt(settings_.smoothness * static_cast<double>(samples_.size()) /
+                                  static_cast<double>(middles_.size()));
+  for (size_t i = 0; i < middles_.size() && smooth > 0; ++i)
+    rows.push_back({smooth / sizes[middles_[i].segment], static_cast<Index>(i), true});
+  std::ranges::sort(rows, std::greater{}, &FitRow::weight);
+  return rows;
+}
+
+double OutlineFit::mean_square_miss() const {
+  const VectorXc values = at_samples_ * iterates_.back();
+  double sum = 0;
+  for (const Complex& z : values)
+    sum += std::norm(z + centre_ - target_.nearest(z + centre_).point);
+  return sum / static_cast<double>(values.size());
+}
+
+VectorXc OutlineFit::graded_targets() const {
+  VectorXc targets(static_cast<Index>(samples_.size()));
+  for (Index i = 0; i < targets.size(); ++i) {
+    const BoundaryPoint& at = samples_[static_cast<size_t>(i)];
+    const size_t e = static_cast<size_t>(at.segment);
+    double length = (1 - at.t) * cut_lengths_[e] + at.t * cut_lengths_[e + 1];
+    if (!is_straight(basis_, at.segment)) {
+      const Polyline::Nearest near = source_.nearest(position_of(basis_, at));
+      length = source_.length_at(near.segment, near.parameter);
+    }
+    targets[i] = target_.at(built_(length)) - centre_;
+  }
+  return targets;
 }
 
 void OutlineFit::take_samples() {
   samples_.clear();
   middles_.clear();
   sizes_.clear();
-  Points inset;
   for (Index e = 0; e < basis_.size(); ++e) {
     const Complex way = basis_.vertex(e + 1) - basis_.vertex(e);
     // A curve has as many unknowns as its degree, so it gets as many times the places.
     const int degree = basis_.degree(e), count = kSamplesPerUnknown * degree;
-    for (int k = 0; k < count; ++k) {
-      samples_.push_back({e, static_cast<double>(k) / count});
-      // At the vertices themselves f_z has logarithms.
-      inset.push_back(position_of(basis_, {e, (k + 0.5) / count}) + kInset / degree * kI * way);
-    }
+    for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});
     for (int k = 0; k < degree; ++k) {
       middles_.push_back({e, (k + 0.5) / degree});
       sizes_.push_back(std::abs(way) / degree);
@@ -290,7 +478,7 @@ void OutlineFit::take_samples() {
   }
   hints_.assign(samples_.size(), 0);
   at_samples_ = coordinates(basis_, samples_, 0);
-  slopes_inside_ = planar_coordinates<double>(basis_, inset, 1);
+  slopes_inside_ = planar_coordinates<double>(basis_, loop_, 1);
 }
 
 std::vector<FitTerm> OutlineFit::terms() {

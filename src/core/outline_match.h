@@ -2,6 +2,7 @@
 // closest conformal maps (Segall, Ben-Chen 2016).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -41,8 +42,9 @@ struct OutlineMatch {
   double hausdorff = 0;    ///< the largest distance either way
   double pins_missed = 0;  ///< the largest distance of a pin from where it was wanted
   int pins_held = 0;       ///< that were wanted outside of the outline, and are held just inside
-  /// Of f_z, inside a loop a fiftieth of each edge from the boundary (argument principle): the
-  /// picture folds around each; the turning number is one more.
+  /// Of f_z, farther inside than a thousandth of the shape's size (argument principle): the picture
+  /// folds around each; the turning number is one more. Where a corner is flattened, the exact f_z
+  /// is 0 at the corner itself.
   int zeros = 0;
   int iterations = 0;
   std::vector<double>
@@ -59,7 +61,9 @@ class OutlineFit {
   OutlineFit(const OutlineFit&) = delete;
   OutlineFit& operator=(const OutlineFit&) = delete;
 
-  /// Cost: for 200 vertices 5 ms an iteration, and 60 ms for a basis where there are pins.
+  /// Cost: for 200 vertices 5 ms an iteration, and 60 ms for a basis where there are pins. Where
+  /// the outline is missed by 1 % of its diagonal, or f' has zeros, the conformal map itself is
+  /// followed with as many vertices as it needs: 0.1 to 1 s.
   void solve(const Points& pinned);
   /// The same, roughly: four iterations at most, from a start near the last one where there are
   /// pins, else from the last solution.
@@ -77,6 +81,30 @@ class OutlineFit {
   void build(const Correspondence& start);
   void begin(const Correspondence& start, const Points& wanted);
   void take_basis(const Correspondence& start);
+  void take_graded_basis(const Correspondence& start);
+  std::vector<double> vertex_lengths() const;
+  VectorXc graded_targets() const;
+  bool may_refine() const;
+  bool is_met() const;
+  /// How badly the last map serves: zeros, and distances in multiples of what is accepted.
+  struct Misses {
+    int zeros = 0;
+    double outline = 0, pins = 0;
+    /// One at most when the outline is met.
+    double total() const { return zeros + outline + std::max(pins - 1, 0.0); }
+  };
+  Misses misses() const;
+  void refine();
+  void follow_start(const Correspondence& start);
+  struct FitRow {
+    double weight;
+    Index row;
+    bool is_bend;  ///< of f'' at a middle, else of f at a sample
+  };
+  void add_ridge(MatrixXc& left, VectorXc& right) const;
+  VectorXd image_sizes() const;
+  std::vector<FitRow> fit_rows(const VectorXd& sizes) const;
+  double mean_square_miss() const;
   void take_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
@@ -94,6 +122,7 @@ class OutlineFit {
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
+  Points loop_;     ///< just inside the source, where zeros are counted
   double unit_;     ///< L
   Complex centre_;  ///< what is fitted is f less this
   /// None for the published method, and for strips too long for it.
@@ -101,11 +130,13 @@ class OutlineFit {
   Cage basis_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
+  std::vector<double> cut_lengths_;  ///< of a graded basis' vertices
   std::vector<Index> hints_;
   MatrixXc at_samples_;                 ///< C there
   PlanarMatrix<double> slopes_inside_;  ///< C' along the loop inside
   Correspondence built_;                ///< what the basis was made for
   int builds_ = 0;
+  bool refined_ = false;  ///< whether the basis is the graded one
   std::optional<AlternatingFit> fit_;
   std::vector<VectorXc> iterates_;
   std::vector<double> energies_;

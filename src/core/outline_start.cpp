@@ -4,61 +4,85 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/curve.h"
 #include "core/error.h"
+#include "core/outline_samples.h"
 #include "core/riemann.h"
 
 namespace holomorph {
 namespace {
 
-constexpr Index kPoints = 800;
-constexpr size_t kStride = 4;  ///< of the places that the search looks at
+/// Points of each outline, more where it is thin; and the least distance between them, of the
+/// length.
+struct Sampling {
+  Index points;
+  double least;
+};
+constexpr Sampling kUsual{600, 1e-5}, kSharp{1000, 1e-9};
+constexpr Index kSearched = 120;  ///< equally spaced places of each that the search looks at
 constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
-/// An outline seen from the disk: angles at equal arc lengths, increasing from the first on.
+/// An outline seen from the disk: angles of arc lengths, and back.
 struct Seen {
   const Polyline* line;
-  double length = 0, offset = 0;  ///< arc length of the first angle
-  VectorXd angles;
-  Points points;
   RiemannMap map;
-  Points on_circle = {};  ///< e^(i angle)
+  PeriodicCurve angle_at, length_at;
+  std::vector<double> lengths;         ///< equally spaced
+  Points places = {}, on_circle = {};  ///< of those: in the plane, and e^(i angle)
+
+  double length() const { return line->length(); }
 
   /// In the disk; what is outside the outline is just inside its nearest place.
   Complex in_disk(Complex z) const {
     constexpr double kMost = 1 - 1e-9, kInside = 0.98;
-    if (winding_number(points, z) != 0) {
+    if (winding_number(line->points(), z) != 0) {
       const Complex w = map.at(z);
       return w * std::min(1.0, kMost / std::abs(w));
     }
     const Polyline::Nearest at = line->nearest(z);
     return std::polar(kInside, angle_at(line->length_at(at.segment, at.parameter)));
   }
-
-  /// By linear interpolation.
-  double angle_at(double arc_length) const {
-    const double count = static_cast<double>(angles.size());
-    double place = (arc_length - offset) / length;
-    const double turns = std::floor(place);
-    place = (place - turns) * count;
-    const Index i = std::min(static_cast<Index>(place), angles.size() - 1);
-    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * kPi;
-    return angles[i] + (place - static_cast<double>(i)) * (next - angles[i]) + turns * 2 * kPi;
-  }
-  double arc_length_at(double angle) const {
-    const double turns = std::floor((angle - angles[0]) / (2 * kPi));
-    angle -= turns * 2 * kPi;
-    const auto after = std::upper_bound(angles.begin(), angles.end(), angle);
-    const Index i = static_cast<Index>(after - angles.begin()) - 1;
-    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * kPi;
-    const double place = static_cast<double>(i) + (angle - angles[i]) / (next - angles[i]);
-    return offset + length * (place / static_cast<double>(angles.size()) + turns);
-  }
 };
+
+/// The inner point where a function of it and of its distance from the outline is largest, by
+/// finer and finer grids.
+template <class Merit>
+Complex best_inside(const Polyline& outline, const Merit& merit) {
+  const Box box = box_of(outline.points());
+  const Complex corner(box.left, box.bottom), size(box.width(), box.height());
+  constexpr int kFirstCells = 24, kCells = 12;
+  Complex best;
+  double most = -1;
+  for (double reach = 1; reach > 1e-13; reach /= kCells / 4.0) {
+    const int cells = reach == 1 ? kFirstCells : kCells;
+    const Complex from = most < 0 ? corner : best - 0.5 * reach * size, step = reach / cells * size;
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const Complex z = from + Complex((i + 0.5) * step.real(), (j + 0.5) * step.imag());
+        const double here = merit(z, outline.nearest(z).distance);
+        if (here > most && winding_number(outline.points(), z) != 0) most = here, best = z;
+      }
+  }
+  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
+  return best;
+}
+
+/// The center of a polygon's area.
+Complex centroid(const Points& polygon) {
+  Complex sum = 0;
+  double area = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    sum += cross(a, b) * (a + b) / 3.0;
+    area += cross(a, b);
+  }
+  return polygon[0] + sum / area;
+}
 
 /// The arc length of the boundary's place nearest to a point. A deepest point has several: the
 /// first one, so that rounding does not choose.
@@ -74,17 +98,41 @@ double nearest_length(const Polyline& outline, Complex z) {
   return 0;
 }
 
-/// The zipper is best where it starts: at the place nearest to the middle.
-Seen seen(const Polyline& outline) {
-  const Complex centre = deepest_point(outline);
-  const double offset = nearest_length(outline, centre);
+/// Starts a list of arc lengths, once around, where the zipper is best: near the middle, and with a
+/// long step, because all else is as good as its first step is long.
+std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& outline,
+                                   Complex centre) {
+  constexpr double kNear = 1.4, kLonger = 1.001;
+  const double near = kNear * outline.nearest(centre).distance;
+  size_t best = 0;
+  double longest = 0;
+  for (size_t i = 0; i + 1 < lengths.size(); ++i) {
+    const double step = lengths[i + 1] - lengths[i];
+    if (step > kLonger * longest && std::abs(outline.at(lengths[i]) - centre) <= near)
+      best = i, longest = step;
+  }
+  std::rotate(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(best), lengths.end());
+  for (size_t i = lengths.size() - best; i < lengths.size(); ++i) lengths[i] += outline.length();
+  return lengths;
+}
+
+Seen seen(const Polyline& outline, Sampling sampling) {
+  const Complex centre = middle_point(outline);
+  std::vector<double> lengths = from_long_step(
+      graded_lengths(outline, nearest_length(outline, centre), sampling.points, sampling.least),
+      outline, centre);
   Points points;
-  for (Index i = 0; i < kPoints; ++i)
-    points.push_back(outline.at(offset + outline.length() * static_cast<double>(i) /
-                                             static_cast<double>(kPoints)));
+  for (const double length : lengths) points.push_back(outline.at(length));
   RiemannMap map(points, centre);
-  Seen result{&outline, outline.length(), offset, map.angles(), std::move(points), std::move(map)};
-  for (const double angle : result.angles) result.on_circle.push_back(std::polar(1.0, angle));
+  std::vector<double> angles(map.angles().begin(), map.angles().end());
+  const PeriodicCurve angle_at{std::move(lengths), std::move(angles), outline.length(), 2 * kPi};
+  Seen result{&outline, std::move(map), angle_at, angle_at.through_inverse(), {}};
+  for (Index i = 0; i < kSearched; ++i) {
+    const double length = angle_at.x[0] + outline.length() * static_cast<double>(i) / kSearched;
+    result.lengths.push_back(length);
+    result.places.push_back(outline.at(length));
+    result.on_circle.push_back(std::polar(1.0, angle_at(length)));
+  }
   return result;
 }
 
@@ -104,6 +152,11 @@ class DiskMap {
   double angle(Complex z) const {
     const Complex above = m_(0, 0) * z + m_(0, 1), below = m_(1, 0) * z + m_(1, 1);
     return std::arg(above * std::conj(below));
+  }
+  DiskMap inverse() const {
+    DiskMap other = *this;
+    other.m_ << m_(1, 1), -m_(0, 1), -m_(1, 0), m_(0, 0);
+    return other;
   }
 
  private:
@@ -131,6 +184,7 @@ double hyperbolic_square(Complex z, Complex w) {
 struct ConformalStart::Search {
   Seen source, target;
   double upright = 0;                 ///< weight of the turn's square
+  Points given_pins;                  ///< in the plane
   std::vector<Complex> pins, pinned;  ///< in the disks of source and target
 
   /// Where three arc lengths of the source go.
@@ -148,39 +202,48 @@ struct ConformalStart::Search {
     return {from, to};
   }
 
-  /// Of every `stride`-th place.
-  std::vector<double> target_lengths(const DiskMap& map, size_t stride = 1) const {
+  /// Where places of one circle go on the other outline, in their order.
+  static std::vector<double> lengths_on(const Seen& to, const DiskMap& map,
+                                        const Points& on_circle) {
     std::vector<double> lengths;
-    for (size_t i = 0; i < source.on_circle.size(); i += stride) {
-      const double length = target.arc_length_at(map.angle(source.on_circle[i]));
-      lengths.push_back(lengths.empty()
-                            ? length - std::floor(length / target.length) * target.length
-                            : next_in_turn(lengths.back(), length, target.length));
+    for (const Complex& place : on_circle) {
+      const double length = to.length_at(map.angle(place));
+      lengths.push_back(lengths.empty() ? length - std::floor(length / to.length()) * to.length()
+                                        : next_in_turn(lengths.back(), length, to.length()));
     }
     return lengths;
   }
 
-  /// The mean square of ln of the relative stretch, and the turn's; infinite for pairs in the wrong
-  /// order.
+  /// The mean square of ln of the relative stretch between equal steps and these.
+  static double stretch(const std::vector<double>& lengths, double total) {
+    double sum = 0;
+    for (size_t i = 0; i < lengths.size(); ++i) {
+      const double step =
+          (i + 1 < lengths.size() ? lengths[i + 1] : lengths[0] + total) - lengths[i];
+      constexpr double kLeast = 1e-15;  // of a turn: points that coincide
+      const double log =
+          std::log(std::max(step / total, kLeast) * static_cast<double>(lengths.size()));
+      sum += log * log;
+    }
+    return sum / static_cast<double>(lengths.size());
+  }
+
+  /// The mean square of ln of the relative stretch, along either outline, and the turn's; infinite
+  /// for pairs in the wrong order.
   double cost(const Pairs& pairs) const {
     for (size_t k = 0; k < 3; ++k) {
       const double gap =
-          k < 2 ? pairs.to[k + 1] - pairs.to[k] : pairs.to[0] + target.length - pairs.to[2];
-      if (!(gap > 1e-3 * target.length)) return std::numeric_limits<double>::infinity();
+          k < 2 ? pairs.to[k + 1] - pairs.to[k] : pairs.to[0] + target.length() - pairs.to[2];
+      if (!(gap > 0)) return std::numeric_limits<double>::infinity();
     }
     const DiskMap map = disk_map(pairs);
-    const std::vector<double> t = target_lengths(map, kStride);
-    double sum = 0, missed = 0;
+    const std::vector<double> t = lengths_on(target, map, source.on_circle),
+                              s = lengths_on(source, map.inverse(), target.on_circle);
+    double missed = 0;
     for (size_t i = 0; i < pinned.size(); ++i) missed += hyperbolic_square(map(pins[i]), pinned[i]);
-    for (size_t i = 0; i < t.size(); ++i) {
-      const double step = (i + 1 < t.size() ? t[i + 1] : t[0] + target.length) - t[i];
-      constexpr double kLeast = 1e-12;  // of a turn: points that coincide
-      const double log =
-          std::log(std::max(step / target.length, kLeast) * static_cast<double>(t.size()));
-      sum += log * log;
-    }
     const double turned = upright > 0 ? turn(t) : 0;
-    return sum / static_cast<double>(t.size()) + upright * turned * turned + kPinWeight * missed;
+    return 0.5 * (stretch(t, target.length()) + stretch(s, source.length())) +
+           upright * turned * turned + kPinWeight * missed;
   }
 
   /// Nelder and Mead's simplex in the three target lengths.
@@ -198,7 +261,7 @@ struct ConformalStart::Search {
     std::array<Corner, 4> simplex{at(origin), at(origin), at(origin), at(origin)};
     for (int k = 0; k < 3; ++k)
       simplex[static_cast<size_t>(k + 1)] =
-          at(origin + 0.03 * target.length * Eigen::Vector3d::Unit(k));
+          at(origin + 0.03 * target.length() * Eigen::Vector3d::Unit(k));
     for (int step = 0; step < kSimplexSteps; ++step) {
       std::ranges::sort(simplex, {}, &Corner::cost);
       const Eigen::Vector3d middle = (simplex[0].x + simplex[1].x + simplex[2].x) / 3;
@@ -221,12 +284,12 @@ struct ConformalStart::Search {
     return pairs;
   }
 
-  /// By how much a picture is turned of whose boundary every kStride-th place goes there.
+  /// By how much a picture is turned of whose boundary the searched places go there.
   double turn(const std::vector<double>& lengths) const {
     Complex from_sum = 0, to_sum = 0, both = 0;
     const double n = static_cast<double>(lengths.size());
     for (size_t i = 0; i < lengths.size(); ++i) {
-      const Complex from = source.points[kStride * i], to = target.line->at(lengths[i]);
+      const Complex from = source.places[i], to = target.line->at(lengths[i]);
       from_sum += from, to_sum += to, both += std::conj(from) * to;
     }
     return std::arg(both - std::conj(from_sum) * to_sum / n);
@@ -240,8 +303,8 @@ struct ConformalStart::Search {
         Pairs& pairs = starts.emplace_back();
         for (size_t k = 0; k < 3; ++k) {
           const double third = static_cast<double>(k) / 3;
-          pairs.from[k] = source.length * (third + offset / 6.0);
-          pairs.to[k] = target.length * (third + static_cast<double>(shift) / kShifts);
+          pairs.from[k] = source.length() * (third + offset / 6.0);
+          pairs.to[k] = target.length() * (third + static_cast<double>(shift) / kShifts);
         }
       }
     return starts;
@@ -253,14 +316,15 @@ struct ConformalStart::Search {
     for (int shift = 0; shift < kShifts; ++shift) {
       Pairs& pairs = starts.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
-        pairs.from[k] = source.length * static_cast<double>(k) / 3;
+        pairs.from[k] = source.length() * static_cast<double>(k) / 3;
         const Complex z = std::polar(1.0, source.angle_at(pairs.from[k]));
         const Complex turned =
             std::polar(1.0, 2 * kPi * shift / kShifts) * (z - pin) / (1.0 - std::conj(pin) * z);
         const Complex image = (turned + place) / (1.0 + std::conj(place) * turned);
-        pairs.to[k] = target.arc_length_at(std::arg(image));
+        pairs.to[k] = target.length_at(std::arg(image));
         if (k > 0)
-          pairs.to[k] += std::ceil((pairs.to[k - 1] - pairs.to[k]) / target.length) * target.length;
+          pairs.to[k] +=
+              std::ceil((pairs.to[k - 1] - pairs.to[k]) / target.length()) * target.length();
       }
     }
     return starts;
@@ -283,33 +347,44 @@ struct ConformalStart::Search {
     return best.second;
   }
 
+  void see_pins() {
+    pins.clear();
+    for (const Complex& z : given_pins) pins.push_back(source.in_disk(z));
+  }
+
   void want(const Points& places) {
     check(places.empty() || places.size() == pins.size(), "outline start: a place for each pin");
     pinned.clear();
     for (const Complex& z : places) pinned.push_back(target.in_disk(z));
   }
 
+  /// Through all places that either outline is sampled at.
   Correspondence correspondence() const {
-    Correspondence result;
-    result.source_length = source.length;
-    result.target_length = target.length;
-    result.target = target_lengths(disk_map(chosen));
-    for (Index i = 0; i < kPoints; ++i)
-      result.source.push_back(source.offset + source.length * static_cast<double>(i) /
-                                                  static_cast<double>(kPoints));
-    result.badness = std::sqrt(cost(chosen));
-    return result;
+    const DiskMap map = disk_map(chosen), back = map.inverse();
+    std::vector<double> from = source.angle_at.x;
+    Points on_circle;
+    for (const double angle : source.angle_at.y) on_circle.push_back(std::polar(1.0, angle));
+    std::vector<double> to = lengths_on(target, map, on_circle);
+    const auto add = [](double length, double total, std::vector<double>& lengths) {
+      lengths.push_back(length - std::floor((length - lengths.front()) / total) * total);
+    };
+    for (size_t i = 0; i < target.angle_at.x.size(); ++i) {
+      add(source.angle_at.inverse_at(back.angle(std::polar(1.0, target.angle_at.y[i]))),
+          source.length(), from);
+      add(target.angle_at.x[i], target.length(), to);
+    }
+    // Each list by itself: the map is increasing, and rounding is not.
+    std::ranges::sort(from);
+    std::ranges::sort(to);
+    return {{std::move(from), std::move(to), source.length(), target.length()},
+            std::sqrt(cost(chosen))};
   }
 };
 
-Correspondence Correspondence::inverse() const {
-  return {target, source, target_length, source_length, badness};
-}
-
 ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
                                const Points& pins)
-    : search_(new Search{seen(source), seen(target), upright, {}, {}}) {
-  for (const Complex& z : pins) search_->pins.push_back(search_->source.in_disk(z));
+    : search_(new Search{seen(source, kUsual), seen(target, kUsual), upright, pins, {}, {}}) {
+  search_->see_pins();
 }
 
 ConformalStart::~ConformalStart() = default;
@@ -318,9 +393,19 @@ bool ConformalStart::is_crowded() const {
   constexpr double kApart = 1e-12, kMost = 0.2;
   const auto crowded = [&](const Seen& seen) {
     Index close = 0;
-    for (Index i = 1; i < seen.angles.size(); ++i)
-      close += seen.angles[i] - seen.angles[i - 1] < kApart;
-    return static_cast<double>(close) > kMost * static_cast<double>(seen.angles.size());
+    for (size_t i = 1; i < seen.lengths.size(); ++i)
+      close += seen.angle_at(seen.lengths[i]) - seen.angle_at(seen.lengths[i - 1]) < kApart;
+    return static_cast<double>(close) > kMost * static_cast<double>(seen.lengths.size());
+  };
+  return crowded(search_->source) || crowded(search_->target);
+}
+
+bool ConformalStart::is_near_crowded() const {
+  constexpr double kLeast = 5e-13 * 2 * kPi, kPart = 0.01;
+  const auto crowded = [&](const Seen& seen) {
+    return std::ranges::any_of(seen.lengths, [&](double length) {
+      return seen.angle_at(length + kPart * seen.length()) - seen.angle_at(length) < kLeast;
+    });
   };
   return crowded(search_->source) || crowded(search_->target);
 }
@@ -329,6 +414,30 @@ Correspondence ConformalStart::best(const Points& pinned) {
   search_->want(pinned);
   search_->chosen = search_->best();
   return search_->correspondence();
+}
+
+bool ConformalStart::sharpen() {
+  try {
+    Seen source = seen(*search_->source.line, kSharp), target = seen(*search_->target.line, kSharp);
+    search_->source = std::move(source);
+    search_->target = std::move(target);
+  } catch (const Error&) {
+    return false;  // Vertices coincide on the way; coarser ones did not.
+  }
+  search_->see_pins();
+  return true;
+}
+
+Correspondence ConformalStart::last(const Points& pinned) {
+  search_->want(pinned);
+  return search_->correspondence();
+}
+
+Correspondence ConformalStart::least_stretched() {
+  const double upright = std::exchange(search_->upright, 0);
+  Correspondence result = best();
+  search_->upright = upright;
+  return result;
 }
 
 Correspondence ConformalStart::follow(const Points& pinned) {
@@ -343,36 +452,16 @@ Correspondence ConformalStart::follow(const Points& pinned) {
   return search_->correspondence();
 }
 
-Complex deepest_point(const Polyline& outline) {
-  const Box box = box_of(outline.points());
-  const Complex corner(box.left, box.bottom), size(box.width(), box.height());
-  Complex best;
-  double most = -1;
-  constexpr int kCells = 24;
-  for (double reach = 1; reach > 1e-14; reach /= kCells / 4.0) {
-    const Complex from = most < 0 ? corner : best - 0.5 * reach * size;
-    for (int i = 0; i < kCells; ++i)
-      for (int j = 0; j < kCells; ++j) {
-        const Complex z = from + reach * Complex((i + 0.5) / kCells * size.real(),
-                                                 (j + 0.5) / kCells * size.imag());
-        const double distance = outline.nearest(z).distance;
-        if (distance > most && winding_number(outline.points(), z) != 0) most = distance, best = z;
-      }
-  }
-  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
-  return best;
+Complex middle_point(const Polyline& outline) {
+  constexpr double kCentral = 0.2;
+  const Complex center = centroid(outline.points());
+  return best_inside(outline, [&](Complex z, double depth) {
+    return depth * std::max(1 - kCentral * std::abs(z - center) / outline.length(), 0.0);
+  });
 }
 
-double Correspondence::operator()(double length) const {
-  const double turns = std::floor((length - source.front()) / source_length);
-  length -= turns * source_length;
-  const auto after = std::upper_bound(source.begin(), source.end(), length);
-  const size_t i = static_cast<size_t>(after - source.begin()) - 1;
-  const bool last = i + 1 == source.size();
-  const double s = last ? source[0] + source_length : source[i + 1],
-               t = last ? target[0] + target_length : target[i + 1];
-  return target[i] + (length - source[i]) / (s - source[i]) * (t - target[i]) +
-         turns * target_length;
+Complex deepest_point(const Polyline& outline) {
+  return best_inside(outline, [](Complex, double depth) { return depth; });
 }
 
 }  // namespace holomorph

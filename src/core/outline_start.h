@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "core/periodic_curve.h"
 #include "core/polyline.h"
 
 namespace holomorph {
@@ -13,17 +14,21 @@ namespace holomorph {
 /// The inner point that is farthest from a closed polyline, to rounding where one is.
 Complex deepest_point(const Polyline& outline);
 
+/// A deep point, and of those almost as deep a central one: all of a strip's axis is as deep.
+Complex middle_point(const Polyline& outline);
+
 /// An increasing map from arc lengths of one closed curve to those of another one, one turn to one
 /// turn.
 struct Correspondence {
-  std::vector<double> source, target;  ///< both increasing, the same number
-  double source_length = 0, target_length = 0;
-  double badness = 0;  ///< root of what was minimised
+  PeriodicCurve lengths;  ///< the target's of the source's
+  double badness = 0;     ///< root of what was minimised
 
+  double source_length() const { return lengths.x_period; }
+  double target_length() const { return lengths.y_period; }
   /// The target's arc length for one of the source's.
-  double operator()(double length) const;
+  double operator()(double length) const { return lengths(length); }
   /// From the target's arc lengths to the source's.
-  Correspondence inverse() const;
+  Correspondence inverse() const { return {lengths.through_inverse(), badness}; }
 };
 
 /// The conformal maps of one outline's inside to another's: both seen from the disk, and which of
@@ -44,8 +49,18 @@ class ConformalStart {
   /// Whether places of one of the outlines cannot be told apart on the disk's circle any more, as
   /// those at the ends of strips twelve times as long as wide: no start can be found then.
   bool is_crowded() const;
+  /// Whether a hundredth of one of the outlines is seen from its deepest point within 5e-13 of the
+  /// whole turn: what rounding leaves there may not do.
+  bool is_near_crowded() const;
   /// With pins wanted there, or without any. Cost: 3 to 25 ms.
   Correspondence best(const Points& pinned = {});
+  /// Makes finer maps to the disk, which see corners that go to long parts of the other outline.
+  /// Returns false, and changes nothing, where rounding does not allow it. Cost: about 100 ms.
+  bool sharpen();
+  /// The last one again, by the maps that there are. Cost: 1 ms.
+  Correspondence last(const Points& pinned = {});
+  /// Without pins and however the picture is turned: what is stretched least. Cost as above.
+  Correspondence least_stretched();
   /// The same, on from the last one, which there must be; about 4 ms.
   Correspondence follow(const Points& pinned);
 

@@ -72,14 +72,18 @@ void Polyline::look(Complex z, Index node, Index first, Index count, Nearest& be
 }
 
 Complex Polyline::at(double length) const {
+  const Place place = place_at(length);
+  return start(place.segment) + place.parameter * (end(place.segment) - start(place.segment));
+}
+
+Polyline::Place Polyline::place_at(double length) const {
   if (closed_) length -= std::floor(length / this->length()) * this->length();
   length = std::clamp(length, 0.0, this->length());
   const auto after = std::upper_bound(lengths_.begin(), lengths_.end(), length);
   const Index segment =
       std::clamp<Index>(static_cast<Index>(after - lengths_.begin()) - 1, 0, segments() - 1);
   const size_t i = static_cast<size_t>(segment);
-  const double t = (length - lengths_[i]) / (lengths_[i + 1] - lengths_[i]);
-  return start(segment) + t * (end(segment) - start(segment));
+  return {segment, (length - lengths_[i]) / (lengths_[i + 1] - lengths_[i])};
 }
 
 double Polyline::length_at(Index segment, double parameter) const {

@@ -27,18 +27,43 @@ Complex upper_root(Complex w, double side) {
   return smaller > 0 ? Complex(larger, smaller) : Complex(-larger, -smaller);
 }
 
-/// A boundary point on the real axis, which may be infinite: z / (1 - z / b), then the root.
-double open_real(double inverse_b, double c, double x) {
-  const double straight = std::isinf(x) ? -1 / inverse_b : x / (1 - x * inverse_b);
-  constexpr double kFar = 1e100;  // where c is nothing beside it
-  if (std::abs(straight) > kFar) return straight;
-  return std::copysign(std::sqrt(straight * straight + c * c), straight);
-}
-
 }  // namespace
 
+Complex RiemannMap::straightened(const Arc& arc, Complex z) {
+  return arc.scale * quotient(z, {1 - z.real() * arc.inverse_b, -z.imag() * arc.inverse_b});
+}
+
+void RiemannMap::OpenPoints::open(const Arc& arc) {
+  constexpr double kFar = 1e100;  // where c is nothing next to it
+  double before = 0, before_straight = 0, before_below = 0;
+  for (size_t i = 0; i < at.size(); ++i) {
+    const bool infinite = std::isinf(at[i]), last = i + 1 == at.size();
+    const double below = 1 - at[i] * arc.inverse_b;
+    const double straight = infinite ? -arc.scale / arc.inverse_b : arc.scale * at[i] / below;
+    double opened = straight;
+    if (last) {
+      opened = -arc.c;
+    } else if (std::abs(straight) <= kFar) {
+      opened = std::copysign(std::sqrt(straight * straight + arc.c * arc.c), straight);
+    }
+    if (i > 0) {
+      double& step = steps[i - 1];
+      if (std::isfinite(step) && (before < 0) == (opened < 0) && std::abs(opened) <= kFar)
+        step *=
+            arc.scale / (below * before_below) * (straight + before_straight) / (opened + before);
+      else
+        step = opened - before;
+    }
+    at[i] = before = opened;
+    before_straight = straight;
+    before_below = below;
+  }
+  at.push_back(0);
+  steps.push_back(arc.c);
+}
+
 Complex RiemannMap::open(const Arc& arc, Complex z) {
-  const Complex straight = quotient(z, {1 - z.real() * arc.inverse_b, -z.imag() * arc.inverse_b});
+  const Complex straight = straightened(arc, z);
   return upper_root(
       {(straight.real() - straight.imag()) * (straight.real() + straight.imag()) + arc.c * arc.c,
        2 * straight.real() * straight.imag()},
@@ -52,44 +77,75 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex centre) {
   second_ = polygon[1];
   // Vertices that are still inside, and on the axis those that are done.
   std::vector<Complex> inside;
-  for (size_t i = 2; i < n; ++i) {
-    const Complex ratio = (polygon[i] - second_) / (polygon[i] - first_);
-    inside.push_back(kI * std::sqrt(ratio));
-  }
-  std::vector<double> done{std::numeric_limits<double>::infinity(), 0};
+  for (size_t i = 2; i < n; ++i) inside.push_back(first_root(polygon[i]));
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  OpenPoints done{{kInfinity, 0}, {kInfinity}};
+  Complex middle = first_root(centre);
   for (size_t k = 0; k < inside.size(); ++k) {
-    const Complex a = inside[k];
+    const Arc centered = centering(middle);
+    const Complex a = straightened(centered, inside[k]);
     const double size = std::norm(a);
     if (!(a.imag() > 0) || !std::isfinite(size))
       throw Error(ErrorKind::bad_input,
                   "the outline cannot be mapped to a disk: it touches itself near " +
                       point_text(polygon[k + 2]),
                   polygon[k + 2]);
-    const Arc arc{a.real() / size, size / a.imag()};
+    const Arc arc{centered.scale, centered.inverse_b + centered.scale * a.real() / size,
+                  size / a.imag()};
     arcs_.push_back(arc);
-    for (double& x : done) x = x == 0 ? -arc.c : open_real(arc.inverse_b, arc.c, x);
+    done.open(arc);
     for (size_t i = k + 1; i < inside.size(); ++i) inside[i] = open(arc, inside[i]);
-    done.push_back(0);
+    middle = open(arc, middle);
   }
-  last_inverse_ = 1 / done[0];
-  centre_ = in_half_plane(centre);
-  angles_.resize(static_cast<Index>(n));
-  for (size_t i = 0; i < n; ++i) {
-    const double straight = done[i] / (1 - done[i] * last_inverse_);
-    const Complex on_axis(-straight * straight, 0);
-    const Complex on_circle =
-        i == 0 ? Complex(1) : (on_axis - centre_) / (on_axis - std::conj(centre_));
-    const double angle = std::arg(on_circle);
-    angles_[static_cast<Index>(i)] =
-        i == 0 ? angle : next_in_turn(angles_[static_cast<Index>(i) - 1], angle, 2 * kPi);
+  last_ = centering(middle);
+  last_.inverse_b = 1 / done.at[0];
+  const Complex quarter = straightened(last_, middle);
+  centre_ = -quarter * quarter;
+  set_angles(done);
+}
+
+// The first vertex is at infinity, the others are squares on the negative axis.
+void RiemannMap::set_angles(const OpenPoints& points) {
+  const Index n = static_cast<Index>(points.at.size());
+  const double first = points.at[0], u = centre_.real(), v = centre_.imag();
+  angles_.resize(n);
+  steps_.resize(n);
+  angles_[0] = 0;
+  double from_first = 0, before = 0, before_below = 1;
+  for (Index i = 1; i < n; ++i) {
+    const double at = points.at[static_cast<size_t>(i)],
+                 step = points.steps[static_cast<size_t>(i - 1)];
+    from_first += step;
+    const double below = -from_first / first, root = last_.scale * at / below;
+    const double x = -root * root - u;
+    if (i == 1) {
+      steps_[0] = 2 * std::atan2(v, -x);
+    } else {
+      const double root_step = last_.scale * step / (below * before_below);
+      steps_[i - 1] =
+          2 * std::atan2(-root_step * (root + before) * v, v * v + x * (-before * before - u));
+    }
+    angles_[i] = angles_[i - 1] + steps_[i - 1];
+    before = root;
+    before_below = below;
   }
+  steps_[n - 1] = 2 * std::atan2(v, -u);
+}
+
+Complex RiemannMap::first_root(Complex z) const {
+  const Complex w = kI * std::sqrt((z - second_) / (z - first_));
+  return w.imag() < 0 ? -w : w;
+}
+
+/// Keeps 0 and takes a point of the upper half-plane to i.
+RiemannMap::Arc RiemannMap::centering(Complex z) {
+  return {z.imag() / std::norm(z), z.real() / std::norm(z), 0};
 }
 
 Complex RiemannMap::in_half_plane(Complex z) const {
-  Complex w = kI * std::sqrt((z - second_) / (z - first_));
-  if (w.imag() < 0) w = -w;
+  Complex w = first_root(z);
   for (const Arc& arc : arcs_) w = open(arc, w);
-  const Complex straight = w / (1.0 - w * last_inverse_);
+  const Complex straight = straightened(last_, w);
   return -straight * straight;
 }
 

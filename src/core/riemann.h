@@ -1,7 +1,8 @@
 // Riemann maps of polygons by their boundary: the geodesic zipper (Marshall, Rohde 2007).
 //
 // The domain is opened along its boundary arc by arc, each a geodesic of what is left of the plane,
-// until it is the upper half-plane.
+// until it is the upper half-plane. After each arc the center goes back to i and the end of the
+// boundary so far to 0, so that only what the center hardly sees is lost to rounding.
 #pragma once
 
 #include <span>
@@ -23,20 +24,33 @@ class RiemannMap {
   /// Where the polygon's vertices go on the unit circle: arguments, increasing, the first one in
   /// (-pi, pi], the last one less than 2 pi above it.
   const VectorXd& angles() const { return angles_; }
+  /// The steps from each vertex's angle to the next one's, precise however small they are.
+  const VectorXd& steps() const { return steps_; }
 
  private:
   struct Arc {
-    double inverse_b = 0;  ///< z -> z / (1 - z / b) straightens the arc
-    double c = 0;          ///< and this is its height
+    double scale = 1, inverse_b = 0;  ///< z -> scale z / (1 - z / b) straightens the arc
+    double c = 0;                     ///< and this is its height
   };
+  /// Boundary points that are open, on the real axis in their order, the last one at 0, and the
+  /// differences between neighbors: those stay exact where the points themselves cannot be told
+  /// apart.
+  struct OpenPoints {
+    std::vector<double> at, steps;
+    void open(const Arc& arc);
+  };
+  static Complex straightened(const Arc& arc, Complex z);
   static Complex open(const Arc& arc, Complex z);
+  static Arc centering(Complex z);
+  Complex first_root(Complex z) const;
+  void set_angles(const OpenPoints& points);
   Complex in_half_plane(Complex z) const;
 
   Complex first_, second_;  ///< vertices
   std::vector<Arc> arcs_;
-  double last_inverse_ = 0;  ///< one over the image of the first vertex before the last step
-  Complex centre_;           ///< in the half-plane
-  VectorXd angles_;
+  Arc last_;        ///< takes the first vertex to infinity
+  Complex centre_;  ///< in the half-plane
+  VectorXd angles_, steps_;
 };
 
 }  // namespace holomorph

@@ -83,10 +83,14 @@ void SegmentPolynomial::refine(const FinePoint& z, Root& root) const {
   Complex& x = from_start ? root.s : root.q;
   const Points& powers = from_start ? start_ : end_;
   if (std::norm(x) > 1) return;
-  for (int step = 0; step < 2; ++step) {
+  // Next to the end all digits of x may be wrong, but no other root is as near.
+  constexpr double kAtEnd = 1e-10;
+  for (int step = 0; step < 3; ++step) {
     const Value at = horner(powers, z, x);
     const Complex move = quotient(at.value, at.slope);
-    if (!is_finite(move) || std::norm(move) > 1e-4 * std::norm(x)) break;  // nearly double
+    if (!is_finite(move)) break;
+    if (std::norm(move) > 1e-4 * std::norm(x) && std::norm(move) > kAtEnd * kAtEnd)
+      break;  // nearly double
     x -= move;
   }
   (from_start ? root.q : root.s) = 1.0 - x;

@@ -51,7 +51,7 @@ class BoundedDeformer final : public Deformer {
       return take_identity(pose, out, wanted);
     project(reference_->reference(out.zeros), pose, wanted.draft && warm_);
     warm_ = true;
-    integrate(pose);
+    integrate(pose, wanted.draft);
     answer(out, wanted);
     out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
                                                              : SampledMap::Status::infeasible;
@@ -144,12 +144,12 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// The map at the mesh, at its place.
-  void integrate(const Pose& pose) {
+  void integrate(const Pose& pose, bool draft) {
     auto [f, first] = on_mesh_->values(solution_.map);
     f_ = std::move(f);
     first_ = std::move(first);
     // The tree's rule is off by a thousandth of a pixel next to the boundary.
-    if (rest_.precision == Precision::full) f_ = on_mesh_->integrated(solution_.map);
+    if (!draft) f_ = on_mesh_->integrated(solution_.map);
     align(pose);
     posed_ = pose;
     turned_ = flipped_triangles(*rest_.mesh, f_);

@@ -27,6 +27,8 @@ class OutlineDeformer final : public Deformer {
     }
     fit_ = new_fit();
     take_values();
+    // What no pose changes is solved while the rest is prepared, which nobody waits for.
+    if (pins_.used.empty()) solve({}, false);
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
@@ -38,7 +40,7 @@ class OutlineDeformer final : public Deformer {
       return;
     }
     out = SampledMap{};
-    solve(pose, wanted.draft);
+    solve(pinned(pose), wanted.draft);
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(wanted.iteration.value_or(last), last));
     out.f = image(value_, match);
@@ -105,8 +107,7 @@ class OutlineDeformer final : public Deformer {
     return pinned;
   }
 
-  void solve(const Pose& pose, bool draft) {
-    Points wanted = pinned(pose);
+  void solve(Points wanted, bool draft) {
     if (wanted == solved_ && (draft || !draft_)) return;
     if (draft)
       fit_->follow(wanted);
@@ -138,9 +139,10 @@ class OutlineDeformer final : public Deformer {
       return std::string(text);
     };
     std::string note = "The outline is met to " + percent(match.rms) +
-                       " of its size on average and " + percent(match.hausdorff) +
-                       " at worst, in " + std::to_string(match.iterations) +
-                       (match.iterations == 1 ? " step" : " steps");
+                       " of its size on average and " + percent(match.hausdorff) + " at worst";
+    if (match.iterations > 0)
+      note +=
+          ", in " + std::to_string(match.iterations) + (match.iterations == 1 ? " step" : " steps");
     if (match.zeros > 0) note += "; the picture folds: f' has zeros";
     const bool reached = match.hausdorff <= kReached * size,
                met = match.pins_missed <= kReached * size;
