@@ -77,7 +77,7 @@ struct Rest {
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
   Points derivative_samples;
-  /// The domain's triangles, for methods that integrate or minimise over it.
+  /// The cage's triangles, for methods that integrate or minimise over them.
   std::shared_ptr<const Mesh> mesh;
   Parameters parameters;
   /// Parameters of other methods by id, for those that follow another one.
@@ -171,11 +171,15 @@ struct Method {
   bool uses_pins = false;
   bool harmonic = true;  ///< f_z and conj(f_zbar) are holomorphic
   bool similar = true;   ///< a similarity of all handles gives that similarity
-  /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
-  /// have in common need not be computed again. Throws Error for a rest that cannot be used.
-  std::unique_ptr<Deformer> (*prepare)(const Rest& rest, const Deformer* previous) = nullptr;
+  /// What `prepare` calls with a rest that has been checked.
+  std::unique_ptr<Deformer> (*make)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
   bool uses_strokes = false, uses_outline = false, uses_corners = false, uses_stiffness = false;
+  bool needs_mesh = false;
+
+  /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
+  /// have in common need not be computed again. Throws Error for a rest that cannot be used.
+  std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) const;
 };
 
 /// The table of methods, in menu order.

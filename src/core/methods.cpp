@@ -1,6 +1,7 @@
 // THE table of methods.
 #include "core/deformer.h"
 #include "core/error.h"
+#include "core/methods/check_rest.h"
 #include "core/methods/rows.h"
 
 namespace holomorph {
@@ -24,6 +25,11 @@ const Method& method_named(const std::string& id) {
   }
   throw Error(ErrorKind::bad_input,
               "method '" + id + "' is not available in this version; choose one of: " + known);
+}
+
+std::unique_ptr<Deformer> Method::prepare(const Rest& rest, const Deformer* previous) const {
+  check_rest(*this, rest);
+  return make(rest, previous);
 }
 
 Rest used_by(const Method& method, Rest rest) {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <Eigen/QR>
+#include <functional>
 
 #include "core/cauchy.h"
 #include "core/deformer.h"
@@ -474,4 +475,139 @@ TEST_CASE("One pin moves everything, and unusable pins are named") {
 TEST_CASE("An unknown method is refused by name") {
   CHECK_THROWS_WITH(method_named("magic"),
                     Catch::Contains("magic") && Catch::Contains("cage, pins"));
+}
+
+namespace {
+
+/// A change that spoils a Rest or a Pose, and which methods must then refuse it.
+struct Damage {
+  const char* name;
+  std::function<void(Setup&)> act;
+  std::function<bool(const Method&)> matters = [](const Method&) { return true; };
+};
+
+std::vector<Damage> damages() {
+  const auto pins = [](const Method& m) { return m.uses_pins; };
+  const auto strokes = [](const Method& m) { return m.uses_strokes; };
+  const Complex nan(NAN, 0);
+  return {
+      {"no cage", [](Setup& s) { s.rest.cage = {}; }},
+      {"a cage that is not finite", [=](Setup& s) { s.rest.cage.segments[1][0] = nan; }},
+      {"a cage that crosses itself",
+       [](Setup& s) { std::swap(s.rest.cage.segments[0], s.rest.cage.segments[2]); }},
+      {"a sample that is not finite", [=](Setup& s) { s.rest.samples[3] = nan; }},
+      {"too few derivative samples", [](Setup& s) { s.rest.derivative_samples.pop_back(); }},
+      {"a derivative sample that is not finite",
+       [=](Setup& s) { s.rest.derivative_samples[3] = nan; }},
+      {"no mesh", [](Setup& s) { s.rest.mesh = nullptr; },
+       [](const Method& m) { return m.needs_mesh; }},
+      {"an empty mesh", [](Setup& s) { s.rest.mesh = std::make_shared<const Mesh>(); }},
+      {"a mesh with a vertex that it does not have",
+       [](Setup& s) {
+         Mesh mesh = *s.rest.mesh;
+         mesh.triangles[5][1] = 1 << 20;
+         s.rest.mesh = std::make_shared<const Mesh>(mesh);
+       }},
+      {"a mesh that is not finite",
+       [=](Setup& s) {
+         Mesh mesh = *s.rest.mesh;
+         mesh.vertices[7] = nan;
+         s.rest.mesh = std::make_shared<const Mesh>(mesh);
+       }},
+      {"another cage's mesh",
+       [](Setup& s) {
+         s.rest.mesh = std::make_shared<const Mesh>(
+             domain_mesh(polygon_cage(shapes::star(6, 0.2, 3)), {200}));
+       }},
+      {"a pin that is not finite", [=](Setup& s) { s.rest.pins[0].position = nan; }, pins},
+      {"a stroke of one point", [](Setup& s) { s.rest.strokes[0].resize(1); }, strokes},
+      {"a stroke of none", [](Setup& s) { s.rest.strokes[0].clear(); }, strokes},
+      {"an outline that is not finite",
+       [=](Setup& s) {
+         s.rest.outline = {0, 1, nan, 3};
+       }},
+      {"an outline of two points",
+       [](Setup& s) {
+         s.rest.outline = {0, 100};
+       },
+       [](const Method& m) { return m.id == "outline"; }},
+      {"corners out of order",
+       [](Setup& s) {
+         s.rest.corners = {2, 1, 3};
+       }},
+      {"a corner beyond the cage",
+       [](Setup& s) {
+         s.rest.corners = {0, 1, 99};
+       }},
+      {"a brush that is not finite",
+       [=](Setup& s) {
+         s.rest.stiffness = {{nan, 10, 1}};
+       }},
+      {"a brush without radius",
+       [](Setup& s) {
+         s.rest.stiffness = {{50, 0, 1}};
+       }},
+      {"too few posed segments", [](Setup& s) { s.pose.cage.segments.pop_back(); }},
+      {"too high a posed degree",
+       [](Setup& s) {
+         s.pose.cage.segments[0].insert(s.pose.cage.segments[0].end(), 7, Complex(1));
+       }},
+      {"a pose that is not finite", [=](Setup& s) { s.pose.cage.segments[2][0] = nan; }},
+      {"a posed pin too few", [](Setup& s) { s.pose.pins.pop_back(); }, pins},
+      {"a posed pin too many", [](Setup& s) { s.pose.pins.push_back({}); }},
+      {"a posed pin that is not finite", [=](Setup& s) { s.pose.pins[1].position = nan; }, pins},
+      {"a posed pin without size", [](Setup& s) { s.pose.pins[1].scale = 0; }, pins},
+      {"a posed stroke too many",
+       [](Setup& s) {
+         s.pose.strokes.push_back({0, 1});
+       }},
+      {"a posed stroke that is not finite", [=](Setup& s) { s.pose.strokes[0][0] = nan; }, strokes},
+      {"a posed stroke of none", [](Setup& s) { s.pose.strokes[0].clear(); }, strokes},
+      {"a posed corner too many", [](Setup& s) { s.pose.corners.push_back({}); }},
+      {"a posed corner that is not finite",
+       [](Setup& s) {
+         s.rest.corners = {0, 1, 2};
+         s.pose.corners.resize(3);
+         s.pose.corners[1].before = NAN;
+       }},
+  };
+}
+
+}  // namespace
+
+TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
+  for (const Method& method : methods()) {
+    const Setup whole = setup(method, Precision::full);
+    const auto is_refused = [&](const Setup& s) {
+      try {
+        SampledMap map;
+        method.prepare(s.rest, nullptr)->deform(s.pose, map, {true});
+      } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::bad_input);
+        CHECK(std::string(error.what()).size() > 10);
+        return true;
+      }
+      return false;
+    };
+    REQUIRE_FALSE(is_refused(whole));
+    for (const Damage& damage : damages()) {
+      if (!damage.matters(method)) continue;
+      Setup broken = whole;
+      damage.act(broken);
+      INFO(method.id << ": " << damage.name);
+      CHECK(is_refused(broken));
+    }
+    for (const ParameterSpec& spec : method.parameters) {
+      const double beyond = spec.kind == ParameterSpec::Kind::choice
+                                ? static_cast<double>(spec.options.size())
+                                : spec.highest * 1.01 + 1;
+      for (const double value : {static_cast<double>(NAN), beyond, -1e9}) {
+        if (spec.kind == ParameterSpec::Kind::toggle && std::isfinite(value)) continue;
+        Setup broken = whole;
+        broken.rest.parameters[spec.key] = value;
+        INFO(method.id << ": parameter " << spec.key << " = " << value);
+        CHECK(is_refused(broken));
+      }
+    }
+  }
 }

@@ -20,10 +20,6 @@ struct Boundary {
   explicit Boundary(const Rest& rest)
       : cage(counter_clockwise(rest.cage)), reversed(!(cage == rest.cage)), corners(rest.corners) {
     const Index n = cage.size();
-    if (!std::ranges::is_sorted(corners) || std::ranges::adjacent_find(corners) != corners.end() ||
-        (!corners.empty() && (corners.front() < 0 || corners.back() >= n)))
-      throw Error(ErrorKind::bad_input,
-                  "corners must be vertices of the cage, each once and in order");
     if (corners.empty()) {
       corners.resize(static_cast<size_t>(n));
       std::iota(corners.begin(), corners.end(), 0);
@@ -243,7 +239,6 @@ class AnglesDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   return std::make_unique<AnglesDeformer>(rest);
 }
 
@@ -264,6 +259,7 @@ Method angles_method() {
       true,
       true,
       prepare};
+  method.needs_mesh = true;
   method.uses_corners = true;
   return method;
 }

@@ -203,7 +203,6 @@ class ArapDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   return std::make_unique<ArapDeformer>(rest);
 }
 
@@ -220,6 +219,7 @@ Method arap_method() {
                 false,
                 false,
                 prepare};
+  method.needs_mesh = true;
   method.uses_stiffness = true;
   return method;
 }

@@ -9,6 +9,7 @@
 #include "core/distortion.h"
 #include "core/error.h"
 #include "core/methods/bounded_points.h"
+#include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 #include "core/psi_space.h"
@@ -45,6 +46,7 @@ class BoundedDeformer final : public Deformer {
   }
 
   void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+    check_pose(rest_, pose);
     if (wanted.draft && draft_) return draft_->deform(pose, out, wanted);
     reference_->deform(pose, wanted.draft);
     if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
@@ -61,6 +63,7 @@ class BoundedDeformer final : public Deformer {
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    check_pose(rest_, pose);
     if (posed_ != pose) {
       BoundedDeformer copy(rest_, final_basis(rest_.cage));
       SampledMap map;
@@ -267,7 +270,6 @@ class BoundedDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   auto deformer = std::make_unique<BoundedDeformer>(rest, BoundedDeformer::final_basis(rest.cage));
   deformer->prepare_draft();
   return deformer;
@@ -304,6 +306,7 @@ Method bounded_method(const std::vector<Method>& references) {
        {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
        {"Default", {}},
        {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
+  method.needs_mesh = true;
   method.uses_strokes = method.uses_outline = method.uses_corners = true;
   return method;
 }

@@ -31,7 +31,6 @@ class CageDeformer final : public LinearDeformer<T> {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   if (rest.precision == Precision::full) return std::make_unique<CageDeformer<double>>(rest);
   return std::make_unique<CageDeformer<float>>(rest);
 }

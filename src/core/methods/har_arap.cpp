@@ -176,22 +176,23 @@ class HarArapDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   return std::make_unique<HarArapDeformer>(rest);
 }
 
 }  // namespace
 
 Method har_arap_method() {
-  return {"har_arap",
-          "Rigid and smooth",
-          "As rigid as possible among smooth maps: pins pull no spikes. Without pins the cage's "
-          "points hold.",
-          {},
-          true,
-          true,
-          false,
-          prepare};
+  Method method{"har_arap",
+                "Rigid and smooth",
+                "As rigid as possible among smooth maps: pins pull no spikes. Without pins the "
+                "cage's points hold.",
+                {},
+                true,
+                true,
+                false,
+                prepare};
+  method.needs_mesh = true;
+  return method;
 }
 
 }  // namespace holomorph

@@ -83,7 +83,6 @@ class HarmonicCoordinates final : public RealCoordinates {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   return real_deformer(rest,
                        std::make_shared<const HarmonicCoordinates>(counter_clockwise(rest.cage)));
 }

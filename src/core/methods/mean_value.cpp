@@ -127,7 +127,6 @@ class MeanValueCoordinates final : public RealCoordinates {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   return real_deformer(rest,
                        std::make_shared<const MeanValueCoordinates>(counter_clockwise(rest.cage)));
 }

@@ -170,7 +170,6 @@ class OutlineDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   if (rest.precision == Precision::full) return std::make_unique<OutlineDeformer<double>>(rest);
   return std::make_unique<OutlineDeformer<float>>(rest);
 }

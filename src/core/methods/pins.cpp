@@ -290,7 +290,6 @@ class PinsDeformer final : public LinearDeformer<T> {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
-  check_rest_cage(rest.cage);
   const Method& method = method_named("pins");
   if (rest.precision == Precision::full)
     return std::make_unique<PinsDeformer<double>>(

@@ -361,7 +361,6 @@ class StrokesDeformer final : public Deformer {
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
-  check_rest_cage(rest.cage);
   if (rest.precision == Precision::full) return std::make_unique<StrokesDeformer<double>>(rest);
   return std::make_unique<StrokesDeformer<float>>(rest);
 }
