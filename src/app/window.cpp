@@ -118,14 +118,15 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
     self(w)->add({Kind::character, 0, 0, static_cast<int>(code)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
+    // Where the pointer was then, which GLFW knows no more: by now it may be elsewhere.
+    const auto [x, y] = self(w)->last_place();
     self(w)->add({Kind::button, x, y, button, 0, action});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
     self(w)->add({Kind::scroll, x, y});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    self(w)->place_ = {x, y};
     self(w)->add({Kind::move, x, y});
   });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
@@ -218,6 +219,13 @@ void Window::begin_frame(bool navigates) {
 void Window::end_frame() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(window_);
+}
+
+std::pair<double, double> Window::last_place() const {
+  if (place_) return *place_;
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  return {x, y};
 }
 
 void Window::add(const Event& event) {

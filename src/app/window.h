@@ -89,7 +89,11 @@ class Window {
   bool held_over_ = false;        ///< Enter or Space, since before frames navigate
   std::vector<KeyPress> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
+  /// The pointer's place in window px, as the events so far have it.
+  std::pair<double, double> last_place() const;
+
   std::deque<Event> events_;
+  std::optional<std::pair<double, double>> place_;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};
   std::vector<Path> drops_;

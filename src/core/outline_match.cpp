@@ -16,9 +16,10 @@ namespace {
 
 constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
-constexpr double kInset = 7e-4;    ///< of the loop that zeros are counted in, in diagonals
-constexpr double kReached = 0.01;  ///< of the outline's diagonal: nearer counts as met
-constexpr double kFinest = 0.01;   ///< smoothness: with more, corners are to be rounded
+constexpr double kInset = 7e-4;      ///< of the loop that zeros are counted in, in diagonals
+constexpr double kSoftInset = 5e-3;  ///< where angles may give way: corners are flattened roughly
+constexpr double kReached = 0.01;    ///< of the outline's diagonal: nearer counts as met
+constexpr double kFinest = 0.01;     ///< smoothness: with more, corners are to be rounded
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
 constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
@@ -135,7 +136,8 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       source_(flat_.points, true),
       target_(in(frame_, checked(outline)), true),
       pins_(in(frame_, pins)),
-      loop_(inner_loop(flat_.points, kInset * source_.diagonal())),
+      loop_(inner_loop(flat_.points,
+                       (settings.stiffness > 0 ? kSoftInset : kInset) * source_.diagonal())),
       unit_(source_.length() / (2 * kPi)),
       centre_(box_of(target_.points()).center()) {
   if (!settings_.published)

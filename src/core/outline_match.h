@@ -42,9 +42,9 @@ struct OutlineMatch {
   double hausdorff = 0;    ///< the largest distance either way
   double pins_missed = 0;  ///< the largest distance of a pin from where it was wanted
   int pins_held = 0;       ///< that were wanted outside of the outline, and are held just inside
-  /// Of f_z, farther inside than a thousandth of the shape's size (argument principle): the picture
-  /// folds around each; the turning number is one more. Where a corner is flattened, the exact f_z
-  /// is 0 at the corner itself.
+  /// Of f_z, farther inside than a thousandth of the shape's size, or five thousandths with
+  /// stiffness (argument principle): the picture folds around each; the turning number is one more.
+  /// Where a corner is flattened, the exact f_z is 0 at the corner itself.
   int zeros = 0;
   int iterations = 0;
   std::vector<double>

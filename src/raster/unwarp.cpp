@@ -8,7 +8,7 @@
 #include "core/cauchy.h"
 #include "core/error.h"
 #include "core/inverse.h"
-#include "scene/live_map.h"
+#include "scene/timed_map.h"
 
 namespace holomorph {
 namespace {
@@ -32,21 +32,22 @@ void fill_row(const Scene& scene, const InverseMap& inverse, double scale, int r
 
 }  // namespace
 
-StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale) {
+StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale,
+                std::optional<double> time) {
   const double width = picture_width, height = picture_height;
   if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
     throw Error(ErrorKind::bad_input,
                 "the scale must be positive and give at most 16384 pixels a side");
   if (picture_width <= 0 || picture_height <= 0)
     throw Error(ErrorKind::bad_input, "an ST-map needs the scene's picture, and it has none");
-  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
-  SampledMap sampled;
-  prepared->deformer->deform(pose_of(scene), sampled, {});
-  const auto points = prepared->deformer->point_map(pose_of(scene));
+  TimedMap timed(scene);
+  const TimedMap::Frame frame = timed.frame(time);
+  const auto points = timed.point_map(frame);
   if (!points)
     throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse to export");
-  const InverseMap inverse(scene.rest, *prepared->mesh,
-                           {sampled.f.data(), static_cast<size_t>(sampled.f.size())}, *points);
+  const VectorXc& f = frame.map.f;
+  const InverseMap inverse(scene.rest, timed.mesh(), {f.data(), static_cast<size_t>(f.size())},
+                           *points);
   StMap map{std::max(1, static_cast<int>(std::lround(width * scale))),
             std::max(1, static_cast<int>(std::lround(height * scale))),
             {}};
@@ -63,17 +64,16 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
   return map;
 }
 
-Image unwarped(const Scene& scene, const Image* picture, double scale) {
+Image unwarped(const Scene& scene, const Image* picture, double scale, std::optional<double> time) {
   if (!picture)
     throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
-  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {});
-  Mesh posed = *prepared->mesh;
-  posed.vertices.assign(map.f.begin(), map.f.end());
+  TimedMap timed(scene);
+  const VectorXc f = timed.frame(time).map.f;
+  Mesh posed = timed.mesh();
+  posed.vertices.assign(f.begin(), f.end());
   RasterJob job;
   job.mesh = &posed;
-  job.positions = prepared->mesh->vertices;
+  job.positions = timed.mesh().vertices;
   job.source = picture;
   job.pixels_per_unit = scale;
   job.crop = true;

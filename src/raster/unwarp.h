@@ -13,14 +13,17 @@ struct StMap {
   std::vector<float> st;  ///< width x height x 2
 };
 
-/// The ST-map of a posed scene of a picture of this size, `scale` pixels per picture pixel. Each
+/// The ST-map of a scene, posed or at a time of its keyframes, of a picture of this size, `scale`
+/// pixels per picture pixel. Each
 /// place is the map's own, rounded to single precision. Throws Error without a cage. Cost: about 10
 /// us a pixel and core.
-StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale = 1);
+StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale = 1,
+                std::optional<double> time = {});
 
 /// The picture taken for one of the posed scene, and drawn as it was at rest: the rest point z
 /// shows the picture at f(z). Nothing is drawn outside the cage. Throws Error without a cage or
 /// picture.
-Image unwarped(const Scene& scene, const Image* picture, double scale = 1);
+Image unwarped(const Scene& scene, const Image* picture, double scale = 1,
+               std::optional<double> time = {});
 
 }  // namespace holomorph

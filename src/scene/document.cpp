@@ -122,8 +122,12 @@ std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, 
 }  // namespace
 
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
+  return scene_of_text(read_file(path), path, pictures_may_be_missing);
+}
+
+LoadedScene scene_of_text(const std::string& text, const Path& path, bool pictures_may_be_missing) {
   LoadedScene loaded;
-  const Scene scene = scene_from_json(read_file(path), path.string());
+  const Scene scene = scene_from_json(text, path.string());
   PictureFiles files;
   std::vector<Scene> layers = layers_of(scene);
   for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
@@ -334,6 +338,10 @@ Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& 
 
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
+  if (is_read_only(target))
+    throw Error(ErrorKind::failed, target.string() +
+                                       ": the file is read-only; save under another "
+                                       "name, or make it writable");
   Scene present = with_present_pictures(scene(), pictures_, target);
   write_file(target, json_of(portable(present, target.parent_path())));
   history_.replace(std::move(present));

@@ -22,6 +22,9 @@ struct LoadedScene {
 /// not where it was is looked for beside the scene. One that cannot be read is a warning, if it may
 /// be missing. Throws Error.
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing = false);
+/// The same from a text that stands for the file.
+LoadedScene scene_of_text(const std::string& text, const Path& path,
+                          bool pictures_may_be_missing = false);
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
 

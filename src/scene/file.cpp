@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 namespace holomorph {
@@ -48,27 +50,80 @@ void sync_directory(const Path& directory) {
 
 }  // namespace
 
+namespace {
+
+/// False with errno when not all bytes could be written.
+bool write_all(int descriptor, const std::string& bytes) {
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote <= 0) return false;
+    done += static_cast<size_t>(wrote);
+  }
+  return true;
+}
+
+/// A pipe whose reader has gone is an error like others, not a signal that ends the program.
+void ignore_broken_pipes() {
+  static const bool ignored = std::signal(SIGPIPE, SIG_IGN) != SIG_ERR;
+  (void)ignored;
+}
+
+/// Into a pipe or a device, which cannot be replaced.
+void write_into(const Path& path, const std::string& bytes) {
+  ignore_broken_pipes();
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (fd < 0) fail(path, "cannot be opened for writing");
+  const bool good = write_all(fd, bytes);
+  const int reason = errno;
+  const bool closed = ::close(fd) == 0;
+  if (good && closed) return;
+  if (!good) errno = reason;
+  fail(path, "cannot be written");
+}
+
+}  // namespace
+
+void write_standard_output(const std::string& bytes) {
+  ignore_broken_pipes();
+  std::cout.flush();
+  if (!write_all(STDOUT_FILENO, bytes)) fail("standard output", "cannot be written");
+}
+
+std::string read_standard_input(size_t limit) {
+  std::string bytes;
+  char block[1 << 16];
+  while (std::cin.read(block, sizeof block) || std::cin.gcount() > 0) {
+    bytes.append(block, static_cast<size_t>(std::cin.gcount()));
+    if (bytes.size() > limit)
+      throw Error(ErrorKind::bad_input,
+                  "standard input: there are more than " + std::to_string(limit >> 20) + " MB");
+  }
+  return bytes;
+}
+
+bool is_read_only(const Path& path) {
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode) &&
+         (found.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
+}
+
 void write_file(const Path& wanted, const std::string& bytes) {
   std::error_code error;
-  if (std::filesystem::is_directory(wanted, error))
+  const auto status = std::filesystem::status(wanted, error);
+  if (std::filesystem::is_directory(status))
     throw Error(ErrorKind::bad_input, wanted.string() + ": this is a directory; name a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return write_into(wanted, bytes);
   // A link keeps pointing where it points: its target is what gets replaced.
-  const Path resolved = std::filesystem::is_symlink(wanted, error)
-                            ? std::filesystem::canonical(wanted, error)
-                            : wanted;
-  const Path path = resolved.empty() ? wanted : resolved;
+  Path path = wanted;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(path, error); ++links)
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
   const Path directory = path.has_parent_path() ? path.parent_path() : Path(".");
   std::string name = (directory / ("." + path.filename().string() + ".XXXXXX")).string();
   const int fd = ::mkstemp(name.data());
   if (fd < 0) fail(path, "cannot write here");
-  size_t done = 0;
-  bool good = true;
-  while (good && done < bytes.size()) {
-    const ssize_t wrote = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (wrote < 0 && errno == EINTR) continue;
-    good = wrote > 0;
-    if (good) done += static_cast<size_t>(wrote);
-  }
+  bool good = write_all(fd, bytes);
   struct stat before {};
   const mode_t mask = ::umask(0);
   ::umask(mask);

@@ -14,9 +14,18 @@ using Path = std::filesystem::path;
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
-/// Replaces the file's content or leaves it as it was: writes beside it, flushes to disk, renames.
-/// Throws Error{failed} when that is not possible.
+/// All bytes of standard input, `limit` at most. Throws Error{bad_input} when there are more.
+std::string read_standard_input(size_t limit = size_t{1} << 30);
+
+/// Replaces the file's content or leaves it as it was: writes next to it, flushes to disk, renames.
+/// A link keeps pointing where it points; pipes and devices are written into. Throws Error{failed}
+/// when that is not possible.
 void write_file(const Path& path, const std::string& bytes);
+/// Throws Error{failed} when standard output does not take all of it.
+void write_standard_output(const std::string& bytes);
+
+/// Whether there is a file that nobody may write, by its permissions.
+bool is_read_only(const Path& path);
 
 /// A mark that a running program owns something: held until destroyed, and by nobody once the
 /// program has ended, however it ended.

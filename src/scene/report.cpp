@@ -24,20 +24,15 @@ double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map
   return total > 0 ? energy / total * length * length : 0;
 }
 
-double pin_distance(const PreparedMap& prepared, const Scene& scene) {
-  if (prepared.rest.pins.empty()) return 0;
-  Rest rest = prepared.rest;
-  rest.samples.clear();
-  rest.derivative_samples.clear();
-  Points targets;
-  for (size_t i = 0; i < rest.pins.size(); ++i)
-    if (contains(rest.cage, rest.pins[i].position)) {
-      rest.samples.push_back(rest.pins[i].position);
-      targets.push_back(scene.pins[i].pose);
+double pin_distance(const TimedMap& timed, const TimedMap::Frame& frame) {
+  Points pins, targets;
+  for (size_t i = 0; i < timed.prepared().rest.pins.size(); ++i)
+    if (contains(frame.scene.rest, timed.prepared().rest.pins[i].position)) {
+      pins.push_back(timed.prepared().rest.pins[i].position);
+      targets.push_back(frame.scene.pins[i].pose);
     }
   if (targets.empty()) return 0;
-  SampledMap map;
-  method_named(prepared.method).prepare(rest, nullptr)->deform(pose_of(scene), map, {});
+  const SampledMap map = timed.at(frame, pins);
   double sum = 0;
   for (size_t i = 0; i < targets.size(); ++i)
     sum += std::norm(map.f[static_cast<Index>(i)] - targets[i]);
@@ -60,58 +55,71 @@ const char* name_of(SampledMap::Status status) {
   return "";
 }
 
-SceneReport report_of(const Scene& scene) {
-  const auto prepared = prepared_map(scene, Precision::full, MeshOptions{});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {true});
-  const double start = now_ms();
-  SampledMap again;
-  prepared->deformer->deform(pose_of(scene), again, {});
+SceneReport report_of(const TimedMap& timed, const TimedMap::Frame& frame) {
+  const PreparedMap& prepared = timed.prepared();
+  const Mesh& mesh = timed.mesh();
   SceneReport report;
-  report.pose_milliseconds = now_ms() - start;
-  report.method = scene.method;
-  report.status = name_of(map.status);
-  report.note = map.note;
-  report.iterations = map.iterations;
-  report.cage_vertices = static_cast<int>(scene.rest.size());
-  report.pins = static_cast<int>(scene.pins.size());
-  report.mesh_vertices = static_cast<int>(prepared->mesh->vertices.size());
-  report.mesh_triangles = static_cast<int>(prepared->mesh->triangles.size());
-  report.prepare_milliseconds = prepared->milliseconds;
-  report.map = report_of(*prepared->mesh, map);
-  report.folds_visibly = injectivity_of(*prepared->mesh, map.f).folds();
-  const double length = perimeter(outline_of(scene.rest)) / (2 * kPi);
-  report.smoothness_energy =
-      smoothness(*prepared->mesh, prepared->rest.derivative_samples, map, length);
-  report.pin_rms = pin_distance(*prepared, scene);
+  if (frame.pose) {
+    const double start = now_ms();
+    SampledMap again;
+    prepared.deformer->deform(*frame.pose, again, {});
+    report.pose_milliseconds = now_ms() - start;
+  }
+  report.method = frame.scene.method;
+  report.status = frame.pose ? name_of(frame.map.status) : "blended";
+  report.note = frame.map.note;
+  report.iterations = frame.map.iterations;
+  report.cage_vertices = static_cast<int>(frame.scene.rest.size());
+  report.pins = static_cast<int>(frame.scene.pins.size());
+  report.mesh_vertices = static_cast<int>(mesh.vertices.size());
+  report.mesh_triangles = static_cast<int>(mesh.triangles.size());
+  report.prepare_milliseconds = prepared.milliseconds;
+  report.map = report_of(mesh, frame.map);
+  report.folds_visibly = injectivity_of(mesh, frame.map.f).folds();
+  const double length = perimeter(outline_of(frame.scene.rest)) / (2 * kPi);
+  report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, frame.map, length);
+  report.pin_rms = pin_distance(timed, frame);
   return report;
 }
 
-std::string json_of(const SceneReport& report) {
+namespace {
+
+nlohmann::ordered_json json_of(const SceneReport& report) {
   nlohmann::ordered_json zeros = nlohmann::ordered_json::array();
   for (const Complex& z : report.map.zeros) zeros.push_back({z.real(), z.imag()});
-  const nlohmann::ordered_json json{
-      {"method", report.method},
-      {"status", report.status},
-      {"note", report.note},
-      {"iterations", report.iterations},
-      {"energies", {{"smoothness", report.smoothness_energy}, {"pins_rms", report.pin_rms}}},
-      {"prepare_ms", report.prepare_milliseconds},
-      {"pose_ms", report.pose_milliseconds},
-      {"max_k", report.map.max_k},
-      {"min_sigma", report.map.min_sigma},
-      {"max_sigma", report.map.max_sigma},
-      {"zeros", zeros},
-      {"turning_number", report.map.turning_number},
-      {"simple_boundary", report.map.simple_boundary},
-      {"flipped_triangles", report.map.flipped_triangles},
-      {"locally_injective", report.map.locally_injective()},
-      {"folds_visibly", report.folds_visibly},
-      {"certified", report.status == "certified"},
-      {"cage_vertices", report.cage_vertices},
-      {"pins", report.pins},
-      {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}}};
-  return json.dump(2) + "\n";
+  nlohmann::ordered_json json;
+  if (report.frame) json = {{"frame", *report.frame}, {"time", report.time}};
+  json.update(
+      {{"method", report.method},
+       {"status", report.status},
+       {"note", report.note},
+       {"iterations", report.iterations},
+       {"energies", {{"smoothness", report.smoothness_energy}, {"pins_rms", report.pin_rms}}},
+       {"max_k", report.map.max_k},
+       {"min_sigma", report.map.min_sigma},
+       {"max_sigma", report.map.max_sigma},
+       {"zeros", zeros},
+       {"turning_number", report.map.turning_number},
+       {"simple_boundary", report.map.simple_boundary},
+       {"flipped_triangles", report.map.flipped_triangles},
+       {"locally_injective", report.map.locally_injective()},
+       {"folds_visibly", report.folds_visibly},
+       {"certified", report.status == "certified"},
+       {"cage_vertices", report.cage_vertices},
+       {"pins", report.pins},
+       {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
+       {"timings",
+        {{"prepare_ms", report.prepare_milliseconds}, {"pose_ms", report.pose_milliseconds}}}});
+  return json;
+}
+
+}  // namespace
+
+std::string json_of(const std::vector<SceneReport>& reports) {
+  if (reports.size() == 1 && !reports[0].frame) return json_of(reports[0]).dump(2) + "\n";
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SceneReport& report : reports) list.push_back(json_of(report));
+  return list.dump(2) + "\n";
 }
 
 std::string text_of(const SceneReport& report) {
@@ -136,7 +144,10 @@ std::string text_of(const SceneReport& report) {
                                      : "specks only",
       report.status == "certified" ? "yes" : "no", report.cage_vertices, report.pins,
       report.mesh_vertices, report.mesh_triangles);
-  return text;
+  if (!report.frame) return text;
+  char when[80];
+  std::snprintf(when, sizeof when, "frame            %d, at %.4g s\n", *report.frame, report.time);
+  return when + std::string(text) + "\n";
 }
 
 }  // namespace holomorph

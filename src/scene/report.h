@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/distortion.h"
-#include "scene/live_map.h"
+#include "scene/timed_map.h"
 
 namespace holomorph {
 
 /// What `holomorph info` prints.
 struct SceneReport {
+  std::optional<int> frame;  ///< of the keyframes, and its time in seconds
+  double time = 0;
   std::string method, status, note;
   int iterations = 0;
   int cage_vertices = 0, pins = 0, mesh_vertices = 0, mesh_triangles = 0;
@@ -18,13 +20,13 @@ struct SceneReport {
   bool folds_visibly = false;  ///< as the editor tells it: but for specks
 };
 
-/// Prepares the scene's map in full precision and measures it. Throws Error for a scene without a
-/// cage.
-SceneReport report_of(const Scene& scene);
+/// Measures a frame of a scene's map.
+SceneReport report_of(const TimedMap& timed, const TimedMap::Frame& frame);
 
-/// The same as readable lines, or as JSON with the keys of the specification.
+/// The same as readable lines, or as JSON with the keys of the specification: an object, or a list
+/// of them for frames.
 std::string text_of(const SceneReport& report);
-std::string json_of(const SceneReport& report);
+std::string json_of(const std::vector<SceneReport>& reports);
 
 /// "exact", "iterating", "certified" or "infeasible".
 const char* name_of(SampledMap::Status status);

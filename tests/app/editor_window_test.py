@@ -223,6 +223,20 @@ class EditorWindowTest(WindowCase):
             editor.xdotool("keyup", "q")
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
 
+    def test_a_press_acts_where_the_pointer_was(self):
+        """However far it has gone when the program looks: twenty pixels at once, in one request."""
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        self.plain("caged.png", RED)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            x, y = editor.pixel(290, 190)
+            for _ in range(5):
+                editor.xdotool("mousemove", x, y, "mousedown", 1, "mousemove", x + 20, y - 20,
+                               "mousemove", x + 40, y - 30, "mouseup", 1, pause=0.6)
+                editor.wait(lambda s: s["modified"], "a moved cage point")
+                editor.key("ctrl+z")
+                editor.wait(lambda s: not s["modified"], "the point where it was")
+
     def test_before_and_after_lie_side_by_side(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         half = numpy.zeros((200, 300, 4), numpy.uint8)

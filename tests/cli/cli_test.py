@@ -6,6 +6,7 @@ import math
 import os
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import tempfile
@@ -124,7 +125,7 @@ class CommandLine(unittest.TestCase):
             jsonschema.validate(sample, SCHEMA)
             picture = os.path.join(SOURCE, "assets", sample["image"]["file"])
             out = self.path(name + ".json")
-            self.good("new", picture, "--out", out, "--vertices", 24, "--margin", 9)
+            self.good("new", "--force", picture, "--out", out, "--vertices", 24, "--margin", 9)
             scene = json.load(open(out))
             jsonschema.validate(scene, SCHEMA)
             self.assertLessEqual(abs(len(scene["cage"]["rest"]) - 24), 12)
@@ -182,11 +183,11 @@ class CommandLine(unittest.TestCase):
         gecko, fish = (os.path.join(SOURCE, "assets", name) for name in ("gecko.png", "fish.png"))
         scene = self.path("onto.json")
         svg = self.write("egg.svg", '<svg><path d="M300 500 C300 200 800 200 800 500 C800 800 300 800 300 500 Z"/></svg>')
-        self.good("new", gecko, "--out", scene, "--outline", svg)
+        self.good("new", "--force", gecko, "--out", scene, "--outline", svg)
         outline = numpy.array(json.load(open(scene))["outline"])
         self.assertAlmostEqual(outline[:, 0].min(), 300, delta=0.1)
         self.assertAlmostEqual(outline[:, 1].mean(), 400, delta=2)  # the picture is 900 high
-        self.good("new", gecko, "--out", scene, "--outline", fish)
+        self.good("new", "--force", gecko, "--out", scene, "--outline", fish)
         made = json.load(open(scene))
         outline, cage = numpy.array(made["outline"]), numpy.array([s[0] for s in made["cage"]["rest"]])
         size = lambda p: numpy.linalg.norm(p.max(axis=0) - p.min(axis=0))
@@ -195,13 +196,13 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(report["method"], "outline")
         self.assertIn("met to", report["note"])
         line = self.write("line.svg", '<svg><path d="M0 0 L10 10 L20 20 Z"/></svg>')
-        self.bad("new", gecko, "--out", scene, "--outline", line, says="line.svg: ")
-        self.bad("new", gecko, "--out", scene, "--outline", self.write("no.png", "none"), says="no.png")
+        self.bad("new", "--force", gecko, "--out", scene, "--outline", line, says="line.svg: ")
+        self.bad("new", "--force", gecko, "--out", scene, "--outline", self.write("no.png", "none"), says="no.png")
 
     def test_a_texture_goes_onto_a_surface_and_from_there_onto_another(self):
         fish, mask, leaf = (os.path.join(SOURCE, "assets", name) for name in ("fish.png", "mask.obj", "leaf.obj"))
         scene, out = self.path("mask.json"), self.path("textured.obj")
-        self.good("new", fish, "--out", scene, "--outline", mask, "--flattening", "circle")
+        self.good("new", "--force", fish, "--out", scene, "--outline", mask, "--flattening", "circle")
         self.good("export", scene, "--format", "textured", "--out", out, "--scale", 0.5)
         lines = open(out).read().split("\n")
         count = lambda kind, text: sum(line.startswith(kind + " ") for line in text)
@@ -221,7 +222,7 @@ class CommandLine(unittest.TestCase):
         self.assertGreater((texture[row, column, 3] > 128).mean(), 0.6)
         # From the mask's texture onto the leaf.
         second, other = self.path("leaf.json"), self.path("leaf-textured.obj")
-        self.good("new", self.path("textured.png"), "--cage", out, "--out", second, "--outline", leaf)
+        self.good("new", "--force", self.path("textured.png"), "--cage", out, "--out", second, "--outline", leaf)
         self.good("export", second, "--format", "textured", "--out", other)
         moved = numpy.asarray(Image.open(self.path("leaf-textured.png")).convert("RGBA"))
         self.assertGreater((moved[..., 3] > 128).sum(), 0.05 * moved.shape[0] * moved.shape[1])
@@ -233,16 +234,16 @@ class CommandLine(unittest.TestCase):
         values["outline"][3][0] += 9
         self.write("bent.json", json.dumps(values))
         self.bad("export", bent, "--format", "textured", "--out", other, says="not this surface's boundary")
-        self.good("new", fish, "--out", plain)
+        self.good("new", "--force", fish, "--out", plain)
         self.bad("export", plain, "--format", "textured", "--out", other, says="no surface")
         own = self.path("own.obj")
         shutil.copy(mask, own)
-        self.good("new", fish, "--out", scene, "--outline", own)
+        self.good("new", "--force", fish, "--out", scene, "--outline", own)
         self.bad("export", scene, "--format", "textured", "--out", own, says="surface that the scene")
-        self.bad("new", fish, "--out", scene, "--cage", mask, says="no texture coordinates")
-        self.bad("new", fish, "--out", scene, "--outline", mask, "--flattening", "magic", says="magic")
+        self.bad("new", "--force", fish, "--out", scene, "--cage", mask, says="no texture coordinates")
+        self.bad("new", "--force", fish, "--out", scene, "--outline", mask, "--flattening", "magic", says="magic")
         closed = self.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")
-        self.bad("new", fish, "--out", scene, "--outline", closed, says="closed.obj: the surface is no disk: it is closed")
+        self.bad("new", "--force", fish, "--out", scene, "--outline", closed, says="closed.obj: the surface is no disk: it is closed")
 
     def test_strokes_are_kept_in_the_file_and_what_is_none_is_named(self):
         scene = {"format": "holomorph", "version": 1,
@@ -379,10 +380,89 @@ class CommandLine(unittest.TestCase):
                                        stderr=subprocess.PIPE, text=True)
             time.sleep(0.7)
             process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(20), 1, kind)
+            self.assertEqual(process.wait(20), 130, kind)
             self.assertIn("interrupted", process.stderr.read())
             process.stderr.close()
         self.assertEqual([n for n in os.listdir(self.folder) if "fern" in n], [])
+
+    def test_numbers_know_the_times_of_keyframes(self):
+        path = self.write("s.json", self.keyed_scene())
+        points = self.write("points.csv", "20,20\n30,25\n")
+        reports = json.loads(self.good("info", path, "--frames", "all", "--json").stdout)
+        self.assertEqual([r["frame"] for r in reports], list(range(5)))
+        for report in reports:
+            for key in ("time", "max_k", "min_sigma", "max_sigma", "flipped_triangles", "certified", "status"):
+                self.assertIn(key, report)
+        self.assertIn("blended", {r["status"] for r in reports})
+        self.assertNotEqual(reports[0]["status"], "blended", "a keyframe is the method's own map")
+        rows = self.good("map", path, "--points", points, "--frames", "1..3").stdout.split()
+        self.assertEqual(rows[0], "frame,u,v,fz_re,fz_im,fzbar_re,fzbar_im")
+        self.assertEqual([row.split(",")[0] for row in rows[1:]], ["1", "1", "2", "2", "3", "3"])
+        # There and back, on a keyframe and between two.
+        for time in (0, 0.05):
+            there = self.good("map", path, "--points", points, "--time", time).stdout.split()[1:]
+            posed = self.write("posed.csv", "".join(",".join(row.split(",")[:2]) + "\n" for row in there))
+            back = self.good("inverse", path, "--points", posed, "--time", time).stdout.split()[1:]
+            for row, wanted in zip(back, ((20, 20), (30, 25))):
+                x, y = map(float, row.split(",")[:2])
+                self.assertAlmostEqual(math.hypot(x - wanted[0], y - wanted[1]), 0, places=6)
+        for kind in ("obj", "npy", "svg", "unwarp", "png"):
+            self.good("export", path, "--format", kind, "--time", 0.05, "--out", self.path("t." + kind.replace("unwarp", "png")),
+                      "--force")
+        self.bad("export", path, "--format", "obj", "--frames", "all", "--out", self.path("t.obj"), says="--frames")
+        self.bad("map", path, "--points", points, "--frames", "3..1", says="backwards")
+
+    def test_pipes_links_and_standard_streams_are_written_into(self):
+        sample = os.path.join(SOURCE, "assets/fish.json")
+        pipe, got = self.path("f.png"), self.path("got.png")
+        os.mkfifo(pipe)
+        with open(got, "wb") as file:
+            reader = subprocess.Popen(["cat", pipe], stdout=file)
+            self.good("render", sample, "--out", pipe)
+            self.assertEqual(reader.wait(20), 0)
+        self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode), "the pipe is still one")
+        self.assertEqual(Image.open(got).size, (1100, 700))
+        for name, target in (("there.png", True), ("dangling.png", False)):
+            link, real = self.path("link-" + name), self.path(name)
+            if target:
+                shutil.copy(got, real)
+            os.symlink(real, link)
+            self.good("render", sample, "--out", link)
+            self.assertTrue(os.path.islink(link))
+            self.assertEqual(Image.open(real).size, (1100, 700))
+        with open("/dev/full", "wb") as full:
+            result = subprocess.run([PROGRAM, "info", sample], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("cannot be written", result.stderr)
+        picture = subprocess.run([PROGRAM, "render", sample, "--out", "-"], capture_output=True, check=True).stdout
+        self.assertEqual(picture[1:4], b"PNG")
+        scene = json.load(open(sample))
+        scene["image"]["file"] = os.path.join(SOURCE, "assets", scene["image"]["file"])
+        text = json.dumps(scene)
+        points = self.write("points.csv", "500,350\n")
+        wanted = self.good("map", sample, "--points", points).stdout
+        self.assertEqual(self.good("map", "-", "--points", points, "--out", "-", input=text).stdout, wanted)
+        self.assertEqual(self.good("map", sample, "--points", "-", input="500,350\n").stdout, wanted)
+        self.bad("map", "-", "--points", "-", says="not both")
+
+    def test_what_is_protected_or_there_is_replaced_only_with_force(self):
+        sample = os.path.join(SOURCE, "assets/fish.json")
+        kept = self.write("kept.png", "mine")
+        os.chmod(kept, 0o444)
+        self.bad("render", sample, "--out", kept, says="read-only", status=1)
+        self.assertEqual(open(kept).read(), "mine")
+        self.good("render", sample, "--out", kept, "--force")
+        scene = self.write("scene.json", "mine")
+        self.bad("new", os.path.join(SOURCE, "assets/fish.png"), "--out", scene, says="--force", status=1)
+        self.assertEqual(open(scene).read(), "mine")
+
+    def test_wrong_words_are_named(self):
+        self.bad("rendr", "x", says="rendr: there is neither a command nor a file")
+        self.bad("bench", "--filter", "zzz", says="zzz")
+        one, other = (json.loads(self.good("info", os.path.join(SOURCE, "assets/fish.json"), "--json").stdout)
+                      for _ in range(2))
+        del one["timings"], other["timings"]
+        self.assertEqual(one, other, "but for timings, two runs say the same")
 
     def test_times_and_frames_that_are_none_are_named(self):
         scene = self.keyed_scene()
@@ -390,7 +470,7 @@ class CommandLine(unittest.TestCase):
         out = self.path("o.png")
         self.bad("render", path, "--frames", "2..9", "--out", out, says="frames 0..4")
         self.bad("render", path, "--time", -1, "--out", out, says="--time")
-        self.bad("render", path, "--frames", "few", "--out", out, says="no range of frames")
+        self.bad("render", path, "--frames", "few", "--out", out, says="not a range of frames")
         self.bad("render", path, "--frames", "all", "--time", 1, "--out", out, says="excludes")
         still = self.write("still.json", {**scene, "keyframes": []})
         self.bad("render", still, "--time", 1, "--out", out, says="no keyframes")
@@ -428,7 +508,7 @@ class CommandLine(unittest.TestCase):
 
     def test_info(self):
         result = json.loads(self.good("info", os.path.join(SOURCE, "assets/gecko.json"), "--json").stdout)
-        for key in ("method", "status", "iterations", "energies", "prepare_ms", "pose_ms", "max_k", "min_sigma", "max_sigma",
+        for key in ("method", "status", "iterations", "energies", "timings", "max_k", "min_sigma", "max_sigma",
                     "zeros", "turning_number", "simple_boundary", "certified"):
             self.assertIn(key, result)
         self.assertEqual(result["method"], "pins")
@@ -500,13 +580,13 @@ class CommandLine(unittest.TestCase):
             self.bad("render", scene, "--out", self.path("x.png"), "--scale", scale, says="scale")
         self.bad("export", scene, "--format", "doc", "--out", self.path("x"), says="obj, svg, npy, png, stmap, unwarp")
         picture = os.path.join(SOURCE, "assets/giraffe.png")
-        self.bad("new", picture, "--out", self.path("n.json"), "--vertices", 2, says="3 to 500")
-        self.bad("new", scene, "--out", self.path("n.json"), says="no picture")
+        self.bad("new", "--force", picture, "--out", self.path("n.json"), "--vertices", 2, says="3 to 500")
+        self.bad("new", "--force", scene, "--out", self.path("n.json"), says="no picture")
         with open(picture, "rb") as file:
             half = file.read()[:20000]
         with open(self.path("half.png"), "wb") as file:
             file.write(half)
-        self.bad("new", self.path("half.png"), "--out", self.path("n.json"), says="damaged")
+        self.bad("new", "--force", self.path("half.png"), "--out", self.path("n.json"), says="damaged")
         self.assertFalse(os.path.exists(self.path("n.json")))
         self.bad("frobnicate", "x", says="")
         self.assertEqual(run("--help").returncode, 0)
@@ -582,19 +662,19 @@ class CommandLine(unittest.TestCase):
     def test_cages_from_svg(self):
         picture = os.path.join(SOURCE, "assets/gecko.png")
         scene, again = self.path("gecko.json"), self.path("again.json")
-        self.good("new", picture, "--out", scene)
+        self.good("new", "--force", picture, "--out", scene)
         self.good("export", scene, "--format", "svg", "--out", self.path("cage.svg"))
-        self.good("new", picture, "--cage", self.path("cage.svg"), "--pose", self.path("cage.svg"), "--out", again)
+        self.good("new", "--force", picture, "--cage", self.path("cage.svg"), "--pose", self.path("cage.svg"), "--out", again)
         a, b = json.load(open(scene))["cage"], json.load(open(again))["cage"]
         for name in ("rest", "pose"):
             self.assertLess(numpy.abs(numpy.array(a["rest"]) - numpy.array(b.get(name, b["rest"]))).max(), 1e-9)
         curved = self.write("curved.svg", '<svg><path d="M100 100 C300 0 700 0 1000 100 L1000 800 Q500 900 100 800 Z"/></svg>')
-        self.good("new", picture, "--cage", curved, "--out", again)
+        self.good("new", "--force", picture, "--cage", curved, "--out", again)
         self.good("render", again, "--out", self.path("same.png"))
         same, source = (numpy.asarray(Image.open(path)) for path in (self.path("same.png"), picture))
         self.assertTrue((same == source).all(), "a curved cage at rest changes nothing")
-        self.bad("new", picture, "--cage", curved, "--pose", self.path("cage.svg"), "--out", again, says="must agree")
-        self.bad("new", picture, "--cage", picture, "--out", again, says="no SVG")
+        self.bad("new", "--force", picture, "--cage", curved, "--pose", self.path("cage.svg"), "--out", again, says="must agree")
+        self.bad("new", "--force", picture, "--cage", picture, "--out", again, says="no SVG")
 
     def test_pictures_of_many_kinds_are_opened(self):
         picture = Image.effect_mandelbrot((60, 40), (-2, -1.3, 1, 1.3), 40).convert("RGBA")
@@ -606,11 +686,11 @@ class CommandLine(unittest.TestCase):
         for name, options in (("a.png", {}), ("a.webp", {"lossless": True, "exact": True}), ("a.tif", {}),
                               ("b.tiff", {"compression": "tiff_lzw"}), ("c.TIF", {"compression": "tiff_adobe_deflate"})):
             picture.save(self.path(name), format="TIFF" if name.lower().find("tif") > 0 else None, **options)
-            self.good("new", self.path(name), "--out", self.path("s.json"))
+            self.good("new", "--force", self.path(name), "--out", self.path("s.json"))
             self.good("render", self.path("s.json"), "--out", self.path("o.png"))
             self.assertTrue((numpy.array(Image.open(self.path("o.png")).convert("RGBA")) == pixels).all(), name)
         picture.convert("CMYK").save(self.path("cmyk.tif"))
-        self.good("new", self.path("cmyk.tif"), "--out", self.path("s.json"))
+        self.good("new", "--force", self.path("cmyk.tif"), "--out", self.path("s.json"))
         # Parts of files, and what cannot be.
         for name in ("a.webp", "a.tif", "b.tiff"):
             with open(self.path(name), "rb") as file:
@@ -618,12 +698,12 @@ class CommandLine(unittest.TestCase):
             for share in (0.02, 0.1, 0.4, 0.8):
                 with open(self.path("part" + os.path.splitext(name)[1]), "wb") as file:
                     file.write(whole[:int(share * len(whole))])
-                result = run("new", file.name, "--out", self.path("s.json"))
+                result = run("new", "--force", file.name, "--out", self.path("s.json"))
                 self.assertIn(result.returncode, (0, 2), result.stderr)
         picture.save(self.path("film.webp"), save_all=True, append_images=[picture.rotate(90, expand=False)])
-        self.bad("new", self.path("film.webp"), "--out", self.path("s.json"), says="animated")
+        self.bad("new", "--force", self.path("film.webp"), "--out", self.path("s.json"), says="animated")
         Image.new("L", (16400, 2)).save(self.path("wide.tif"))
-        self.bad("new", self.path("wide.tif"), "--out", self.path("s.json"), says="16384")
+        self.bad("new", "--force", self.path("wide.tif"), "--out", self.path("s.json"), says="16384")
 
     def test_no_points_are_no_lines(self):
         points = os.path.join(self.folder, "none.csv")
@@ -653,7 +733,7 @@ class CommandLine(unittest.TestCase):
     def opened(self, picture):
         """A picture as the program sees it: rendered at rest."""
         scene, out = self.path("opened.json"), self.path("opened.png")
-        self.good("new", picture, "--out", scene)
+        self.good("new", "--force", picture, "--out", scene)
         self.good("render", scene, "--out", out)
         return numpy.asarray(Image.open(out).convert("RGBA")).astype(int), json.load(open(scene))
 
@@ -693,9 +773,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([(layer["name"], layer.get("visible", True), layer["image"]["entry"]) for layer in scene["layers"]],
                          [("ground", True, "data/a.png"), ("sky & sea", True, "data/b.png"), ("hidden", False, "data/c.png")])
         self.assertEqual(scene["layers"][0]["image"]["file"], "art.ora")
-        self.assertNotIn("blending", self.good("new", path, "--out", self.path("plain.json")).stderr)
+        self.assertNotIn("blending", self.good("new", "--force", path, "--out", self.path("plain.json")).stderr)
         blended = self.open_raster("blended.ora", '<layer name="a" src="data/a.png" composite-op="svg:multiply"/>', {"data/a.png": red})
-        self.assertIn("blending modes", self.good("new", blended, "--out", self.path("blended.json")).stderr)
+        self.assertIn("blending modes", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
         self.assertEqual(seen.shape, (40, 60, 4))
         wanted = numpy.zeros((40, 60, 4), int)
         wanted[:, :] = (200, 0, 0, 255)
@@ -722,11 +802,11 @@ class CommandLine(unittest.TestCase):
                                             ("huge", layer, {"data/a.png": red}, (60, 2000000)),
                                             ("nowhere", layer, {"data/a.png": red}, (0, 0))]:
             path = self.open_raster(name + ".ora", stack, pictures, size)
-            self.bad("new", path, "--out", self.path("s.json"), says=name + ".ora")
+            self.bad("new", "--force", path, "--out", self.path("s.json"), says=name + ".ora")
         for cut in range(60, len(good), 97):
             with open(self.path("cut.ora"), "wb") as file:
                 file.write(good[:cut])
-            self.bad("new", self.path("cut.ora"), "--out", self.path("s.json"), says="cut.ora")
+            self.bad("new", "--force", self.path("cut.ora"), "--out", self.path("s.json"), says="cut.ora")
         self.assertFalse(os.path.exists(self.path("s.json")))
 
     # ---- layers and backgrounds ----------------------------------------------------------------

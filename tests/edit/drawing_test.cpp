@@ -155,6 +155,10 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
 
 TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") {
   Desk desk(shapes::rectangle(200, 150));
+  // With softness several steps are needed.
+  Scene soft = desk.scene();
+  soft.other_parameters["outline"] = {{"softness", 0.8}, {"smoothness", 1e-4}};
+  desk.workspace.commit("Soft", soft);
   desk.workspace.tool = ToolId::outline;
   Points around;
   for (int i = 0; i < 60; ++i)
