@@ -1,6 +1,7 @@
 # The Debian package as it is installed: unpacked somewhere, it runs and finds its own files.
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -65,6 +66,39 @@ class Package(unittest.TestCase):
             self.assertTrue(windows, "the window is known by the desktop file's name")
             editor.press(100, 280)  # the first tile
             editor.wait(lambda s: s["cage_points"] == points, "the sample")
+
+    def test_it_says_its_license_and_brings_what_its_texts_link(self):
+        doc = os.path.join(self.root, "usr/share/doc/holomorph")
+        with open(os.path.join(doc, "copyright")) as file:
+            text = file.read()
+        self.assertIn("License: GPL-3", text)
+        self.assertIn("/usr/share/common-licenses/GPL-3", text)
+        with open(os.path.join(doc, "README.md")) as file:
+            linked = re.findall(r"\]\(((?:docs|schema)/[^)#]+)\)", file.read())
+        self.assertTrue(any(name.startswith("schema/") for name in linked) and len(linked) > 5, linked)
+        for name in linked:
+            self.assertTrue(os.path.exists(os.path.join(doc, name)), name)
+
+    def test_manual_completion_and_catalogue_entry(self):
+        page = os.path.join(self.root, "usr/share/man/man1/holomorph.1")
+        shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", page], capture_output=True, text=True)
+        self.assertEqual((shown.returncode, shown.stderr), (0, ""))
+        manual = re.sub(".\x08", "", shown.stdout)  # bold as typewriters print it
+        commands = re.findall(r"^  ([a-z]+) ", subprocess.run([self.program, "--help"], check=True, capture_output=True,
+                                                             text=True).stdout.split("Subcommands:")[1], re.M)
+        self.assertGreater(len(commands), 7)
+        complete = os.path.join(self.root, "usr/share/bash-completion/completions/holomorph")
+        script = f"source {complete}; COMP_WORDS=(holomorph ''); COMP_CWORD=1; cd /; _holomorph; echo ${{COMPREPLY[@]}}; " \
+                 f"COMP_WORDS=(holomorph render --cr); COMP_CWORD=2; _holomorph; echo ${{COMPREPLY[@]}}"
+        path = os.path.dirname(self.program) + ":" + os.environ["PATH"]
+        words, options = subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True,
+                                        env={**os.environ, "PATH": path}).stdout.splitlines()
+        for command in commands:
+            self.assertIn(command, words.split())
+            self.assertIn(command, manual)
+        self.assertEqual(options, "--crop")
+        entry = os.path.join(self.root, "usr/share/metainfo/holomorph.metainfo.xml")
+        subprocess.run(["appstreamcli", "validate", "--no-net", entry], check=True, capture_output=True)
 
     def test_a_desktop_knows_scenes(self):
         desktop = os.path.join(self.root, "usr/share/applications/holomorph.desktop")
