@@ -160,7 +160,11 @@ void OutlineFit::build(const Correspondence& start) {
 void OutlineFit::solve(const Points& pinned) {
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
-  if (start_ && !pins_.empty()) build(start_->best(wanted));
+  before_ = {};
+  if (start_ && !pins_.empty())
+    build(start_->best(wanted));
+  else if (refined_)
+    build(built_);
   fit_->reset();
   begin(built_, wanted);
   run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
@@ -186,6 +190,7 @@ OutlineFit::Misses OutlineFit::misses() const {
 // where that map is not met, the one that is stretched least may be.
 void OutlineFit::refine() {
   const Misses before = misses();
+  before_ = {basis_, given_basis_, at_samples_, slopes_inside_, iterates_, energies_};
   follow_start(built_);
   const bool may_sharpen = !start_->is_near_crowded();
   if (may_sharpen && misses().total() > 1 && start_->sharpen())
@@ -200,6 +205,7 @@ void OutlineFit::refine() {
       follow_start(upright);
   }
   if (now.total() <= before.total()) return;
+  before_ = {};
   build(built_);
   begin(built_, held(pinned_));
   run(AlternatingFit::Mode::first_order, kSettled, settings_.most_iterations);
@@ -207,6 +213,7 @@ void OutlineFit::refine() {
 
 void OutlineFit::follow(const Points& pinned) {
   if (iterates_.empty() || (refined_ && pins_.empty())) return solve(pinned);
+  before_ = {};
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
   if (start_ && !pins_.empty()) {
@@ -241,11 +248,17 @@ void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
 
 OutlineMatch OutlineFit::after(int iteration) const {
   OutlineMatch match;
-  match.basis = given_basis_;
+  const size_t number = static_cast<size_t>(iteration), earlier = before_.iterates.size();
+  const bool is_earlier = number < earlier;
+  const Cage& basis = is_earlier ? before_.basis : basis_;
+  const MatrixXc& at_samples = is_earlier ? before_.at_samples : at_samples_;
+  const PlanarMatrix<double>& slopes_inside = is_earlier ? before_.slopes_inside : slopes_inside_;
+  match.basis = is_earlier ? before_.given_basis : given_basis_;
   match.iterations = iteration;
-  match.energies = energies_;
-  const VectorXc& x = iterates_.at(static_cast<size_t>(iteration));
-  const Index n = basis_.control_count();
+  match.energies = before_.energies;
+  match.energies.insert(match.energies.end(), energies_.begin(), energies_.end());
+  const VectorXc& x = is_earlier ? before_.iterates[number] : iterates_.at(number - earlier);
+  const Index n = basis.control_count();
   const VectorXc phi = x.head(n).array() + centre_, psi = x.tail(x.size() - n);
   const auto sum_of = [&](const MatrixXc& c) -> VectorXc {
     if (psi.size() == 0) return c * phi;
@@ -256,13 +269,13 @@ OutlineMatch OutlineFit::after(int iteration) const {
   match.phi = axis * phi.array() + frame_.from;
   match.psi = axis * psi;
   const Points wanted = held(pinned_);
-  const VectorXc pins = sum_of(cauchy_coordinates(basis_, pins_));
+  const VectorXc pins = sum_of(cauchy_coordinates(basis, pins_));
   for (size_t i = 0; i < wanted.size(); ++i) {
     match.pins_held += wanted[i] != pinned_[i];
     match.pins_missed =
         std::max(match.pins_missed, size * std::abs(pins[static_cast<Index>(i)] - wanted[i]));
   }
-  const VectorXc values = sum_of(at_samples_);
+  const VectorXc values = sum_of(at_samples);
   double sum = 0;
   for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
   match.rms = size * std::sqrt(sum / static_cast<double>(values.size()));
@@ -270,9 +283,9 @@ OutlineMatch OutlineFit::after(int iteration) const {
   match.hausdorff =
       size * std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
   const auto slopes = [&](const Points& places) {
-    return product(planar_coordinates<double>(basis_, places, 1), phi);
+    return product(planar_coordinates<double>(basis, places, 1), phi);
   };
-  match.zeros = zeros_inside(loop_, product(slopes_inside_, phi), slopes);
+  match.zeros = zeros_inside(loop_, product(slopes_inside, phi), slopes);
   return match;
 }
 

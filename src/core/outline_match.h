@@ -73,7 +73,9 @@ class OutlineFit {
   /// How many bases there have been: pins that go far need another one.
   int builds() const { return builds_; }
   /// How many iterations the last call made.
-  int iterations() const { return static_cast<int>(iterates_.size()) - 1; }
+  int iterations() const {
+    return static_cast<int>(before_.iterates.size() + iterates_.size()) - 1;
+  }
   /// The map after so many of them.
   OutlineMatch after(int iteration) const;
 
@@ -140,6 +142,15 @@ class OutlineFit {
   std::optional<AlternatingFit> fit_;
   std::vector<VectorXc> iterates_;
   std::vector<double> energies_;
+  /// The usual fit, when the map of another basis has replaced it; else no iterates.
+  struct Stage {
+    Cage basis, given_basis;
+    MatrixXc at_samples;
+    PlanarMatrix<double> slopes_inside;
+    std::vector<VectorXc> iterates;
+    std::vector<double> energies;
+  };
+  Stage before_;
 };
 
 /// Solved from nothing.

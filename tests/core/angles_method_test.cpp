@@ -271,3 +271,35 @@ TEST_CASE("Angles: what cannot be is refused") {
   at_corner.pins = {{{600, 100}, true}};
   CHECK(run(at_corner, {rest.cage, {{{620, 90}, 0.3, 1}}, {}, {{}, {}, {}, {}}}).f.allFinite());
 }
+
+TEST_CASE("Angles: points next to an opened corner are mapped like others, however near they are") {
+  Rest rest;
+  rest.cage = polygon_cage(Points{{300, 200}, {520, 230}, {500, 400}, {280, 390}});
+  rest.precision = Precision::full;
+  rest.corners = {0, 1, 2, 3};
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {400}));
+  Pose pose{rest.cage, {}};
+  pose.corners.resize(4);
+  for (const double opened : {-0.9, -0.3, 0.4, 0.8}) {
+    pose.corners[0] = {-opened, opened, 1};
+    const Complex corner = rest.cage.vertex(0), inwards = Complex(1, 1);
+    rest.samples = {corner};
+    for (int k = 0; k <= 14; ++k) rest.samples.push_back(corner + std::pow(10.0, -k) * inwards);
+    for (const double x : {-1e-13, 0.0, 1e-13}) rest.samples.push_back(corner + Complex(x, 6e-14));
+    const auto deformer = method_named("angles").prepare(rest, nullptr);
+    SampledMap map;
+    deformer->deform(pose, map, {true});
+    const auto points = deformer->point_map(pose);
+    double before = 1e300;
+    for (Index i = 1; i < map.f.size(); ++i) {
+      INFO("opened by " << opened << ", point " << i);
+      const Complex z = rest.samples[static_cast<size_t>(i)];
+      REQUIRE(is_finite(map.f[i]));
+      CHECK(is_finite(map.fz[i]));
+      CHECK(std::abs(points->at(z).f - map.f[i]) <= 1e-6);
+      const double off = std::abs(map.f[i] - map.f[0]);
+      if (i <= 15) CHECK(off <= before);  // a power of the distance
+      before = off;
+    }
+  }
+}

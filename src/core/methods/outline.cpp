@@ -43,17 +43,20 @@ class OutlineDeformer final : public Deformer {
     solve(pinned(pose), wanted.draft);
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(wanted.iteration.value_or(last), last));
-    out.f = image(value_, match);
+    // While an earlier iteration is watched its basis may be another one.
+    const bool is_own = match.basis == fit_->basis();
+    out.f = image(is_own ? value_ : planar_coordinates<T>(match.basis, rest_.samples), match);
     if (wanted.derivatives) {
-      if (slope_.rows() != value_.rows())
-        slope_ = planar_coordinates<T>(
-            fit_->basis(),
-            rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
+      const Points& places =
+          rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
+      if (!is_own || slope_.rows() != value_.rows())
+        slope_ = planar_coordinates<T>(match.basis, places, 1);
       out.fz = product(slope_, match.phi);
       out.fzbar = match.psi.size() > 0
                       ? VectorXc(product(slope_, match.psi.conjugate()).conjugate())
                       : VectorXc(VectorXc::Zero(out.fz.size()));
     }
+    if (!is_own) slope_ = {};
     out.iterations = match.iterations;
     out.energies = match.energies;
     if (match.iterations < last || last == settings().most_iterations)
