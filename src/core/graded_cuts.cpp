@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kBalance = 3;   ///< how many times as long as a neighbor a piece may be
+constexpr double kBalance = 3;  ///< how many times as long as a neighbor a piece may be
 
 class Cutter {
  public:
