@@ -216,13 +216,13 @@ TEST_CASE("Outline: random shapes go onto random outlines, without folds") {
 }
 
 TEST_CASE("Outline: shapes with limbs and corners go onto each other, without folds") {
-  const Points letter{{0, 0},     {200, 0},   {200, 60}, {60, 60},   {60, 130},  {170, 130},
-                      {170, 190}, {60, 190},  {60, 260}, {200, 260}, {200, 320}, {0, 320}},
+  const Points letter{{0, 0},     {200, 0},  {200, 60}, {60, 60},   {60, 130},  {170, 130},
+                      {170, 190}, {60, 190}, {60, 260}, {200, 260}, {200, 320}, {0, 320}},
       bar{{-300, -30}, {300, -30}, {300, 30}, {-300, 30}}, round = circle(0, 100, 120);
   Points star;
   for (int i = 0; i < 10; ++i) star.push_back(std::polar(i % 2 ? 76.4 : 200.0, kPi * i / 5));
-  const std::pair<Points, Points> pairs[] = {
-      {round, star}, {star, round}, {round, letter}, {bar, star}, {star, bar}, {letter, bar}};
+  const std::pair<Points, Points> pairs[] = {{round, star}, {star, round}, {round, letter},
+                                             {bar, star},   {star, bar},   {letter, bar}};
   for (const auto& [from, to] : pairs) {
     const OutlineMatch match = matched({polygon_cage(from), to, {}, {}}, {});
     INFO(from.size() << " corners onto " << to.size());
