@@ -118,7 +118,7 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
     self(w)->add({Kind::character, 0, 0, static_cast<int>(code)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-    // Where the pointer was then, which GLFW knows no more: by now it may be elsewhere.
+    // The position at the press: glfwGetCursorPos would return the current one.
     const auto [x, y] = self(w)->last_place();
     self(w)->add({Kind::button, x, y, button, 0, action});
   });

@@ -424,7 +424,7 @@ void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
     }
 }
 
-/// Of the images of the basis' pieces.
+/// The lengths of the images of the basis' pieces.
 VectorXd OutlineFit::image_sizes() const {
   constexpr double kLeast = 1e-13;  // of the target: what rounding leaves
   VectorXd sizes(basis_.size());
@@ -436,7 +436,7 @@ VectorXd OutlineFit::image_sizes() const {
   return sizes;
 }
 
-/// Those of the samples and of f'', the heaviest ones first, as least_squares wants them.
+/// Rows for the samples and for f'', heaviest first, as least_squares needs them.
 std::vector<OutlineFit::FitRow> OutlineFit::fit_rows(const VectorXd& sizes) const {
   std::vector<FitRow> rows;
   const Index n = sizes.size();

@@ -48,7 +48,7 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   const size_t n = polygon.size();
   struct Angle {
     Dual along, across, product;
-    /// Of half the angle, in the forms that lose no digits.
+    /// The tangent of half the angle, in the form that loses no digits.
     Dual tangent() const {
       return along.value > 0 ? across / (product + along) : (product - along) / across;
     }
