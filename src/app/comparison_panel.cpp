@@ -2,6 +2,7 @@
 #include "app/comparison_panel.h"
 
 #include "core/error.h"
+#include "core/mesher.h"
 
 namespace holomorph {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "app/panels.h"
 #include "core/error.h"
+#include "core/flatten.h"
 #include "scene/outline_import.h"
 
 namespace holomorph {

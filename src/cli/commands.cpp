@@ -12,6 +12,7 @@
 #include "core/cauchy.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/flatten.h"
 #include "core/inverse.h"
 #include "film/film.h"
 #include "film/ordered_tasks.h"

@@ -1,4 +1,6 @@
 // CGAL solves; here its answer is turned, scaled and checked.
+#include "core/flatten.h"
+
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -12,7 +14,6 @@
 
 #include "core/curve.h"
 #include "core/error.h"
-#include "core/surface.h"
 
 namespace holomorph {
 namespace {
@@ -53,6 +54,17 @@ Complex upwards(const Surface& surface, const Points& flat) {
 }
 
 }  // namespace
+
+std::string name_of(Flattening flattening) {
+  return flattening == Flattening::circle ? "circle" : "lscm";
+}
+
+Flattening flattening_named(const std::string& name) {
+  for (const Flattening flattening : {Flattening::lscm, Flattening::circle})
+    if (name == name_of(flattening)) return flattening;
+  throw Error(ErrorKind::bad_input,
+              "flattening '" + name + "' does not exist; choose one of: lscm, circle");
+}
 
 Points flattened(const Surface& surface, Flattening how) {
   disk_boundary(surface);

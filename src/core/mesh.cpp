@@ -1,12 +1,65 @@
-// Questions about a mesh; making one is mesher.cpp's.
+// Questions about a mesh, and meshes of given triangles; mesher.cpp makes the triangles itself.
 #include "core/mesh.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "core/error.h"
+#include "core/surface.h"
 
 namespace holomorph {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw Error(ErrorKind::bad_input, "the triangles are not a mesh of this cage: " + why);
+}
+
+double doubled_area(const Mesh& mesh, const Triangle& t) {
+  return cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+               mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+}
+
+/// The boundary vertex at a cage's vertex, moved to the very place.
+int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
+  const auto away = [&](int v) { return std::abs(mesh.vertices[v] - corner); };
+  const int nearest = *std::ranges::min_element(mesh.boundary, {}, away);
+  if (away(nearest) > tolerance)
+    refuse("none of their boundary vertices is at the cage's vertex " + point_text(corner));
+  mesh.vertices[nearest] = corner;
+  return nearest;
+}
+
+}  // namespace
+
+Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles) {
+  constexpr double kAtVertex = 1e-9, kAtCurve = 1e-4, kArea = 1e-3;  // of the cage's size
+  check_rest_cage(cage);
+  if (!std::ranges::all_of(vertices, is_finite)) refuse("a vertex is not finite");
+  Mesh mesh{std::move(vertices), std::move(triangles), {}, {}};
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (Triangle& t : mesh.triangles) {
+    if (std::ranges::any_of(t, [count](int v) { return v < 0 || v >= count; }))
+      refuse("one names a vertex that does not exist");
+    if (doubled_area(mesh, t) < 0) std::swap(t[1], t[2]);
+  }
+  mesh.boundary = disk_boundary(count, mesh.triangles, "the mesh");
+  const Points outline = flattened(cage).points;
+  const double size = box_of(outline).diagonal();
+  for (const Complex& corner : vertices_of(cage))
+    mesh.cage_vertices.push_back(vertex_at(corner, kAtVertex * size, mesh));
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const double doubled = doubled_area(mesh, t);
+    if (!(doubled > 0)) refuse("the one at " + point_text(mesh.vertices[t[0]]) + " is flat");
+    area += 0.5 * doubled;
+  }
+  for (const int v : mesh.boundary)
+    if (nearest_on_polygon(outline, mesh.vertices[v]).distance > kAtCurve * size)
+      refuse("the boundary vertex " + point_text(mesh.vertices[v]) + " is not on the cage");
+  if (std::abs(area - std::abs(signed_area(outline))) > kArea * size * size)
+    refuse("they do not fill it");
+  return mesh;
+}
 
 Complex Location::in(const Mesh& mesh, std::span<const Complex> positions) const {
   const Triangle& corners = mesh.triangles[triangle];

@@ -21,22 +21,13 @@ struct Mesh {
   std::vector<int> cage_vertices;
 };
 
-/// How fine a domain mesh is.
-struct MeshOptions {
-  /// Wanted number of vertices; what comes out is within about a third of it for ordinary cages.
-  int vertices = 8000;
-};
-
-/// Meshes the inside of a simple polygon of either orientation: conforming Delaunay triangles,
-/// smaller near the boundary. Every cage vertex is a mesh vertex with the same coordinates.
-/// Slivers, collinear and nearly repeated vertices are fine: where the polygon itself is
-/// needle-sharp the triangles are too, and refinement stops at about three times the wanted number
-/// of vertices. Throws Error for what check_rest_cage refuses. Cost: about 4 us per vertex.
-Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options = {});
-
-/// Meshes the inside of a rest cage. Its vertices are mesh vertices; every boundary vertex lies on
-/// the cage's curves, so that the mesh's outline follows them to 5e-5 of the cage's size.
-Mesh domain_mesh(const Cage& cage, const MeshOptions& options = {});
+/// A mesh of the inside of a rest cage from triangles of the caller's own, of either orientation.
+/// They must make one disk without a hole, none of them flat, that fills the cage: its boundary
+/// vertices lie on the cage to 1e-4 of the cage's size, every cage vertex is one of them to 1e-9 of
+/// the size (and is moved to the very place), and its area is the cage's to 1e-3 of the size
+/// squared. Throws Error that says what is missing. Cost: O(n log n) in the
+/// triangles, and boundary vertices times cage vertices.
+Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles);
 
 /// A point's triangle and barycentric coordinates in it.
 struct Location {

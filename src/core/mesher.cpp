@@ -7,6 +7,8 @@
 // CGAL's assertions stay on in optimised builds (CGAL_DEBUG): between edges that nearly touch,
 // midpoints that are rounded to the wrong side break the mesher's invariants, and a broken one has
 // to end in an Error.
+#include "core/mesher.h"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
@@ -19,7 +21,6 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/mesh.h"
 
 namespace holomorph {
 namespace {

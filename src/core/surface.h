@@ -1,8 +1,9 @@
-// A surface in space with the topology of a disk, and its conformal flattening.
+// A surface in space, and what makes it a disk.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <string>
 
 #include "core/types.h"
@@ -16,23 +17,12 @@ struct Surface {
 };
 
 /// The boundary as one closed loop of vertex numbers, in the triangles' direction. Throws Error for
-/// what is no disk, saying what it is: closed, in several parts, with holes or handles, with edges
-/// of more than two triangles, or with triangles of both orientations. Cost: linear.
+/// a surface that is not a disk, saying why: closed, in several parts, with holes or handles, with
+/// edges of more than two triangles, or with triangles of both orientations. Cost: O(n log n).
 std::vector<int> disk_boundary(const Surface& surface);
 
-enum class Flattening {
-  lscm,    ///< least squares conformal maps (Levy et al. 2002): the boundary finds its own shape
-  circle,  ///< discrete conformal (Eck et al. 1995), the boundary on a circle by arc length
-};
-
-/// "lscm", "circle". The second throws Error for other names.
-std::string name_of(Flattening flattening);
-Flattening flattening_named(const std::string& name);
-
-/// Where the vertices go in the plane: counter-clockwise, of the surface's area, turned so that the
-/// surface's y goes up on average, its box's lower left corner at the origin. Throws Error for what
-/// disk_boundary refuses and for surfaces that fold when they are flattened. Cost: a sparse
-/// factorisation, about 50 us a vertex for thousands, 200 us for half a million.
-Points flattened(const Surface& surface, Flattening how);
+/// The same for triangles over the vertices 0 to count - 1; the message calls them `what`.
+std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
+                               const std::string& what);
 
 }  // namespace holomorph

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/mesher.h"
 #include "core/polyline.h"
 #include "edit/corner_edits.h"
 #include "edit/displacement.h"

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/heat.h"
+#include "core/mesher.h"
 #include "edit/displacement.h"
 #include "edit/timeline.h"
 #include "edit/viewport.h"

@@ -3,6 +3,7 @@
 
 #include "core/distortion.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "raster/compose.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"

@@ -2,6 +2,7 @@
 #include "scene/laid_surface.h"
 
 #include "core/error.h"
+#include "core/flatten.h"
 #include "core/similarity.h"
 #include "scene/file.h"
 

@@ -6,6 +6,7 @@
 
 #include "core/clock.h"
 #include "core/distortion.h"
+#include "core/mesher.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/injectivity.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 #include "scene/motion.h"
 
 namespace holomorph {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/deformer.h"
+#include "core/flatten.h"
 #include "core/surface.h"
 
 namespace holomorph {

@@ -3,6 +3,7 @@
 #include "scene/scene_json.h"
 
 #include "core/error.h"
+#include "core/flatten.h"
 #include "core/outline_match.h"
 #include "core/polyline.h"
 #include "scene/layers.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/distortion.h"
+#include "core/mesher.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {

@@ -6,6 +6,7 @@
 #include "core/angle_map.h"
 #include "core/boundary_angles.h"
 #include "core/inbetween.h"
+#include "core/mesher.h"
 #include "scene/keyframes.h"
 #include "scene/live_map.h"
 

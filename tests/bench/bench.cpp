@@ -12,6 +12,7 @@
 #include "core/distortion.h"
 #include "core/error.h"
 #include "core/inverse.h"
+#include "core/mesher.h"
 #include "core/methods/linear.h"
 #include "raster/raster.h"
 #include "scene/auto_cage.h"

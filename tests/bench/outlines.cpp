@@ -4,6 +4,7 @@
 #include "bench/measures.h"
 #include "core/clock.h"
 #include "core/deformer.h"
+#include "core/mesher.h"
 #include "core/outline_match.h"
 #include "support/outlines.h"
 

@@ -9,6 +9,7 @@
 #include "core/cauchy.h"
 #include "core/deformer.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

@@ -5,6 +5,7 @@
 #include "core/boundary_angles.h"
 #include "core/deformer.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

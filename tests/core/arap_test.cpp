@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/deformer.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

@@ -4,6 +4,7 @@
 
 #include "core/cauchy.h"
 #include "core/deformer.h"
+#include "core/mesher.h"
 #include "core/quadrature.h"
 #include "support/shapes.h"
 

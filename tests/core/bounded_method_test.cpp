@@ -5,6 +5,7 @@
 #include "core/cauchy.h"
 #include "core/deformer.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 

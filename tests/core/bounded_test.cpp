@@ -5,6 +5,7 @@
 #include "core/argument.h"
 #include "core/bounded_space.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "support/known_maps.h"
 #include "support/shapes.h"
 

@@ -5,6 +5,7 @@
 #include "core/compared/comparison.h"
 #include "core/compared/projections.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "core/real_form.h"
 
 using namespace holomorph;

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/injectivity.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

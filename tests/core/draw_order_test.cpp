@@ -1,5 +1,6 @@
 // Which triangles are drawn last: those nearest to the highest place, through the mesh.
 #include "core/draw_order.h"
+#include "core/mesher.h"
 
 #include <catch2/catch.hpp>
 #include <map>

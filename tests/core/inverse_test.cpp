@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/cauchy.h"
+#include "core/mesher.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 

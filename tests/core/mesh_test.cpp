@@ -6,6 +6,7 @@
 
 #include "core/cauchy.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -54,6 +55,57 @@ TEST_CASE("The domain mesh partitions ordinary polygons with about the wanted nu
     CHECK(count > 2600);
     CHECK(count < 5600);
   }
+}
+
+TEST_CASE("A caller's own triangles become the mesh that the mesher made of them") {
+  const Cage cage = counter_clockwise(shapes::curved_star(7, 3, 0.1, 5));
+  const Mesh made = domain_mesh(cage, {600});
+  std::vector<Triangle> turned = made.triangles;
+  for (size_t i = 0; i < turned.size(); i += 2) std::swap(turned[i][0], turned[i][1]);
+  Points near = made.vertices;
+  for (const int v : made.cage_vertices) near[static_cast<size_t>(v)] += 1e-11 * kI;
+  const Mesh own = mesh_of(cage, near, turned);
+  CHECK(own.cage_vertices == made.cage_vertices);
+  CHECK(own.vertices == made.vertices);
+  CHECK(std::is_permutation(own.boundary.begin(), own.boundary.end(), made.boundary.begin(),
+                            made.boundary.end()));
+  for (const Triangle& t : own.triangles) CHECK(triangle_area(own, t) > 0);
+}
+
+TEST_CASE("Triangles that do not fill the cage are refused, and the message says why") {
+  const Cage cage = polygon_cage(shapes::rectangle(4, 3));
+  const Points corners = vertices_of(cage);
+  const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
+  CHECK(mesh_of(cage, corners, halves).triangles.size() == 2);
+  const auto refused = [&](const Points& vertices, const std::vector<Triangle>& triangles,
+                           const std::string& why) {
+    INFO(why);
+    CHECK_THROWS_WITH(mesh_of(cage, vertices, triangles), Catch::Contains(why));
+  };
+  const auto with = [&](size_t i, Complex z) {
+    Points moved = corners;
+    moved[i] = z;
+    return moved;
+  };
+  refused(corners, {}, "no triangles");
+  refused(corners, {{0, 1, 2}}, "several parts");  // a vertex without a triangle
+  refused(corners, {{0, 1, 2}, {0, 2, 4}}, "does not exist");
+  refused(corners, {{0, 1, 2}, {0, 2, -1}}, "does not exist");
+  refused(corners, {{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}, "more than two triangles");
+  refused(with(2, {NAN, 0}), halves, "not finite");
+  refused(with(2, corners[2] + 0.01), halves, "the cage's vertex");
+  Points outside = corners;
+  outside.push_back(corners[1] + 2.0);
+  refused(outside, {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}, "not on the cage");
+  Points twice = corners;
+  twice.push_back(0.5 * (corners[0] + corners[2]));
+  refused(twice, {{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}, "more than two triangles");
+  refused(twice, {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}}, "flat");
+  Cage round = cage;  // its chords leave out what bulges
+  for (Index i = 0; i < round.size(); ++i)
+    round.segments[i].push_back(1.4 * (round.vertex(i) + round.vertex(i + 1)) / 2.0 -
+                                0.4 * Complex(2, 1.5));
+  CHECK_THROWS_WITH(mesh_of(round, corners, halves), Catch::Contains("do not fill"));
 }
 
 TEST_CASE("Both orientations of a polygon give counter-clockwise triangles") {

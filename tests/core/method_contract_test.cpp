@@ -8,6 +8,7 @@
 #include "core/deformer.h"
 #include "core/error.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

@@ -7,6 +7,7 @@
 #include "core/cauchy_array.h"
 #include "core/cauchy_map.h"
 #include "core/deformer.h"
+#include "core/mesher.h"
 #include "support/exact_cauchy.h"
 #include "support/seeds.h"
 #include "support/shapes.h"

@@ -7,6 +7,7 @@
 #include "core/deformer.h"
 #include "core/distortion.h"
 #include "core/error.h"
+#include "core/mesher.h"
 #include "core/outline_match.h"
 #include "core/outline_start.h"
 #include "core/riemann.h"

@@ -6,6 +6,7 @@
 
 #include "core/angle_map.h"
 #include "core/deformer.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

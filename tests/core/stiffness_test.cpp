@@ -5,6 +5,7 @@
 
 #include "core/deformer.h"
 #include "core/distortion.h"
+#include "core/mesher.h"
 #include "support/shapes.h"
 
 using namespace holomorph;

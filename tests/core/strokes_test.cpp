@@ -5,6 +5,7 @@
 #include "core/distortion.h"
 #include "core/error.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 #include "core/polyline.h"
 #include "support/outlines.h"
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "core/mesher.h"
 #include "desk.h"
 #include "edit/actions.h"
 #include "edit/corner_edits.h"

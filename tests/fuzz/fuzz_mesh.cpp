@@ -5,6 +5,7 @@
 #include "core/cauchy_array.h"
 #include "core/error.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 
 using namespace holomorph;
 

@@ -72,6 +72,8 @@ class Package(unittest.TestCase):
         with open(os.path.join(doc, "copyright")) as file:
             text = file.read()
         self.assertIn("License: GPL-3", text)
+        for part in ("CGAL", "Dear ImGui", "CLI11"):  # compiled in: their notices must be there
+            self.assertIn(part, text)
         self.assertIn("/usr/share/common-licenses/GPL-3", text)
         with open(os.path.join(doc, "README.md")) as file:
             linked = re.findall(r"\]\(((?:docs|schema)/[^)#]+)\)", file.read())
@@ -99,6 +101,20 @@ class Package(unittest.TestCase):
         self.assertEqual(options, "--crop")
         entry = os.path.join(self.root, "usr/share/metainfo/holomorph.metainfo.xml")
         subprocess.run(["appstreamcli", "validate", "--no-net", entry], check=True, capture_output=True)
+
+    def test_the_libraries_are_packages_of_their_own_with_their_own_licenses(self):
+        self.assertEqual(set(self.packages), {"holomorph", "libholomorph-dev", "libholomorph-mesher-dev"})
+        for package, license, library in (("libholomorph-dev", "Expat", "libholomorph_core.a"),
+                                          ("libholomorph-mesher-dev", "GPL-3", "libholomorph_mesher.a")):
+            listed = subprocess.run(["dpkg-deb", "-c", self.packages[package]], check=True, capture_output=True, text=True).stdout
+            self.assertEqual([n for n in re.findall(r"libholomorph_\w+\.a", listed)], [library])
+            root = os.path.join(self.folder, package)
+            subprocess.run(["dpkg-deb", "-x", self.packages[package], root], check=True)
+            with open(os.path.join(root, "usr/share/doc", package, "copyright")) as file:
+                stated = re.search(r"Files: \*\n.*?License: (\S+)", file.read(), re.S).group(1)
+            self.assertEqual(stated, license)
+        self.assertIn("libcgal-dev", self.field("libholomorph-mesher-dev", "Depends"))
+        self.assertNotIn("cgal", self.field("libholomorph-dev", "Depends"))
 
     def test_a_desktop_knows_scenes(self):
         desktop = os.path.join(self.root, "usr/share/applications/holomorph.desktop")

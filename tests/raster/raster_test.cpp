@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/mesher.h"
 #include "raster/bleed.h"
 #include "raster/picture.h"
 #include "raster/textured.h"

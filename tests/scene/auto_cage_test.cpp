@@ -7,6 +7,7 @@
 #include "core/distortion.h"
 #include "core/error.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 #include "scene/file.h"
 #include "support/shapes.h"
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "core/mesher.h"
 #include "scene/live_map.h"
 #include "scene/scene_json.h"
 #include "support/complaint.h"

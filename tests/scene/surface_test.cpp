@@ -4,6 +4,7 @@
 
 #include "core/curve.h"
 #include "core/error.h"
+#include "core/flatten.h"
 #include "scene/document.h"
 #include "scene/laid_surface.h"
 #include "scene/scene_json.h"

@@ -9,6 +9,7 @@
 #include "core/argument.h"
 #include "core/bounded_space.h"
 #include "core/mesh.h"
+#include "core/mesher.h"
 
 namespace known_maps {
 

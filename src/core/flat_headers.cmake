@@ -1,0 +1,11 @@
+# Run at installation: copies `headers` from `from` flat into `to`, with their includes named as there.
+file(REMOVE_RECURSE "${to}")
+foreach(header IN LISTS headers)
+  get_filename_component(name "${header}" NAME)
+  if(EXISTS "${to}/${name}")
+    message(FATAL_ERROR "Two headers are called ${name}")
+  endif()
+  file(READ "${from}/${header}" text)
+  string(REGEX REPLACE "#include \"core/([a-z_0-9]+/)*([a-z_0-9]+\\.h)\"" "#include <holomorph/\\2>" text "${text}")
+  file(WRITE "${to}/${name}" "${text}")
+endforeach()
