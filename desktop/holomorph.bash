@@ -1,7 +1,16 @@
-# Completion of holomorph for bash: commands, and what `--help` says of their options.
+# Completion of holomorph for bash: commands, what `--help` says of their options, and values of some.
 _holomorph() {
-  local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]}
-  if [ "$COMP_CWORD" -eq 1 ] && [[ $word != -* ]]; then
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=
+  case $before in
+    --format) words="obj svg npy png stmap unwarp textured webp gif apng mp4 webm" ;;
+    --view) words="image angle area stretch checker" ;;
+    --flattening) words="lscm circle" ;;
+    --frames) words="all" ;;
+    --time | --scale | --order | --vertices | --margin | --filter) return ;;
+  esac
+  if [ -n "$words" ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  elif [ "$COMP_CWORD" -eq 1 ] && [[ $word != -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "map inverse coordinates render info new export bench" -- "$word"; compgen -f -- "$word")
   elif [[ $word == -* ]]; then
     [ "$COMP_CWORD" -gt 1 ] || command=

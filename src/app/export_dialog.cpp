@@ -153,7 +153,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
       film_format_of(settings.path);
     else
       picture_format_of(settings.path);
-    for (const Path& file : files()) check_not_a_source(file, document.sources());
+    for (const Path& file : files()) check_may_write(file, document.sources());
     if (const std::string problem = lacking(workspace_); !problem.empty()) return problem;
   } catch (const Error& error) {
     return error.what();

@@ -166,7 +166,7 @@ void Files::ask_export_svg() {
   dialog_.ask({FileQuestion::Mode::save, "Export the cage", "Export", {".svg"}, start, false},
               [this](const Path& path, double) -> std::string {
                 try {
-                  check_not_a_source(path, workspace_.document.sources());
+                  check_may_write(path, workspace_.document.sources());
                   write_file(path, svg_of(workspace_.unedited()));
                   workspace_.say("Exported " + path.filename().string() + ".");
                 } catch (const Error& error) {
@@ -181,7 +181,7 @@ std::string Files::export_surface(const Path& path, double scale) {
     const Document& document = workspace_.document;
     const Scene& scene = document.scene();
     const LaidSurface surface = laid_surface_of(scene);
-    for (const Path& file : files_of_textured(path)) check_not_a_source(file, document.sources());
+    for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
     write_textured(path, surface, textured(surface, scene, document.image(), scale));
     workspace_.say("Exported " + path.filename().string() + " with its material and picture.");
   } catch (const Error& error) {

@@ -59,6 +59,7 @@ void KeysWindow::export_keys() {
                 false},
                [this](const Path& path, double) -> std::string {
                  try {
+                   check_not_read_only(path);
                    write_file(path, lower_case(path.extension().string()) == ".md"
                                         ? keys_markdown()
                                         : json_of_keys(all_keys()));

@@ -119,14 +119,14 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
     // The position at the press: glfwGetCursorPos would return the current one.
-    const auto [x, y] = self(w)->last_place();
+    const auto [x, y] = self(w)->pointer();
     self(w)->add({Kind::button, x, y, button, 0, action});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
     self(w)->add({Kind::scroll, x, y});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-    self(w)->place_ = {x, y};
+    self(w)->pointer_ = {x, y};
     self(w)->add({Kind::move, x, y});
   });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
@@ -221,8 +221,8 @@ void Window::end_frame() {
   glfwSwapBuffers(window_);
 }
 
-std::pair<double, double> Window::last_place() const {
-  if (place_) return *place_;
+std::pair<double, double> Window::pointer() const {
+  if (pointer_) return *pointer_;
   double x = 0, y = 0;
   glfwGetCursorPos(window_, &x, &y);
   return {x, y};

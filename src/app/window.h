@@ -71,10 +71,12 @@ class Window {
  private:
   struct Event {
     enum class Kind { move, button, key, character, scroll } kind;
-    double x = 0, y = 0;  ///< place, or scrolled lines
+    double x = 0, y = 0;  ///< the pointer in window px, or scrolled lines
     int code = 0, scancode = 0, action = 0, mods = 0;
   };
   void add(const Event& event);
+  /// The pointer in window px, as the events so far have it.
+  std::pair<double, double> pointer() const;
   void pump_events();
   void take_key(const Event& event);
   void take_character(unsigned code);
@@ -89,11 +91,8 @@ class Window {
   bool held_over_ = false;        ///< Enter or Space, since before frames navigate
   std::vector<KeyPress> keys_;
   std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
-  /// The pointer's place in window px, as the events so far have it.
-  std::pair<double, double> last_place() const;
-
   std::deque<Event> events_;
-  std::optional<std::pair<double, double>> place_;
+  std::optional<std::pair<double, double>> pointer_;  ///< in window px, at the last event
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};
   std::vector<Path> drops_;

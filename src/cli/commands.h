@@ -3,19 +3,16 @@
 
 #include <optional>
 
+#include "cli/moments.h"
 #include "scene/file.h"
 
 namespace holomorph {
 
-/// Paths that are "-" stand for standard input and output.
-struct Moments {
-  std::optional<double> time = {};  ///< seconds of the keyframes
-  std::string frames = {};          ///< "A..B", "all", or nothing: one moment
-};
+// Paths that are "-" stand for standard input and output. `force` replaces read-only files.
 struct MapCommand {
   Path scene, points;
   Path out = "-";
-  bool force = false;  ///< read-only files are replaced, too
+  bool force = false;
   Moments moments = {};
 };
 struct CoordinatesCommand {
@@ -44,7 +41,7 @@ struct InfoCommand {
 };
 struct NewCommand {
   Path image, out;
-  bool force = false;  ///< scenes that are there, and read-only files, are replaced
+  bool force = false;  ///< replaces existing scenes, too
   int vertices = 30;
   double margin = -1;
   bool curved = false;
@@ -56,7 +53,7 @@ struct NewCommand {
 struct ExportCommand {
   Path scene, out;
   std::string format;
-  double scale = 1;
+  std::optional<double> scale = {};
   bool crop = false, force = false;
   Moments moments = {};
 };
@@ -65,13 +62,10 @@ struct BenchCommand {
   bool json = false;
 };
 
-/// What Ctrl-C and a polite kill end commands with that leave nothing half done.
-struct Interrupted {};
-
 /// Throws Error when there is no such file, with the names of commands when it was meant for one.
 void check_is_file(const Path& path);
 
-/// Each does its work and throws Error when it cannot.
+/// Each does its work and throws Error when it cannot, Interrupted when the user stops it.
 void run(const MapCommand& command);
 void run(const InverseCommand& command);
 void run(const CoordinatesCommand& command);

@@ -1,27 +1,63 @@
 // The one executable: subcommands without a window, the editor otherwise.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <iostream>
 
 #include "app/editor.h"
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "core/error.h"
 
 using namespace holomorph;
 
 namespace {
 
+/// All that the command line can say.
+struct CommandLine {
+  EditorOptions editor;
+  MapCommand map;
+  InverseCommand inverse;
+  CoordinatesCommand coordinates;
+  RenderCommand render;
+  InfoCommand info;
+  NewCommand fresh;
+  ExportCommand exported;
+  BenchCommand bench;
+  bool done = false;  ///< a command has run
+
+  void add_to(CLI::App& app);
+
+ private:
+  template <class Command>
+  CLI::App* add(CLI::App& app, const char* name, const char* what, const Command& command);
+  void add_map(CLI::App& app);
+  void add_inverse(CLI::App& app);
+  void add_coordinates(CLI::App& app);
+  void add_render(CLI::App& app);
+  void add_info(CLI::App& app);
+  void add_new(CLI::App& app);
+  void add_export(CLI::App& app);
+  void add_bench(CLI::App& app);
+};
+
 template <class Command>
-void on_run(CLI::App* app, const Command& command, bool& done) {
-  app->callback([&command, &done] {
+CLI::App* CommandLine::add(CLI::App& app, const char* name, const char* what,
+                           const Command& command) {
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->callback([this, &command] {
+    install_signal_handlers();
     run(command);
+    stop_if_interrupted();
     done = true;
   });
+  return sub;
 }
 
 /// The times that a command is about.
 void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
   auto* time = sub->add_option("--time", moments.time,
-                               "A time of the keyframes, in seconds; behind the last one as there")
+                               "A time of the keyframes, in seconds; after the last keyframe, its "
+                               "pose")
                    ->check([](const std::string& text) {
                      double value = 0;
                      return CLI::detail::lexical_cast(text, value) && value >= 0
@@ -36,32 +72,18 @@ void add_force(CLI::App* sub, bool& force, const char* what = "Replace read-only
   sub->add_flag("--force", force, what);
 }
 
-int run_program(int argc, char** argv) {
-  CLI::App app{
-      "Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
-  app.set_version_flag("--version", HOLOMORPH_VERSION);
-  EditorOptions editor;
-  app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
-  app.add_option("--state", editor.state_file,
-                 "Write what the editor shows to this file whenever it changes (for scripts)");
-  app.footer("For scenes, points and results - stands for standard input and output.");
-  app.require_subcommand(0, 1);
-  app.fallthrough(false);
-  bool done = false;
-
-  MapCommand map;
-  auto* sub =
-      app.add_subcommand("map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im");
+void CommandLine::add_map(CLI::App& app) {
+  auto* sub = add(app, "map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im", map);
   sub->add_option("SCENE", map.scene)->required();
   sub->add_option("--points", map.points, "CSV file of points")->required();
   sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
   add_moments(sub, map.moments, ": rows start with the frame's number");
   add_force(sub, map.force);
-  on_run(sub, map, done);
+}
 
-  InverseCommand inverse;
-  sub =
-      app.add_subcommand("inverse", "Where posed points come from: rows x,y to x,y,residual,count");
+void CommandLine::add_inverse(CLI::App& app) {
+  auto* sub =
+      add(app, "inverse", "Where posed points come from: rows x,y to x,y,residual,count", inverse);
   sub->add_option("SCENE", inverse.scene)->required();
   sub->add_option("--points", inverse.points, "CSV file of points")->required();
   sub->add_option("--out", inverse.out, "CSV file to write; standard output when missing");
@@ -69,19 +91,19 @@ int run_program(int argc, char** argv) {
   add_force(sub, inverse.force);
   sub->add_flag("--all", inverse.all,
                 "Every preimage where the picture lies over itself: rows point,x,y,residual,count");
-  on_run(sub, inverse, done);
+}
 
-  CoordinatesCommand coordinates;
-  sub = app.add_subcommand("coordinates", "The basis matrix at points as a NumPy file");
+void CommandLine::add_coordinates(CLI::App& app) {
+  auto* sub = add(app, "coordinates", "The basis matrix at points as a NumPy file", coordinates);
   sub->add_option("SCENE", coordinates.scene)->required();
   sub->add_option("--points", coordinates.points, "CSV file of points")->required();
   sub->add_option("--order", coordinates.order, "Order of the derivative")->capture_default_str();
   sub->add_option("--out", coordinates.out, "File to write")->required();
   add_force(sub, coordinates.force);
-  on_run(sub, coordinates, done);
+}
 
-  RenderCommand render;
-  sub = app.add_subcommand("render", "Draw the posed scene to a PNG, JPEG or WebP file");
+void CommandLine::add_render(CLI::App& app) {
+  auto* sub = add(app, "render", "Draw the posed scene to a PNG, JPEG or WebP file", render);
   sub->add_option("SCENE", render.scene)->required();
   sub->add_option("--out", render.out, "File to write; its extension says the format")->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
@@ -89,22 +111,24 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   sub->add_flag("--crop", render.crop,
                 "Keep the picture's rectangle; otherwise nothing is cut off");
-  add_moments(sub, render.moments, ", each to a file with its number: walk.png to walk-0007.png");
+  add_moments(sub, render.moments,
+              ", each to a file with its number: walk.png to walk-0007.png. All have the rectangle "
+              "that the whole film needs");
   add_force(sub, render.force);
-  on_run(sub, render, done);
+}
 
-  InfoCommand info;
-  sub = app.add_subcommand("info", "Measure the scene's map");
+void CommandLine::add_info(CLI::App& app) {
+  auto* sub = add(app, "info", "Measure the scene's map", info);
   sub->add_option("SCENE", info.scene)->required();
   sub->add_flag("--json", info.json, "Print JSON");
   add_moments(sub, info.moments, ": one report for each");
-  on_run(sub, info, done);
+}
 
-  NewCommand fresh;
-  sub = app.add_subcommand("new", "Make a scene with a cage from a picture's alpha");
+void CommandLine::add_new(CLI::App& app) {
+  auto* sub = add(app, "new", "Make a scene with a cage from a picture's alpha", fresh);
   sub->add_option("IMAGE", fresh.image)->required();
   sub->add_option("--out", fresh.out, "Scene to write")->required();
-  add_force(sub, fresh.force, "Replace a scene that is there, and read-only files");
+  add_force(sub, fresh.force, "Replace an existing scene, and read-only files");
   sub->add_option("--vertices", fresh.vertices, "Wanted number of cage vertices")
       ->capture_default_str();
   sub->add_option("--margin", fresh.margin,
@@ -125,58 +149,108 @@ int run_program(int argc, char** argv) {
   sub->add_option("--flattening", fresh.flattening,
                   "Of an OBJ surface: lscm (free boundary) or circle")
       ->capture_default_str();
-  on_run(sub, fresh, done);
+}
 
-  ExportCommand out;
-  sub = app.add_subcommand("export", "Write the posed scene in another format");
-  sub->add_option("SCENE", out.scene)->required();
+void CommandLine::add_export(CLI::App& app) {
+  auto* sub = add(app, "export", "Write the posed scene in another format", exported);
+  sub->add_option("SCENE", exported.scene)->required();
   sub->add_option(
-         "--format", out.format,
+         "--format", exported.format,
          "obj, svg, npy, png, stmap, unwarp or textured; of keyframes webp, gif, apng, mp4 or webm")
       ->required();
-  sub->add_option("--scale", out.scale,
-                  "Output pixels per image pixel, for png, stmap, unwarp and films")
-      ->capture_default_str();
-  sub->add_option("--out", out.out, "File to write")->required();
-  sub->add_flag("--crop", out.crop, "Keep the picture's rectangle, for png and films");
-  add_moments(sub, out.moments, ": those of a film");
-  add_force(sub, out.force);
-  on_run(sub, out, done);
+  sub->add_option("--scale", exported.scale,
+                  "Output pixels per image pixel (1), for png, stmap, unwarp, textured and films");
+  sub->add_option("--out", exported.out, "File to write")->required();
+  sub->add_flag("--crop", exported.crop, "Keep the picture's rectangle, for png and films");
+  add_moments(sub, exported.moments, ", for png and films");
+  add_force(sub, exported.force);
+}
 
-  BenchCommand bench;
-  sub = app.add_subcommand("bench", "Run the benchmarks and print their table");
+void CommandLine::add_bench(CLI::App& app) {
+  auto* sub = add(app, "bench", "Run the benchmarks and print their table", bench);
   sub->add_option("--filter", bench.filter, "Only benchmarks whose name contains this");
   sub->add_flag("--json", bench.json, "Print JSON");
-  on_run(sub, bench, done);
+}
 
+void CommandLine::add_to(CLI::App& app) {
+  app.set_version_flag("--version", HOLOMORPH_VERSION);
+  app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
+  app.add_option("--state", editor.state_file,
+                 "Write what the editor shows to this file whenever it changes (for scripts)");
+  app.footer("For scenes, points and results - stands for standard input and output.");
+  app.require_subcommand(0, 1);
+  app.fallthrough(false);
+  add_map(app);
+  add_inverse(app);
+  add_coordinates(app);
+  add_render(app);
+  add_info(app);
+  add_new(app);
+  add_export(app);
+  add_bench(app);
+}
+
+/// The words of a command that it does not know.
+std::vector<std::string> unknown_words(const CLI::App& app) {
+  std::vector<std::string> words = app.remaining();
+  for (const CLI::App* sub : app.get_subcommands())
+    for (const std::string& word : sub->remaining()) words.push_back(word);
+  return words;
+}
+
+/// What CLI11 found wrong, in terms of what was written.
+int refuse(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = unknown_words(app);
+  constexpr std::string_view kUnread = "Could not convert: ";
+  std::string what = error.what();
+  if (!unknown.empty())
+    what = unknown[0] + ": there is no such option here";
+  else if (what.starts_with(kUnread))
+    what = what.substr(kUnread.size()) + ": this is not a number that the option takes";
+  std::cerr << "holomorph: " << what << "\n"
+            << "'holomorph --help' or 'holomorph COMMAND --help' says more.\n";
+  return 2;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app{
+      "Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
+  CommandLine line;
+  line.add_to(app);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    // The first word was taken for a file to open.
-    if (!editor.file.empty()) check_is_file(editor.file);
-    return app.exit(error), 2;
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) {  // help, version
+      app.exit(error);
+      if (!std::cout.flush()) throw Error(ErrorKind::failed, "standard output: cannot be written");
+      return 0;
+    }
+    // The first word was taken for a file to open.
+    const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    if (extras && !line.editor.file.empty()) check_is_file(line.editor.file);
+    return refuse(app, error);
   }
-  if (done) return 0;
-  if (!editor.file.empty()) check_is_file(editor.file);
-  return run_editor(editor);
+  if (line.done) return 0;
+  if (!line.editor.file.empty()) check_is_file(line.editor.file);
+  return run_editor(line.editor);
+}
+
+int fail(const std::string& what, int status) {
+  std::cerr << "holomorph: " << what << "\n";
+  return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe whose reader has gone is an error like others
   try {
     return run_program(argc, argv);
   } catch (const Interrupted&) {
-    std::cerr << "holomorph: interrupted\n";
-    return 130;
-  } catch (const Error& error) {
-    std::cerr << "holomorph: " << error.what() << "\n";
-    return error.kind() == ErrorKind::bad_input ? 2 : 1;
+    return fail("interrupted", 130);
   } catch (const std::exception& error) {
-    std::cerr << "holomorph: " << error.what() << "\n";
-    return 1;
+    if (is_interrupted()) return fail("interrupted", 130);
+    const auto* known = dynamic_cast<const Error*>(&error);
+    return fail(error.what(), known && known->kind() == ErrorKind::bad_input ? 2 : 1);
   }
 }

@@ -58,28 +58,54 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
   return report;
 }
 
+LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f) {
+  const auto corner = [&](size_t k) { return mesh.vertices[static_cast<size_t>(t[k % 3])]; };
+  LinearDerivatives at{};  // times four areas
+  for (size_t a = 0; a < 3; ++a) {
+    const Complex opposite = corner(a + 2) - corner(a + 1);
+    at.fz += -kI * std::conj(opposite) * f[t[a]];
+    at.fzbar += kI * opposite * f[t[a]];
+  }
+  const double doubled = cross(corner(1) - corner(0), corner(2) - corner(0));
+  return {at.fz / (2 * doubled), at.fzbar / (2 * doubled)};
+}
+
 VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f) {
   const Index n = f.size();
   VertexDerivatives at{VectorXc::Zero(n), VectorXc::Zero(n)};
   VectorXd areas = VectorXd::Zero(n);
   const auto place = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
   for (const Triangle& t : mesh.triangles) {
-    Complex fz = 0, fzbar = 0;  // times four areas
-    for (size_t a = 0; a < 3; ++a) {
-      const Complex e = place(t[(a + 2) % 3]) - place(t[(a + 1) % 3]);
-      fz += -kI * std::conj(e) * f[t[a]];
-      fzbar += kI * e * f[t[a]];
-    }
-    const double area = 0.5 * cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]));
+    const LinearDerivatives here = derivatives_in(mesh, t, f);
+    const double area = cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]));
     for (const int v : t) {
-      at.fz[v] += 0.25 * fz;
-      at.fzbar[v] += 0.25 * fzbar;
+      at.fz[v] += area * here.fz;
+      at.fzbar[v] += area * here.fzbar;
       areas[v] += area;
     }
   }
   at.fz.array() /= areas.array();
   at.fzbar.array() /= areas.array();
   return at;
+}
+
+MapReport report_of_linear(const Mesh& mesh, const VectorXc& f) {
+  SampledMap map;
+  map.f = f;
+  VertexDerivatives at = vertex_derivatives(mesh, f);
+  map.fz = std::move(at.fz);
+  map.fzbar = std::move(at.fzbar);
+  MapReport report = report_of(mesh, map);
+  report.max_k = report.max_sigma = 0;
+  report.min_sigma = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles) {
+    const LinearDerivatives here = derivatives_in(mesh, t, f);
+    const double a = std::abs(here.fz), b = std::abs(here.fzbar);
+    report.max_k = std::max(report.max_k, a > 0 ? b / a : 1.0);
+    report.max_sigma = std::max(report.max_sigma, a + b);
+    report.min_sigma = std::min(report.min_sigma, a - b);
+  }
+  return report;
 }
 
 }  // namespace holomorph

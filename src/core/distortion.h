@@ -32,6 +32,15 @@ struct MapReport {
 /// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle
 /// on every triangle. Cost: linear, but for the crossing test of the boundary.
 MapReport report_of(const Mesh& mesh, const SampledMap& map);
+/// The same of the map that is f at the mesh's vertices and linear in each triangle: k and sigma
+/// are the extremes over the triangles.
+MapReport report_of_linear(const Mesh& mesh, const VectorXc& f);
+
+/// f_z and f_zbar of the map that is f at a mesh's vertices and linear in triangle t.
+struct LinearDerivatives {
+  Complex fz, fzbar;
+};
+LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f);
 
 /// f_z and f_zbar at a mesh's vertices of the map that is f there and linear in each triangle:
 /// means over the triangles around each vertex, by area. Cost: linear.

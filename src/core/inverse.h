@@ -26,6 +26,8 @@ class InverseMap {
   /// Cost: linear in the triangles.
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
+  InverseMap(const InverseMap&) = delete;  // its parts refer to each other
+  InverseMap& operator=(const InverseMap&) = delete;
 
   /// All preimages of w inside the cage, the one drawn on top first; empty when there is none. For
   /// w off the boundary's image they are as many as it winds around w, counted with their

@@ -71,10 +71,7 @@ class FfmpegWriter final : public FilmWriter {
 
   void finish() override {
     if (end() != 0) fail();
-    std::error_code wrong;
-    std::filesystem::rename(part_, out_, wrong);
-    if (wrong)
-      throw Error(ErrorKind::failed, out_.string() + ": cannot be written: " + wrong.message());
+    move_file(part_, out_);
   }
 
  private:

@@ -6,9 +6,10 @@
 
 namespace holomorph {
 
-bool write_film(const Path& out, const Scene& scene, const Image* source,
-                const FilmOptions& options, const std::function<bool(int done, int all)>& progress,
-                const Pictures& others) {
+std::optional<FilmFrame> write_film(const Path& out, const Scene& scene, const Image* source,
+                                    const FilmOptions& options,
+                                    const std::function<bool(int done, int all)>& progress,
+                                    const Pictures& others) {
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "the scene has no keyframes, so there is no film in it");
@@ -18,28 +19,28 @@ bool write_film(const Path& out, const Scene& scene, const Image* source,
     throw Error(ErrorKind::bad_input,
                 "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", and not " +
                     std::to_string(options.first) + " to " + std::to_string(last));
-  std::vector<double> times;
-  for (int i = options.first; i <= last; ++i)
-    times.push_back(i / scene.animation.frames_per_second);
+  const double rate = scene.animation.frames_per_second;
   PictureMaker maker(scene, source, others);
   PictureOptions picture = options.picture;
   if (!picture.crop && !picture.shows) {
-    picture.shows = maker.shown_at(times, [&] { return progress(0, frames); });
-    if (!picture.shows) return false;
+    picture.shows = maker.shown_at(frame_times(scene), [&] { return progress(0, frames); });
+    if (!picture.shows) return {};
   }
+  FilmFrame film{frames, 0, 0, 0};
   std::unique_ptr<FilmWriter> writer;
   for (int i = 0; i < frames; ++i) {
-    if (!progress(i, frames)) return false;
-    picture.time = times[static_cast<size_t>(i)];
-    const Image frame = maker.picture(picture).image;
-    if (!writer)
-      writer = format.open(
-          out, {frame.width, frame.height, scene.animation.frames_per_second, options.loops});
-    writer->add(frame);
+    if (!progress(i, frames)) return {};
+    picture.time = (options.first + i) / rate;
+    const RasterResult frame = maker.picture(picture);
+    if (!writer) {
+      film = {frames, frame.image.width, frame.image.height, frame.corner};
+      writer = format.open(out, {film.width, film.height, rate, options.loops});
+    }
+    writer->add(frame.image);
   }
-  if (!progress(frames, frames)) return false;
+  if (!progress(frames, frames)) return {};
   writer->finish();
-  return true;
+  return film;
 }
 
 }  // namespace holomorph

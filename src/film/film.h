@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "film/film_writer.h"
 #include "raster/picture.h"
@@ -14,12 +15,21 @@ struct FilmOptions {
   bool loops = true;
 };
 
-/// Draws frames of a scene, as picture_of does, into a file whose extension says the kind.
-/// `progress` is told how many frames are done and how many there are; when it returns false
-/// nothing is written. Throws Error for a scene without keyframes and for what cannot be drawn or
-/// written. Returns whether the film is there. Cost: a picture for each frame, on all cores.
-bool write_film(const Path& out, const Scene& scene, const Image* source,
-                const FilmOptions& options, const std::function<bool(int done, int all)>& progress,
-                const Pictures& others = {});
+/// What every frame of a film is.
+struct FilmFrame {
+  int count = 0, width = 0, height = 0;  ///< of frames; in pixels
+  Complex corner;                        ///< the lower left one, in the plane
+};
+
+/// Draws frames of a scene, as picture_of does, into a file whose extension says the kind. Without
+/// `shows` or `crop` each frame has the rectangle that all of the scene's frames need, so that
+/// parts fit together. `progress` is told how many frames are done and how many there are; when it
+/// returns false nothing is written. Throws Error for a scene without keyframes and for what cannot
+/// be drawn or written. Returns none when nothing is written. Cost: a picture for each frame, on
+/// all cores.
+std::optional<FilmFrame> write_film(const Path& out, const Scene& scene, const Image* source,
+                                    const FilmOptions& options,
+                                    const std::function<bool(int done, int all)>& progress,
+                                    const Pictures& others = {});
 
 }  // namespace holomorph

@@ -32,13 +32,7 @@ class PngFrames final : public FilmWriter {
       if (std::filesystem::is_directory(numbered(out_, i)))
         throw Error(ErrorKind::failed,
                     numbered(out_, i).string() + ": there is a folder of this name");
-    for (int i = 0; i < frames_; ++i) {
-      std::error_code wrong;
-      std::filesystem::rename(part(i), numbered(out_, i), wrong);
-      if (wrong)
-        throw Error(ErrorKind::failed,
-                    numbered(out_, i).string() + ": cannot be written: " + wrong.message());
-    }
+    for (int i = 0; i < frames_; ++i) move_file(part(i), numbered(out_, i));
   }
 
  private:

@@ -116,9 +116,7 @@ Box PictureMaker::rectangle() const {
 
 RasterResult PictureMaker::picture(const PictureOptions& wanted) {
   PictureOptions options = wanted;
-  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_))
-    throw Error(ErrorKind::bad_input,
-                "none of the keyframes has the scene's cage points, pins and strokes");
+  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_)) throw no_key_plays();
   LayerMaker& edited = *layers_[edited_layer(scene_)];
   if (options.view != View::image || !has_layers(scene_)) {
     const double top = edited.source() ? edited.source()->height : 0;

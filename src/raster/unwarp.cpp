@@ -33,7 +33,8 @@ void fill_row(const Scene& scene, const InverseMap& inverse, double scale, int r
 }  // namespace
 
 StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale,
-                std::optional<double> time) {
+                std::optional<double> time,
+                const std::function<void(int done, int all)>& progress) {
   const double width = picture_width, height = picture_height;
   if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
     throw Error(ErrorKind::bad_input,
@@ -41,26 +42,28 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
   if (picture_width <= 0 || picture_height <= 0)
     throw Error(ErrorKind::bad_input, "an ST-map needs the scene's picture, and it has none");
   TimedMap timed(scene);
-  const TimedMap::Frame frame = timed.frame(time);
-  const auto points = timed.point_map(frame);
-  if (!points)
+  const auto inverse = timed.inverse(timed.frame(time));
+  if (!inverse)
     throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse to export");
-  const VectorXc& f = frame.map.f;
-  const InverseMap inverse(scene.rest, timed.mesh(), {f.data(), static_cast<size_t>(f.size())},
-                           *points);
   StMap map{std::max(1, static_cast<int>(std::lround(width * scale))),
             std::max(1, static_cast<int>(std::lround(height * scale))),
             {}};
   map.st.resize(2 * static_cast<size_t>(map.width) * map.height);
   std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int row = next++; row < map.height; row = next++)
-      fill_row(scene, inverse, scale, row, height, width, map);
+  const auto take_row = [&] {
+    const int row = next++;
+    if (row < map.height) fill_row(scene, inverse->inverse, scale, row, height, width, map);
+    return row < map.height;
   };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
-  work();
-  for (std::thread& thread : others) thread.join();
+  {
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+      others.emplace_back([&](const std::stop_token& stop) {
+        while (!stop.stop_requested() && take_row()) {
+        }
+      });
+    while (take_row()) progress(std::min(next.load(), map.height), map.height);
+  }
   return map;
 }
 
@@ -68,7 +71,7 @@ Image unwarped(const Scene& scene, const Image* picture, double scale, std::opti
   if (!picture)
     throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
   TimedMap timed(scene);
-  const VectorXc f = timed.frame(time).map.f;
+  const VectorXc f = timed.on_mesh(timed.frame(time)).f;
   Mesh posed = timed.mesh();
   posed.vertices.assign(f.begin(), f.end());
   RasterJob job;

@@ -164,6 +164,11 @@ void check_not_a_source(const Path& out, const Sources& sources) {
   for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene covers");
 }
 
+void check_may_write(const Path& out, const Sources& sources) {
+  check_not_a_source(out, sources);
+  check_not_read_only(out);
+}
+
 namespace {
 
 /// One layer with a picture of a file.
@@ -338,10 +343,7 @@ Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& 
 
 void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
-  if (is_read_only(target))
-    throw Error(ErrorKind::failed, target.string() +
-                                       ": the file is read-only; save under another "
-                                       "name, or make it writable");
+  check_not_read_only(target);
   Scene present = with_present_pictures(scene(), pictures_, target);
   write_file(target, json_of(portable(present, target.parent_path())));
   history_.replace(std::move(present));

@@ -45,6 +45,8 @@ struct Sources {
 Sources sources_of(const Scene& scene, const Path& scene_path);
 /// Throws Error when writing to `out` would replace one of them.
 void check_not_a_source(const Path& out, const Sources& sources);
+/// The same, and for read-only files.
+void check_may_write(const Path& out, const Sources& sources);
 
 /// The scene of a picture alone, without a cage; of an OpenRaster file with all of its layers.
 LoadedScene scene_of_image(const Path& image);

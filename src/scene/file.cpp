@@ -8,13 +8,114 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <sstream>
+#include <vector>
 
 namespace holomorph {
+
+namespace {
+
+[[noreturn]] void fail(const Path& path, const char* what) {
+  throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+/// Closed when it goes out of scope.
+struct Descriptor {
+  int fd;
+  ~Descriptor() { ::close(fd); }
+};
+
+/// Flushes a directory's entries, so that a rename in it survives a power cut.
+void sync_directory(const Path& directory) {
+  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+/// False with errno when not all bytes could be written.
+bool write_all(int descriptor, const std::string& bytes) {
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote <= 0) return false;
+    done += static_cast<size_t>(wrote);
+  }
+  return true;
+}
+
+/// Into a pipe or a device, which cannot be replaced.
+void write_into(const Path& path, const std::string& bytes) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (fd < 0) fail(path, "cannot be opened for writing");
+  const bool good = write_all(fd, bytes);
+  const int reason = errno;
+  const bool closed = ::close(fd) == 0;
+  if (good && closed) return;
+  if (!good) errno = reason;
+  fail(path, "cannot be written");
+}
+
+/// What a path leads to through links. Throws Error where links lead in a circle.
+Path target_of(Path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int links = 0; std::filesystem::is_symlink(path, error); ++links) {
+    if (links == kMostLinks) {
+      errno = ELOOP;
+      fail(path, "cannot be written");
+    }
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  }
+  return path;
+}
+
+Path folder_of(const Path& path) {
+  return path.has_parent_path() ? path.parent_path() : Path(".");
+}
+
+/// Whether a path names something that is written into. Throws Error for a folder.
+bool is_stream(const Path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory; name a file");
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+/// The permissions of what is replaced, or those of new files.
+mode_t mode_for(const Path& path) {
+  struct stat before {};
+  if (::stat(path.c_str(), &before) == 0) return before.st_mode & 07777;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+/// Up to the end; `name` is for messages.
+std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
+  std::string bytes;
+  std::vector<char> block(1 << 16);
+  while (true) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      throw Error(ErrorKind::bad_input,
+                  name.string() + ": cannot be read: " + std::strerror(errno));
+    }
+    if (count == 0) return bytes;
+    bytes.append(block.data(), static_cast<size_t>(count));
+    if (bytes.size() > limit)
+      throw Error(ErrorKind::bad_input,
+                  name.string() + ": there are more than " + std::to_string(limit >> 20) + " MB");
+  }
+}
+
+}  // namespace
 
 std::string read_file(const Path& path, size_t limit) {
   std::error_code error;
@@ -34,110 +135,76 @@ std::string read_file(const Path& path, size_t limit) {
   return bytes;
 }
 
-namespace {
-
-[[noreturn]] void fail(const Path& path, const char* what) {
-  throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + std::strerror(errno));
+std::string read_stream(const Path& path, size_t limit) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) || std::filesystem::is_directory(path, error) ||
+      std::filesystem::is_regular_file(path, error))
+    return read_file(path, limit);
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0)
+    throw Error(ErrorKind::bad_input, path.string() + ": cannot be read: " + std::strerror(errno));
+  const Descriptor closed{fd};
+  return read_descriptor(fd, path, limit);
 }
-
-/// Flushes a directory's entries, so that a rename in it survives a power cut.
-void sync_directory(const Path& directory) {
-  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
-}
-
-}  // namespace
-
-namespace {
-
-/// False with errno when not all bytes could be written.
-bool write_all(int descriptor, const std::string& bytes) {
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote <= 0) return false;
-    done += static_cast<size_t>(wrote);
-  }
-  return true;
-}
-
-/// A pipe whose reader has gone is an error like others, not a signal that ends the program.
-void ignore_broken_pipes() {
-  static const bool ignored = std::signal(SIGPIPE, SIG_IGN) != SIG_ERR;
-  (void)ignored;
-}
-
-/// Into a pipe or a device, which cannot be replaced.
-void write_into(const Path& path, const std::string& bytes) {
-  ignore_broken_pipes();
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (fd < 0) fail(path, "cannot be opened for writing");
-  const bool good = write_all(fd, bytes);
-  const int reason = errno;
-  const bool closed = ::close(fd) == 0;
-  if (good && closed) return;
-  if (!good) errno = reason;
-  fail(path, "cannot be written");
-}
-
-}  // namespace
 
 void write_standard_output(const std::string& bytes) {
-  ignore_broken_pipes();
   std::cout.flush();
   if (!write_all(STDOUT_FILENO, bytes)) fail("standard output", "cannot be written");
 }
 
 std::string read_standard_input(size_t limit) {
-  std::string bytes;
-  char block[1 << 16];
-  while (std::cin.read(block, sizeof block) || std::cin.gcount() > 0) {
-    bytes.append(block, static_cast<size_t>(std::cin.gcount()));
-    if (bytes.size() > limit)
-      throw Error(ErrorKind::bad_input,
-                  "standard input: there are more than " + std::to_string(limit >> 20) + " MB");
-  }
-  return bytes;
+  return read_descriptor(STDIN_FILENO, "standard input", limit);
 }
 
 bool is_read_only(const Path& path) {
+  constexpr mode_t kWrite = S_IWUSR | S_IWGRP | S_IWOTH;
   struct stat found {};
-  return ::stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode) &&
-         (found.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
+  if (::stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return false;
+  return (found.st_mode & kWrite) == 0 ||
+         ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0;
+}
+
+void check_not_read_only(const Path& path) {
+  if (is_read_only(path))
+    throw Error(ErrorKind::failed, path.string() +
+                                       ": the file is read-only; choose another name, "
+                                       "or make it writable");
 }
 
 void write_file(const Path& wanted, const std::string& bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(wanted, error);
-  if (std::filesystem::is_directory(status))
-    throw Error(ErrorKind::bad_input, wanted.string() + ": this is a directory; name a file");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    return write_into(wanted, bytes);
-  // A link keeps pointing where it points: its target is what gets replaced.
-  Path path = wanted;
-  for (int links = 0; links < 40 && std::filesystem::is_symlink(path, error); ++links)
-    path = path.parent_path() / std::filesystem::read_symlink(path, error);
-  const Path directory = path.has_parent_path() ? path.parent_path() : Path(".");
-  std::string name = (directory / ("." + path.filename().string() + ".XXXXXX")).string();
+  if (is_stream(wanted)) return write_into(wanted, bytes);
+  const Path path = target_of(wanted), folder = folder_of(path);
+  std::string name = (folder / ("." + path.filename().string() + ".XXXXXX")).string();
   const int fd = ::mkstemp(name.data());
   if (fd < 0) fail(path, "cannot write here");
-  bool good = write_all(fd, bytes);
-  struct stat before {};
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const mode_t mode = ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : 0666 & ~mask;
-  good = good && ::fchmod(fd, mode) == 0 && ::fsync(fd) == 0;
-  good = ::close(fd) == 0 && good;
-  good = good && ::rename(name.c_str(), path.c_str()) == 0;
-  if (!good) {
-    const int reason = errno;
-    ::unlink(name.c_str());
-    errno = reason;
-    fail(path, "cannot be written");
+  const bool good = write_all(fd, bytes) && ::fchmod(fd, mode_for(path)) == 0 && ::fsync(fd) == 0;
+  int reason = errno;  // of the first that failed
+  const bool closed = ::close(fd) == 0;
+  if (good) reason = errno;
+  if (good && closed) {
+    if (::rename(name.c_str(), path.c_str()) == 0) return sync_directory(folder);
+    reason = errno;
   }
-  sync_directory(directory);
+  ::unlink(name.c_str());
+  errno = reason;
+  fail(path, "cannot be written");
+}
+
+void move_file(const Path& finished, const Path& wanted) {
+  if (is_stream(wanted)) {
+    write_into(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
+    ::unlink(finished.c_str());
+    return;
+  }
+  const Path path = target_of(wanted);
+  if (path != wanted) {  // perhaps on another disk
+    write_file(path, read_file(finished, std::numeric_limits<size_t>::max()));
+    ::unlink(finished.c_str());
+    return;
+  }
+  ::chmod(finished.c_str(), mode_for(path));
+  if (::rename(finished.c_str(), path.c_str()) != 0) fail(path, "cannot be written");
+  sync_directory(folder_of(path));
 }
 
 FileLock::FileLock(const Path& path)

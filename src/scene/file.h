@@ -14,18 +14,27 @@ using Path = std::filesystem::path;
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
+/// The same, and of a pipe or a device up to its end: for what a user names, not for what a file
+/// does, because it waits.
+std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
+
 /// All bytes of standard input, `limit` at most. Throws Error{bad_input} when there are more.
 std::string read_standard_input(size_t limit = size_t{1} << 30);
 
 /// Replaces the file's content or leaves it as it was: writes next to it, flushes to disk, renames.
 /// A link keeps pointing where it points; pipes and devices are written into. Throws Error{failed}
-/// when that is not possible.
+/// when that is not possible. Where SIGPIPE is not ignored, a pipe without a reader ends the
+/// program.
 void write_file(const Path& path, const std::string& bytes);
+/// The same with the content of a finished file, which is gone afterwards. Both are in one folder.
+void move_file(const Path& finished, const Path& path);
 /// Throws Error{failed} when standard output does not take all of it.
 void write_standard_output(const std::string& bytes);
 
-/// Whether there is a file that nobody may write, by its permissions.
+/// Whether there is a file that this user may not write, or whose permissions say that nobody may.
 bool is_read_only(const Path& path);
+/// Throws Error{failed} where there is one.
+void check_not_read_only(const Path& path);
 
 /// A mark that a running program owns something: held until destroyed, and by nobody once the
 /// program has ended, however it ended.

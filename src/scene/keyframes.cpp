@@ -82,6 +82,11 @@ bool has_playing_keys(const Scene& scene) {
   return any_layer(scene, [](const Scene& layer) { return !playing_keys(layer).empty(); });
 }
 
+Error no_key_plays() {
+  return {ErrorKind::bad_input,
+          "none of the keyframes has the scene's cage points, pins and strokes"};
+}
+
 bool plays(const Scene& scene) {
   return any_layer(scene, [](const Scene& layer) { return playing_keys(layer).size() > 1; });
 }
@@ -96,6 +101,13 @@ double length_of(const Scene& scene) {
 
 int last_frame_of(const Scene& scene) {
   return static_cast<int>(std::ceil(length_of(scene) * scene.animation.frames_per_second - 1e-6));
+}
+
+std::vector<double> frame_times(const Scene& scene) {
+  std::vector<double> times;
+  for (int i = 0; i <= last_frame_of(scene); ++i)
+    times.push_back(i / scene.animation.frames_per_second);
+  return times;
 }
 
 }  // namespace holomorph

@@ -21,10 +21,14 @@ std::vector<size_t> playing_keys(const Scene& scene);
 bool has_keyframes(const Scene& scene);
 bool has_playing_keys(const Scene& scene);
 bool plays(const Scene& scene);
+/// What to throw where there are keyframes and none of them plays.
+Error no_key_plays();
 /// The last key's time in any layer, 0 without any.
 double length_of(const Scene& scene);
 /// Frame i is at time i / frames_per_second; the last one is at the last key or just behind it.
 int last_frame_of(const Scene& scene);
+/// The times of all frames, in seconds.
+std::vector<double> frame_times(const Scene& scene);
 
 /// A pose mirrored left to right at rest: what stands on one side at rest goes where its
 /// counterpart went, mirrored about the vertical line through the middle of the cage at rest.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/distortion.h"
 #include "scene/keyframes.h"
 #include "scene/live_map.h"
 
@@ -38,23 +39,6 @@ ExpectedTurn expected_turn(const Scene& scene, const Pose& from, const Pose& to,
   };
   expected.radians += (turned(to) - turned(from)) / static_cast<double>(scene.corners.size());
   return expected;
-}
-
-/// The triangle around a place, or the nearest boundary vertex' one, which goes on there.
-Location location_near(const Mesh& mesh, Complex z) {
-  if (const auto found = locate(mesh, mesh.vertices, z)) return *found;
-  const int vertex = *std::ranges::min_element(mesh.boundary, {}, [&](int v) {
-    return std::norm(mesh.vertices[static_cast<size_t>(v)] - z);
-  });
-  const auto triangle = std::ranges::find_if(
-      mesh.triangles, [&](const Triangle& t) { return std::ranges::find(t, vertex) != t.end(); });
-  const auto corner = [&](int k) {
-    return mesh.vertices[static_cast<size_t>((*triangle)[static_cast<size_t>(k)])];
-  };
-  const Complex a = corner(0) - z, b = corner(1) - z, c = corner(2) - z;
-  const double area = cross(corner(1) - corner(0), corner(2) - corner(0));
-  return {static_cast<int>(triangle - mesh.triangles.begin()),
-          {cross(b, c) / area, cross(c, a) / area, cross(a, b) / area}};
 }
 
 /// A segment's control points at rest, written with a degree.
@@ -166,6 +150,14 @@ const VectorXc* Motion::key_beside(double time, bool later) const {
   return later ? nullptr : found;
 }
 
+const Pose* Motion::pose_at(double time) const {
+  constexpr double kHere = 1e-9;  // seconds: frames' times are rounded
+  for (const Key& key : keys_)
+    if (std::abs(key.time - time) < kHere) return &key.pose;
+  const auto [i, u] = place_of(time);
+  return u == 0 ? &keys_[i].pose : nullptr;
+}
+
 double Motion::turned_at(double time) const {
   const auto [i, u] = place_of(time);
   const double from = keys_[i].shape.logarithm.imag().mean();
@@ -216,18 +208,11 @@ VectorXc Motion::map_at(double time) const {
 Motion::Frame Motion::frame_at(Complex rest, const VectorXc& map) const {
   const Mesh& mesh = between_->mesh();
   const auto [known, fresh] = locations_.try_emplace({rest.real(), rest.imag()});
-  if (fresh) known->second = location_near(mesh, rest);
+  if (fresh) known->second = locate_near(mesh, rest);
   const Location& at = known->second;
   const Triangle& t = mesh.triangles[static_cast<size_t>(at.triangle)];
-  Frame frame{at.in(mesh, {map.data(), static_cast<size_t>(map.size())}), 0};
-  double area = 0;
-  for (size_t a = 0; a < 3; ++a) {
-    const Complex from = mesh.vertices[static_cast<size_t>(t[(a + 1) % 3])],
-                  to = mesh.vertices[static_cast<size_t>(t[(a + 2) % 3])];
-    frame.fz += -kI * std::conj(to - from) * map[t[a]];
-    area += 0.5 * cross(from, to);
-  }
-  frame.fz /= 4 * area;
+  Frame frame{at.in(mesh, {map.data(), static_cast<size_t>(map.size())}),
+              derivatives_in(mesh, t, map).fz};
   if (std::abs(frame.fz) < 1e-9) frame.fz = 1e-9;
   return frame;
 }

@@ -29,6 +29,9 @@ class Motion {
 
   /// The map at the last key before a time, or the first one behind it; null without one.
   const VectorXc* key_beside(double time, bool later) const;
+  /// The pose that is shown at a time: a key's, where one is or is held, and before the first and
+  /// after the last; null on the way between two.
+  const Pose* pose_at(double time) const;
   /// By how much the picture has turned at a time, on average; whole turns count.
   double turned_at(double time) const;
   /// Between the first key and the last.

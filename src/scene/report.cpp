@@ -24,7 +24,7 @@ double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map
   return total > 0 ? energy / total * length * length : 0;
 }
 
-double pin_distance(const TimedMap& timed, const TimedMap::Frame& frame) {
+double pin_distance(TimedMap& timed, const TimedMap::Frame& frame) {
   Points pins, targets;
   for (size_t i = 0; i < timed.prepared().rest.pins.size(); ++i)
     if (contains(frame.scene.rest, timed.prepared().rest.pins[i].position)) {
@@ -55,29 +55,26 @@ const char* name_of(SampledMap::Status status) {
   return "";
 }
 
-SceneReport report_of(const TimedMap& timed, const TimedMap::Frame& frame) {
+SceneReport report_of(TimedMap& timed, const TimedMap::Frame& frame) {
   const PreparedMap& prepared = timed.prepared();
   const Mesh& mesh = timed.mesh();
   SceneReport report;
-  if (frame.pose) {
-    const double start = now_ms();
-    SampledMap again;
-    prepared.deformer->deform(*frame.pose, again, {});
-    report.pose_milliseconds = now_ms() - start;
-  }
+  const double start = now_ms();
+  const SampledMap map = timed.on_mesh(frame);
+  if (frame.pose) report.pose_milliseconds = now_ms() - start;
   report.method = frame.scene.method;
-  report.status = frame.pose ? name_of(frame.map.status) : "blended";
-  report.note = frame.map.note;
-  report.iterations = frame.map.iterations;
+  report.status = frame.pose ? name_of(map.status) : "blended";
+  report.note = map.note;
+  report.iterations = map.iterations;
   report.cage_vertices = static_cast<int>(frame.scene.rest.size());
   report.pins = static_cast<int>(frame.scene.pins.size());
   report.mesh_vertices = static_cast<int>(mesh.vertices.size());
   report.mesh_triangles = static_cast<int>(mesh.triangles.size());
   report.prepare_milliseconds = prepared.milliseconds;
-  report.map = report_of(mesh, frame.map);
-  report.folds_visibly = injectivity_of(mesh, frame.map.f).folds();
+  report.map = frame.pose ? report_of(mesh, map) : report_of_linear(mesh, map.f);
+  report.folds_visibly = injectivity_of(mesh, map.f).folds();
   const double length = perimeter(outline_of(frame.scene.rest)) / (2 * kPi);
-  report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, frame.map, length);
+  report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, map, length);
   report.pin_rms = pin_distance(timed, frame);
   return report;
 }
@@ -88,7 +85,8 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
   nlohmann::ordered_json zeros = nlohmann::ordered_json::array();
   for (const Complex& z : report.map.zeros) zeros.push_back({z.real(), z.imag()});
   nlohmann::ordered_json json;
-  if (report.frame) json = {{"frame", *report.frame}, {"time", report.time}};
+  if (report.frame) json["frame"] = *report.frame;
+  if (report.time) json["time"] = *report.time;
   json.update(
       {{"method", report.method},
        {"status", report.status},
@@ -108,8 +106,8 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
        {"cage_vertices", report.cage_vertices},
        {"pins", report.pins},
        {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
-       {"timings",
-        {{"prepare_ms", report.prepare_milliseconds}, {"pose_ms", report.pose_milliseconds}}}});
+       {"timings", {{"prepare_ms", report.prepare_milliseconds}}}});
+  if (report.pose_milliseconds) json["timings"]["pose_ms"] = *report.pose_milliseconds;
   return json;
 }
 
@@ -123,31 +121,37 @@ std::string json_of(const std::vector<SceneReport>& reports) {
 }
 
 std::string text_of(const SceneReport& report) {
-  char text[1200];
-  std::snprintf(
-      text, sizeof text,
-      "method           %s\nstatus           %s%s%s\niterations       %d\n"
-      "energies         smoothness %.4g, pins rms %.4g px\n"
-      "time             prepare %.1f ms, pose %.2f ms\n"
-      "max k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n"
-      "zeros of f'      %zu\nturning number   %.3f\nsimple boundary  %s\n"
-      "flipped          %d of %d triangles\nfolds            %s\ncertified        %s\n"
-      "cage, pins       %d vertices, %d pins\nmesh             %d vertices, %d triangles\n",
-      report.method.c_str(), report.status.c_str(), report.note.empty() ? "" : ": ",
-      report.note.c_str(), report.iterations, report.smoothness_energy, report.pin_rms,
-      report.prepare_milliseconds, report.pose_milliseconds, report.map.max_k, report.map.min_sigma,
-      report.map.max_sigma, report.map.zeros.size(), report.map.turning_number,
-      report.map.simple_boundary ? "yes" : "no", report.map.flipped_triangles,
-      report.mesh_triangles,
-      report.map.locally_injective() ? "none found"
-      : report.folds_visibly         ? "yes"
-                                     : "specks only",
-      report.status == "certified" ? "yes" : "no", report.cage_vertices, report.pins,
-      report.mesh_vertices, report.mesh_triangles);
-  if (!report.frame) return text;
-  char when[80];
-  std::snprintf(when, sizeof when, "frame            %d, at %.4g s\n", *report.frame, report.time);
-  return when + std::string(text) + "\n";
+  const auto line = [](const char* format, auto... values) {
+    char text[300];
+    std::snprintf(text, sizeof text, format, values...);
+    return std::string(text);
+  };
+  const MapReport& map = report.map;
+  std::string text;
+  if (report.frame) text += line("frame            %d\n", *report.frame);
+  if (report.time) text += line("time             %.4g s\n", *report.time);
+  text += "method           " + report.method + "\nstatus           " + report.status +
+          (report.note.empty() ? "" : ": ") + report.note + "\n";
+  text += line("iterations       %d\n", report.iterations) +
+          line("energies         smoothness %.4g, pins rms %.4g px\n", report.smoothness_energy,
+               report.pin_rms) +
+          line("timings          prepare %.1f ms", report.prepare_milliseconds);
+  if (report.pose_milliseconds) text += line(", pose %.2f ms", *report.pose_milliseconds);
+  text +=
+      line("\nmax k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n", map.max_k,
+           map.min_sigma, map.max_sigma) +
+      line("zeros of f'      %zu\nturning number   %.3f\nsimple boundary  %s\n", map.zeros.size(),
+           map.turning_number, map.simple_boundary ? "yes" : "no") +
+      line("flipped          %d of %d triangles\n", map.flipped_triangles, report.mesh_triangles) +
+      line("folds            %s\ncertified        %s\n",
+           map.locally_injective() ? "none found"
+           : report.folds_visibly  ? "yes"
+                                   : "specks only",
+           report.status == "certified" ? "yes" : "no") +
+      line("cage, pins       %d vertices, %d pins\n", report.cage_vertices, report.pins) +
+      line("mesh             %d vertices, %d triangles\n", report.mesh_vertices,
+           report.mesh_triangles);
+  return report.frame ? text + "\n" : text;
 }
 
 }  // namespace holomorph

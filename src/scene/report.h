@@ -8,20 +8,22 @@ namespace holomorph {
 
 /// What `holomorph info` prints.
 struct SceneReport {
-  std::optional<int> frame;  ///< of the keyframes, and its time in seconds
-  double time = 0;
+  std::optional<int> frame;    ///< of the keyframes
+  std::optional<double> time;  ///< in seconds
   std::string method, status, note;
   int iterations = 0;
   int cage_vertices = 0, pins = 0, mesh_vertices = 0, mesh_triangles = 0;
-  double prepare_milliseconds = 0, pose_milliseconds = 0;
-  double smoothness_energy = 0;  ///< mean |f_zz|^2 L^2 over triangles, dimensionless
-  double pin_rms = 0;            ///< root mean square distance of pins from their targets, pixels
+  double prepare_milliseconds = 0;
+  std::optional<double> pose_milliseconds;  ///< with derivatives; none between keyframes
+  double smoothness_energy = 0;             ///< mean |f_zz|^2 L^2 over triangles, dimensionless
+  double pin_rms = 0;  ///< root mean square distance of pins from their targets, pixels
   MapReport map;
   bool folds_visibly = false;  ///< as the editor tells it: but for specks
 };
 
-/// Measures a frame of a scene's map.
-SceneReport report_of(const TimedMap& timed, const TimedMap::Frame& frame);
+/// Measures a frame of a scene's map: at the mesh's vertices, or between keyframes in its
+/// triangles.
+SceneReport report_of(TimedMap& timed, const TimedMap::Frame& frame);
 
 /// The same as readable lines, or as JSON with the keys of the specification: an object, or a list
 /// of them for frames.

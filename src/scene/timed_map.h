@@ -1,37 +1,57 @@
 // A scene's map in full precision, as it stands or at a time of its keyframes.
 #pragma once
 
+#include "core/distortion.h"
+#include "core/inverse.h"
 #include "scene/live_map.h"
 
 namespace holomorph {
 
+/// The map of a scene's edited layer at many moments, which share what is prepared.
 class TimedMap {
  public:
-  /// For the scene's edited layer. Throws Error as preparing the map does.
+  /// Throws Error as preparing the map does.
   explicit TimedMap(const Scene& scene);
 
+  /// The map at a moment. Where a pose is shown, the scene's or a keyframe's, it is the method's.
+  /// On the way between keyframes it is linear in each triangle, and nothing is proved.
   struct Frame {
-    SampledMap map;  ///< at the mesh's vertices, with derivatives
-    Scene scene;     ///< with its handles there
-    /// The pose of the scene or of the keyframe; none between keyframes. There the map is linear in
-    /// each triangle, derivatives are those of the triangles, and nothing is proved.
-    std::optional<Pose> pose;
+    Scene scene;               ///< with its handles there
+    std::optional<Pose> pose;  ///< none on the way between keyframes
+    VectorXc between;          ///< then the mesh's vertices
   };
   /// Without a time, or for a layer without keyframes, the scene as it stands. Throws Error when
-  /// its keyframes have no maps. Cost: all keyframes' maps for the first time, then a sparse solve.
+  /// none of the keyframes plays or one of them has no map. Cost: all keyframes' maps for the first
+  /// time, then a sparse solve.
   Frame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }
   const PreparedMap& prepared() const { return *prepared_; }
-  /// The frame's map at any points: NaN where the method's own is, and nothing outside the cage.
-  SampledMap at(const Frame& frame, const Points& points) const;
-  /// The same at single points; null when the method knows its map at samples only.
-  std::unique_ptr<PointMap> point_map(const Frame& frame) const;
+
+  /// At the mesh's vertices, with derivatives.
+  SampledMap on_mesh(const Frame& frame) const;
+  /// At any points, with derivatives: NaN where the method's own is, and nothing outside the cage.
+  /// What is precomputed for points is kept for the next frame with the same ones.
+  SampledMap at(const Frame& frame, const Points& points);
+
+  /// The inverse of a frame's map, with the map.
+  struct Inverse {
+    std::unique_ptr<PointMap> map;
+    InverseMap inverse;
+
+    Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
+        : map(std::move(of)),
+          inverse(rest, mesh, {f.data(), static_cast<size_t>(f.size())}, *map) {}
+  };
+  /// Null when the method knows its map at samples only. The TimedMap must outlive it.
+  std::unique_ptr<Inverse> inverse(const Frame& frame) const;
 
  private:
   Scene scene_;
   std::shared_ptr<PreparedMap> prepared_;
   Motion motion_;
+  Points points_;
+  std::unique_ptr<Deformer> at_points_;
 };
 
 }  // namespace holomorph

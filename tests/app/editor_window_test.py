@@ -1,5 +1,6 @@
 # The real window once more: layers, files that others change, keys and exports, by real input events.
 import json
+import math
 import os
 import shutil
 import stat
@@ -230,12 +231,19 @@ class EditorWindowTest(WindowCase):
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             x, y = editor.pixel(290, 190)
-            for _ in range(5):
+            for drag in range(5):
+                wanted = (330, 220 - 5 * drag)
                 editor.xdotool("mousemove", x, y, "mousedown", 1, "mousemove", x + 20, y - 20,
-                               "mousemove", x + 40, y - 30, "mouseup", 1, pause=0.6)
-                editor.wait(lambda s: s["modified"], "a moved cage point")
+                               "mousemove", *editor.pixel(*wanted), "mouseup", 1, pause=0.6)
+                editor.wait(lambda s: s["step"] == 1, "a moved cage point")
+                editor.key("ctrl+s")
+                editor.wait(lambda s: not s["modified"], "the saved scene")
+                with open(scene) as file:
+                    pose = numpy.reshape(json.load(file)["cage"]["pose"], (4, 2)).tolist()
+                self.assertLess(math.dist(pose[2], wanted), 2, pose)
+                self.assertEqual(pose[:2] + pose[3:], [[10, 10], [290, 10], [10, 190]])
                 editor.key("ctrl+z")
-                editor.wait(lambda s: not s["modified"], "the point where it was")
+                editor.wait(lambda s: s["step"] == 0, "the point where it was")
 
     def test_before_and_after_lie_side_by_side(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])

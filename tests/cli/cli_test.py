@@ -6,10 +6,8 @@ import math
 import os
 import shutil
 import signal
-import stat
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import zipfile
@@ -18,41 +16,13 @@ import jsonschema
 import numpy
 from PIL import Image, ImageOps
 
-PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+from case import PROGRAM, SOURCE, Case, run
+
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
 SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
 
 
-def run(*words, **options):
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, **options)
-
-
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="holomorph-cli-")
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, content):
-        with open(self.path(name), "w") as file:
-            file.write(content if isinstance(content, str) else json.dumps(content))
-        return self.path(name)
-
-    def good(self, *words, **options):
-        result = run(*words, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
-
-    def bad(self, *words, says, status=2):
-        result = run(*words)
-        self.assertEqual(result.returncode, status, result.stderr + result.stdout)
-        self.assertIn(says, result.stderr)
-        return result
-
+class CommandLine(Case):
     # ---- numbers -----------------------------------------------------------------------------
 
     def golden_scene(self, name):
@@ -277,15 +247,6 @@ class CommandLine(unittest.TestCase):
             self.assertLess(abs(slope / abs(slope) - complex(math.cos(turn * x / 60), math.sin(turn * x / 60))), 1e-3)
         self.bad("info", self.write("bad.json", {**scene, "corners": scene["corners"][:2]}), says="three corners")
 
-    def keyed_scene(self):
-        Image.new("RGBA", (60, 40), (200, 40, 40, 255)).save(self.path("red.png"))
-        cage = [[10, 10], [50, 10], [50, 30], [10, 30]]
-        moved = [[[x + 20, y + 30]] for x, y in cage]
-        return {"format": "holomorph", "version": 1, "image": {"file": "red.png"},
-                "cage": {"rest": [[p] for p in cage]}, "method": {"id": "cage"},
-                "animation": {"frames_per_second": 4},
-                "keyframes": [{"time": 0, "ease": "linear", "pose": {}}, {"time": 1, "pose": {"cage": moved}}]}
-
     def test_keyframes_are_rendered_at_times_and_as_numbered_frames(self):
         scene = self.keyed_scene()
         jsonschema.validate(scene, SCHEMA)
@@ -373,18 +334,6 @@ class CommandLine(unittest.TestCase):
         self.assertIn("no such codec", result.stderr)
         self.assertEqual([n for n in os.listdir(self.folder) if "film" in n], [])  # nothing is left
 
-    def test_interrupted_films_leave_nothing(self):
-        sample = os.path.join(SOURCE, "assets/fern.json")
-        for kind in ("webp", "apng", "gif"):
-            process = subprocess.Popen([PROGRAM, "export", sample, "--format", kind, "--out", self.path("fern." + kind)],
-                                       stderr=subprocess.PIPE, text=True)
-            time.sleep(0.7)
-            process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(20), 130, kind)
-            self.assertIn("interrupted", process.stderr.read())
-            process.stderr.close()
-        self.assertEqual([n for n in os.listdir(self.folder) if "fern" in n], [])
-
     def test_numbers_know_the_times_of_keyframes(self):
         path = self.write("s.json", self.keyed_scene())
         points = self.write("points.csv", "20,20\n30,25\n")
@@ -406,63 +355,74 @@ class CommandLine(unittest.TestCase):
             for row, wanted in zip(back, ((20, 20), (30, 25))):
                 x, y = map(float, row.split(",")[:2])
                 self.assertAlmostEqual(math.hypot(x - wanted[0], y - wanted[1]), 0, places=6)
-        for kind in ("obj", "npy", "svg", "unwarp", "png"):
-            self.good("export", path, "--format", kind, "--time", 0.05, "--out", self.path("t." + kind.replace("unwarp", "png")),
-                      "--force")
-        self.bad("export", path, "--format", "obj", "--frames", "all", "--out", self.path("t.obj"), says="--frames")
-        self.bad("map", path, "--points", points, "--frames", "3..1", says="backwards")
+        # Exports at a time are the map there.
+        rest = self.write("rest.json", dict(self.keyed_scene(), keyframes=[]))
+        at_rest, posed = self.obj_of(rest), self.obj_of(path, "--time", 0.3)
+        points = self.write("mesh.csv", "".join("%.17g,%.17g\n" % tuple(z) for z in at_rest[0]))
+        mapped = numpy.loadtxt(io.StringIO(self.good("map", path, "--points", points, "--time", 0.3).stdout),
+                               delimiter=",", skiprows=1)[:, :2]
+        self.assertLess(numpy.nanmax(numpy.abs(mapped - posed[0])), 1e-5)
+        self.good("export", path, "--format", "npy", "--time", 0.3, "--out", self.path("t.npy"))
+        self.assertLess(numpy.abs(numpy.load(self.path("t.npy")).view(float).reshape(-1, 2) - posed[0]).max(), 1e-5)
+        self.good("export", path, "--format", "svg", "--time", 1, "--out", self.path("t.svg"))
+        self.assertIn("30", open(self.path("t.svg")).read())
+        for kind, name in (("unwarp", "u.png"), ("png", "p.png")):
+            self.good("export", path, "--format", kind, "--time", 0.05, "--out", self.path(name))
 
-    def test_pipes_links_and_standard_streams_are_written_into(self):
-        sample = os.path.join(SOURCE, "assets/fish.json")
-        pipe, got = self.path("f.png"), self.path("got.png")
-        os.mkfifo(pipe)
-        with open(got, "wb") as file:
-            reader = subprocess.Popen(["cat", pipe], stdout=file)
-            self.good("render", sample, "--out", pipe)
-            self.assertEqual(reader.wait(20), 0)
-        self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode), "the pipe is still one")
-        self.assertEqual(Image.open(got).size, (1100, 700))
-        for name, target in (("there.png", True), ("dangling.png", False)):
-            link, real = self.path("link-" + name), self.path(name)
-            if target:
-                shutil.copy(got, real)
-            os.symlink(real, link)
-            self.good("render", sample, "--out", link)
-            self.assertTrue(os.path.islink(link))
-            self.assertEqual(Image.open(real).size, (1100, 700))
-        with open("/dev/full", "wb") as full:
-            result = subprocess.run([PROGRAM, "info", sample], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("cannot be written", result.stderr)
-        picture = subprocess.run([PROGRAM, "render", sample, "--out", "-"], capture_output=True, check=True).stdout
-        self.assertEqual(picture[1:4], b"PNG")
-        scene = json.load(open(sample))
-        scene["image"]["file"] = os.path.join(SOURCE, "assets", scene["image"]["file"])
-        text = json.dumps(scene)
-        points = self.write("points.csv", "500,350\n")
-        wanted = self.good("map", sample, "--points", points).stdout
-        self.assertEqual(self.good("map", "-", "--points", points, "--out", "-", input=text).stdout, wanted)
-        self.assertEqual(self.good("map", sample, "--points", "-", input="500,350\n").stdout, wanted)
-        self.bad("map", "-", "--points", "-", says="not both")
+    def obj_of(self, scene, *words):
+        """Vertices in the plane and triangles of an exported mesh."""
+        out = self.path("mesh.obj")
+        self.good("export", scene, "--format", "obj", "--out", out, "--force", *words)
+        lines = [line.split() for line in open(out)]
+        vertices = numpy.array([[float(x) for x in line[1:3]] for line in lines if line[:1] == ["v"]])
+        return vertices, [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
 
-    def test_what_is_protected_or_there_is_replaced_only_with_force(self):
-        sample = os.path.join(SOURCE, "assets/fish.json")
-        kept = self.write("kept.png", "mine")
-        os.chmod(kept, 0o444)
-        self.bad("render", sample, "--out", kept, says="read-only", status=1)
-        self.assertEqual(open(kept).read(), "mine")
-        self.good("render", sample, "--out", kept, "--force")
-        scene = self.write("scene.json", "mine")
-        self.bad("new", os.path.join(SOURCE, "assets/fish.png"), "--out", scene, says="--force", status=1)
-        self.assertEqual(open(scene).read(), "mine")
+    def test_blended_frames_are_measured_in_their_triangles(self):
+        scene = self.keyed_scene()
+        bent = [[[15, 10]], [[70, 20]], [[40, 60]], [[0, 35]]]
+        scene["keyframes"][1]["pose"] = {"cage": bent}
+        path = self.write("s.json", scene)
+        vertices, triangles = self.obj_of(self.write("rest.json", dict(scene, keyframes=[])))
+        rest = vertices @ [1, 1j]
+        for time in (0.25, 0.5, 0.8):
+            posed = self.obj_of(path, "--time", time)[0] @ [1, 1j]
+            report = json.loads(self.good("info", path, "--time", time, "--json").stdout)
+            self.assertEqual((report["status"], report["time"], report["certified"]), ("blended", time, False))
+            self.assertNotIn("pose_ms", report["timings"])
+            most_k, least, most = 0, math.inf, 0
+            for a, b, c in triangles:
+                # f = fz z + fzbar conj(z) + const over the triangle.
+                side = numpy.array([[rest[b] - rest[a], (rest[b] - rest[a]).conjugate()],
+                                    [rest[c] - rest[a], (rest[c] - rest[a]).conjugate()]])
+                fz, fzbar = numpy.abs(numpy.linalg.solve(side, [posed[b] - posed[a], posed[c] - posed[a]]))
+                most_k, least, most = max(most_k, fzbar / fz), min(least, fz - fzbar), max(most, fz + fzbar)
+            for key, wanted in (("max_k", most_k), ("min_sigma", least), ("max_sigma", most)):
+                self.assertAlmostEqual(report[key], wanted, delta=1e-3 * max(wanted, 0.1), msg=key)
 
-    def test_wrong_words_are_named(self):
-        self.bad("rendr", "x", says="rendr: there is neither a command nor a file")
-        self.bad("bench", "--filter", "zzz", says="zzz")
-        one, other = (json.loads(self.good("info", os.path.join(SOURCE, "assets/fish.json"), "--json").stdout)
-                      for _ in range(2))
-        del one["timings"], other["timings"]
-        self.assertEqual(one, other, "but for timings, two runs say the same")
+    def test_held_frames_and_keys_off_the_grid_are_the_methods_own(self):
+        scene = self.keyed_scene()
+        scene["keyframes"] = [{"time": 0, "ease": "hold", "pose": {}},
+                              {"time": 0.35, "ease": "linear", "pose": {"cage": [[[15, 10]], [[70, 20]], [[40, 60]], [[0, 35]]]}},
+                              {"time": 1, "pose": {}}]
+        scene["method"] = {"id": "bounded"}
+        path = self.write("s.json", scene)
+        frames = json.loads(self.good("info", path, "--frames", "all", "--json").stdout)
+        self.assertEqual([f["status"] for f in frames], ["certified", "certified", "blended", "blended", "certified"])
+        self.assertLess(max(f["max_k"] for f in frames[:2]), 1e-6)
+        key = json.loads(self.good("info", path, "--time", 0.35, "--json").stdout)
+        self.assertEqual((key["status"], key["certified"]), ("certified", True))
+        self.assertGreater(key["max_sigma"], 1.05)
+        after = json.loads(self.good("info", path, "--time", 7, "--json").stdout)
+        self.assertEqual(after["status"], "certified")
+        for frame, report in zip(range(5), frames):
+            self.assertEqual(report["time"], frame / 4)
+
+    def test_keyframes_that_do_not_fit_are_an_error_and_not_a_still(self):
+        other = {**self.keyed_scene(), "keyframes": [{"time": 0, "pose": {"cage": [[[0, 0]], [[1, 0]], [[0, 1]]]}}]}
+        path, points = self.write("other.json", other), self.write("points.csv", "20,20\n")
+        for words in (("info", path), ("map", path, "--points", points), ("inverse", path, "--points", points),
+                      ("export", path, "--format", "npy", "--out", self.path("o.npy"))):
+            self.bad(*words, "--time", 0, says="none of the keyframes")
 
     def test_times_and_frames_that_are_none_are_named(self):
         scene = self.keyed_scene()

@@ -91,14 +91,19 @@ class Package(unittest.TestCase):
         self.assertGreater(len(commands), 7)
         complete = os.path.join(self.root, "usr/share/bash-completion/completions/holomorph")
         script = f"source {complete}; COMP_WORDS=(holomorph ''); COMP_CWORD=1; cd /; _holomorph; echo ${{COMPREPLY[@]}}; " \
-                 f"COMP_WORDS=(holomorph render --cr); COMP_CWORD=2; _holomorph; echo ${{COMPREPLY[@]}}"
+                 f"COMP_WORDS=(holomorph render --cr); COMP_CWORD=2; _holomorph; echo ${{COMPREPLY[@]}}; " \
+                 f"COMP_WORDS=(holomorph export s.json --format w); COMP_CWORD=4; _holomorph; echo ${{COMPREPLY[@]}}"
         path = os.path.dirname(self.program) + ":" + os.environ["PATH"]
-        words, options = subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True,
+        words, options, formats = subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True,
                                         env={**os.environ, "PATH": path}).stdout.splitlines()
         for command in commands:
             self.assertIn(command, words.split())
             self.assertIn(command, manual)
+            usage = subprocess.run([self.program, command, "--help"], check=True, capture_output=True, text=True).stdout
+            for flag in set(re.findall(r"^  (?:-\w,)?(--[a-z]+)", usage, re.M)):
+                self.assertRegex(manual, flag + r"\b", f"{command} {flag}")
         self.assertEqual(options, "--crop")
+        self.assertEqual(formats, "webp webm")
         entry = os.path.join(self.root, "usr/share/metainfo/holomorph.metainfo.xml")
         subprocess.run(["appstreamcli", "validate", "--no-net", entry], check=True, capture_output=True)
 

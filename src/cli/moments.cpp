@@ -1,0 +1,48 @@
+// Frame i is at i / frames_per_second.
+#include "cli/moments.h"
+
+#include <cstdio>
+
+#include "cli/streams.h"
+#include "core/error.h"
+#include "scene/keyframes.h"
+
+namespace holomorph {
+
+FrameRange frames_named(const std::string& text, const Scene& scene) {
+  const int last = last_frame_of(scene);
+  if (text == "all") return {0, last};
+  FrameRange range;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
+      end != static_cast<int>(text.size()))
+    throw Error(ErrorKind::bad_input,
+                "--frames: '" + text + "' is not a range of frames; write 0..47, or all");
+  if (range.last < range.first)
+    throw Error(ErrorKind::bad_input,
+                "--frames: " + text + " runs backwards; write the lower frame first");
+  if (range.first < 0 || range.last > last)
+    throw Error(ErrorKind::bad_input,
+                "--frames: the scene has frames 0.." + std::to_string(last) + " at " +
+                    csv_line("%g", scene.animation.frames_per_second) + " frames a second");
+  return range;
+}
+
+void require_keyframes(const Scene& scene, const Path& path) {
+  if (!has_keyframes(scene))
+    throw Error(ErrorKind::bad_input,
+                shown_name(path) + ": the scene has no keyframes, so there are no times in it");
+}
+
+std::vector<Moment> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {
+  if (!wanted.any()) return {{}};
+  require_keyframes(scene, path);
+  if (!wanted.frames) return {{{}, wanted.time}};
+  std::vector<Moment> moments;
+  const FrameRange range = frames_named(*wanted.frames, scene);
+  for (int i = range.first; i <= range.last; ++i)
+    moments.push_back({i, i / scene.animation.frames_per_second});
+  return moments;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,130 @@
+// map, inverse, coordinates and info: what a scene's map is in numbers.
+#include <cstdio>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
+#include "core/cauchy.h"
+#include "core/error.h"
+#include "scene/export.h"
+#include "scene/report.h"
+
+namespace holomorph {
+namespace {
+
+/// The start of a CSV row: the frame, if there are several.
+std::string frame_column(const Moment& moment) {
+  return moment.frame ? std::to_string(*moment.frame) + "," : "";
+}
+
+/// Says at how many points inside the cage, and where first, a map has no numbers.
+class Lost {
+ public:
+  void add(size_t point) {
+    if (count_++ == 0) first_ = point;
+  }
+  void say() const {
+    if (count_ > 0)
+      std::cerr << "holomorph: " << count_ << " rows inside the cage are nan: the map or its "
+                << "derivative is not finite there, first at point " << first_ << "\n";
+  }
+
+ private:
+  size_t count_ = 0, first_ = 0;
+};
+
+}  // namespace
+
+void run(const MapCommand& command) {
+  check_out(command.out, command.force, {command.scene, command.points});
+  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  Progress progress("map: frame");
+  std::vector<char> inside;
+  for (const Complex& z : points) inside.push_back(contains(scene.rest, z));
+  std::string out =
+      std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n";
+  TimedMap timed(scene);
+  Lost lost;
+  for (size_t k = 0; k < moments.size(); ++k) {
+    progress.step(k, moments.size());
+    SampledMap map = timed.at(timed.frame(moments[k].time), points);
+    for (Index i = 0; i < map.f.size(); ++i) {
+      if (!inside[static_cast<size_t>(i)])
+        map.f[i] = map.fz[i] = map.fzbar[i] = Complex(NAN, NAN);
+      else if (!is_finite(map.f[i]) || !is_finite(map.fz[i]) || !is_finite(map.fzbar[i]))
+        lost.add(static_cast<size_t>(i));
+      out += frame_column(moments[k]) +
+             csv_line("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(), map.f[i].imag(),
+                      map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(), map.fzbar[i].imag());
+    }
+  }
+  write_result(command.out, out);
+  lost.say();
+}
+
+void run(const InverseCommand& command) {
+  check_out(command.out, command.force, {command.scene, command.points});
+  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  Progress progress("inverse: point");
+  std::string out = std::string(moments[0].frame ? "frame," : "") +
+                    (command.all ? "point,x,y,residual,count\n" : "x,y,residual,count\n");
+  TimedMap timed(scene);
+  for (size_t k = 0; k < moments.size(); ++k) {
+    const auto inverse = timed.inverse(timed.frame(moments[k].time));
+    if (!inverse) throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse");
+    for (size_t i = 0; i < points.size(); ++i) {
+      progress.step(k * points.size() + i, moments.size() * points.size());
+      std::vector<Preimage> found = inverse->inverse.at(points[i]);
+      const size_t count = found.size();
+      if (found.empty()) found.push_back({Complex(NAN, NAN), NAN});
+      for (const Preimage& preimage : found) {
+        out += frame_column(moments[k]);
+        if (command.all) out += std::to_string(i) + ",";
+        out += csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
+                        preimage.residual, count);
+        if (!command.all) break;  // the one on top
+      }
+    }
+  }
+  write_result(command.out, out);
+}
+
+void run(const CoordinatesCommand& command) {
+  check_out(command.out, command.force, {command.scene, command.points});
+  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  if (command.order > 12)
+    throw Error(ErrorKind::bad_input, "--order: the order of a derivative is at most 12");
+  const Progress progress("coordinates");
+  // Columns are the pose's control points: the rest cage at the pose's degrees.
+  for (Index i = 0; i < scene.rest.size(); ++i)
+    if (scene.rest.degree(i) > scene.pose.degree(i))
+      throw Error(ErrorKind::bad_input, shown_name(command.scene) + ": /cage/rest/" +
+                                            std::to_string(i) +
+                                            ": the rest segment's degree is above the posed one's");
+  write_result(command.out, npy_of(cauchy_coordinates(elevated_to(scene.rest, scene.pose), points,
+                                                      command.order)));
+}
+
+void run(const InfoCommand& command) {
+  const Scene scene = read_scene(command.scene).scene;
+  require_cage(scene, command.scene);
+  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  std::vector<SceneReport> reports;
+  {
+    Progress progress("info: frame");
+    TimedMap timed(scene);
+    for (size_t k = 0; k < moments.size(); ++k) {
+      progress.step(k, moments.size());
+      reports.push_back(report_of(timed, timed.frame(moments[k].time)));
+      reports.back().frame = moments[k].frame;
+      reports.back().time = moments[k].time;
+    }
+  }
+  if (command.json) return write_standard_output(json_of(reports));
+  for (const SceneReport& report : reports) write_standard_output(text_of(report));
+}
+
+}  // namespace holomorph

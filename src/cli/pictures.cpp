@@ -1,0 +1,245 @@
+// render and export: what a scene becomes as pictures, films and other formats.
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
+#include "core/error.h"
+#include "film/film.h"
+#include "film/ordered_tasks.h"
+#include "raster/textured.h"
+#include "raster/unwarp.h"
+#include "scene/export.h"
+#include "scene/keyframes.h"
+#include "scene/svg_path.h"
+#include "scene/timed_map.h"
+
+namespace holomorph {
+namespace {
+
+/// "640 x 480 pixels, lower left corner at (0, 0)".
+std::string rectangle_text(int width, int height, Complex corner) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels, lower left corner at " +
+         point_text(corner);
+}
+
+void render_frames(const RenderCommand& command, const LoadedScene& loaded,
+                   PictureOptions options) {
+  const Scene& scene = loaded.scene;
+  const FrameRange range = frames_named(*command.moments.frames, scene);
+  for (int i = range.first; i <= range.last; ++i)
+    check_out(numbered(command.out, i), command.force, command.scene, loaded);
+  const TidyStop tidy;
+  std::string said;
+  {
+    Progress progress("render: frame");
+    const size_t count = static_cast<size_t>(range.last - range.first + 1);
+    PictureMaker maker(scene, loaded.image(), loaded.pictures);
+    if (!command.crop)
+      options.shows = maker.shown_at(frame_times(scene), [] { return !is_interrupted(); });
+    OrderedTasks<Path> files([](const Path&) {});
+    for (size_t k = 0; k < count; ++k) {
+      progress.step(k, count);
+      const int i = range.first + static_cast<int>(k);
+      options.time = i / scene.animation.frames_per_second;
+      RasterResult frame = maker.picture(options);
+      said = rectangle_text(frame.image.width, frame.image.height, frame.corner);
+      files.add([out = numbered(command.out, i), image = std::move(frame.image)] {
+        write_file(out, picture_format_of(out).encode(image));
+        return out;
+      });
+    }
+    files.finish();
+  }
+  std::fprintf(stderr, "%d frames of %s: %s to %s\n", range.last - range.first + 1, said.c_str(),
+               numbered(command.out, range.first).c_str(),
+               numbered(command.out, range.last).c_str());
+}
+
+bool is_film(const std::string& format) {
+  return format != "png" && std::ranges::any_of(film_formats(), [&](const FilmFormat& known) {
+           return known.extension == "." + format;
+         });
+}
+
+/// A folder for one file, which goes with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder()
+      : path_((std::filesystem::temp_directory_path() / "holomorph-XXXXXX").string()) {
+    if (!::mkdtemp(path_.data())) throw Error(ErrorKind::failed, "there is no temporary folder");
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  Path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void export_film(const LoadedScene& loaded, const ExportCommand& command) {
+  require_keyframes(loaded.scene, command.scene);
+  if (!is_standard(command.out) &&
+      lower_case(command.out.extension().string()) != "." + command.format)
+    throw Error(ErrorKind::bad_input,
+                command.out.string() + ": the name must end in ." + command.format);
+  FilmOptions options;
+  options.picture.scale = command.scale.value_or(1);
+  options.picture.crop = command.crop;
+  if (command.moments.frames) {
+    const FrameRange range = frames_named(*command.moments.frames, loaded.scene);
+    options.first = range.first;
+    options.last = range.last;
+  }
+  const TidyStop tidy;
+  std::optional<TemporaryFolder> folder;
+  Path out = command.out;
+  if (is_standard(out)) out = folder.emplace().path() / ("film." + command.format);
+  std::optional<FilmFrame> film;
+  {
+    Progress progress("export: frame");
+    film = write_film(
+        out, loaded.scene, loaded.image(), options,
+        [&](int done, int all) {
+          progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
+          return true;
+        },
+        loaded.pictures);
+  }
+  if (is_standard(command.out)) write_standard_output(read_file(out));
+  std::fprintf(stderr, "%s: %d frames of %s\n", command.out.c_str(), film->count,
+               rectangle_text(film->width, film->height, film->corner).c_str());
+}
+
+void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
+  require_cage(loaded.scene, command.scene);
+  const LaidSurface surface = laid_surface_of(loaded.scene);
+  for (const Path& file : files_of_textured(command.out))
+    check_out(file, command.force, command.scene, loaded);
+  const Progress progress("export");
+  const TexturedSurface on =
+      textured(surface, loaded.scene, loaded.image(), command.scale.value_or(1));
+  const TidyStop tidy;
+  write_textured(command.out, surface, on);
+  std::fprintf(stderr, "%s, with material and a picture of %d x %d pixels\n", command.out.c_str(),
+               on.texture.width, on.texture.height);
+}
+
+std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
+  const std::string& format = command.format;
+  require_cage(loaded.scene, command.scene);
+  Progress progress(format == "stmap" ? "export: row" : "export");
+  const std::optional<double>& time = command.moments.time;
+  const double scale = command.scale.value_or(1);
+  if (format == "unwarp") return encode_png(unwarped(loaded.scene, loaded.image(), scale, time));
+  if (format == "stmap") {
+    const Image none, &picture = loaded.image() ? *loaded.image() : none;
+    const StMap map =
+        st_map_of(loaded.scene, picture.width, picture.height, scale, time, [&](int done, int all) {
+          progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
+        });
+    return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
+  }
+  if (format == "svg" && !time) return svg_of(loaded.scene);
+  TimedMap timed(loaded.scene);
+  const TimedMap::Frame frame = timed.frame(time);
+  if (format == "svg") return svg_of(frame.scene);
+  const VectorXc f = timed.on_mesh(frame).f;
+  const std::span<const Complex> positions(f.data(), static_cast<size_t>(f.size()));
+  if (format == "npy") return npy_of(positions);
+  const auto& image = loaded.scene.image;
+  return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
+}
+
+/// What each format that is not a film takes besides a scene.
+struct Format {
+  std::string id;
+  bool scale = false, crop = false, time = false, frames = false;
+};
+const Format& format_named(const std::string& id) {
+  static const std::vector<Format> formats{{"obj", false, false, true},
+                                           {"svg", false, false, true},
+                                           {"npy", false, false, true},
+                                           {"png", true, true, true, true},
+                                           {"stmap", true, false, true},
+                                           {"unwarp", true, false, true},
+                                           {"textured", true}};
+  static const Format film{"film", true, true, false, true};
+  if (is_film(id)) return film;
+  const auto found = std::ranges::find(formats, id, &Format::id);
+  if (found != formats.end()) return *found;
+  throw Error(ErrorKind::bad_input, "format '" + id +
+                                        "' is not available in this version; choose one of: obj, "
+                                        "svg, npy, png, stmap, unwarp, textured, webp, gif, "
+                                        "apng, mp4, webm");
+}
+
+/// Throws Error for options that a format has no use for.
+void check_options(const ExportCommand& command) {
+  const Format& format = format_named(command.format);
+  const auto refuse = [&](const std::string& option, const std::string& why) {
+    throw Error(ErrorKind::bad_input, option + " is not for " + command.format + ": " + why);
+  };
+  if (command.scale && !format.scale) refuse("--scale", "it has no pixels");
+  if (command.crop && !format.crop) refuse("--crop", "only png and films have a rectangle to keep");
+  if (command.moments.frames && !format.frames)
+    refuse("--frames",
+           format.time ? "it holds one moment; use --time" : "it holds the scene as it stands");
+  if (command.moments.time && !format.time)
+    refuse("--time",
+           format.frames ? "it holds all frames; use --frames" : "it holds the scene as it stands");
+}
+
+}  // namespace
+
+void run(const RenderCommand& command) {
+  const LoadedScene loaded = read_scene(command.scene);
+  const Moments& moments = command.moments;
+  if (moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
+  const bool standard = is_standard(command.out);
+  if (standard && moments.frames)
+    throw Error(ErrorKind::bad_input, "frames are files of their own: --out must name them");
+  // Said immediately if there is no such format; standard output gets a PNG.
+  const PictureFormat& format = picture_format_of(standard ? Path("out.png") : command.out);
+  PictureOptions options;
+  options.view = view_named(command.view);
+  options.scale = command.scale;
+  options.crop = command.crop;
+  options.time = moments.time;
+  if (moments.frames) return render_frames(command, loaded, options);
+  RasterResult result;
+  std::string bytes;
+  {
+    const Progress progress("render");
+    result = picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
+    bytes = format.encode(result.image);
+  }
+  write_result(command.out, bytes);
+  std::fprintf(stderr, "%s: %s\n", command.out.c_str(),
+               rectangle_text(result.image.width, result.image.height, result.corner).c_str());
+}
+
+void run(const ExportCommand& command) {
+  check_options(command);
+  const std::string& format = command.format;
+  if (format == "png")
+    return run(RenderCommand{command.scene, command.out, command.scale.value_or(1), "image",
+                             command.crop, command.force, command.moments});
+  const LoadedScene loaded = read_scene(command.scene);
+  if (command.moments.time) require_keyframes(loaded.scene, command.scene);
+  check_out(command.out, command.force, command.scene, loaded);
+  if (format == "textured") return export_textured(loaded, command);
+  if (is_film(format)) return export_film(loaded, command);
+  const std::string bytes = exported(loaded, command);
+  write_result(command.out, bytes);
+  std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());
+}
+
+}  // namespace holomorph

@@ -1,0 +1,87 @@
+// A thread of its own shows the time, so that what has no steps shows it, too.
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+
+#include "core/clock.h"
+
+namespace holomorph {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+std::atomic<int> tidy_stops = 0;  // lock-free: read by the handler
+
+void stop(int) {
+  interrupted = 1;
+  if (tidy_stops > 0) return;
+  constexpr char kSaid[] = "\nholomorph: interrupted\n";
+  const ssize_t ignored = ::write(STDERR_FILENO, kSaid, sizeof kSaid - 1);
+  static_cast<void>(ignored);
+  ::_exit(130);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = stop;  // without SA_RESTART: what waits for a pipe is woken
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+TidyStop::TidyStop() {
+  ++tidy_stops;
+}
+TidyStop::~TidyStop() {
+  --tidy_stops;
+}
+
+bool is_interrupted() {
+  return interrupted != 0;
+}
+
+void stop_if_interrupted() {
+  if (interrupted) throw Interrupted{};
+}
+
+Progress::Progress(const std::string& what) : what_(what) {
+  if (::isatty(STDERR_FILENO)) shown_ = std::jthread([this](std::stop_token s) { show(s); });
+}
+
+Progress::~Progress() {
+  if (!shown_.joinable()) return;
+  shown_.request_stop();
+  shown_.join();
+}
+
+void Progress::step(size_t done, size_t all) {
+  stop_if_interrupted();
+  all_ = all;
+  done_ = done;
+}
+
+void Progress::show(const std::stop_token& stop) const {
+  using namespace std::chrono_literals;
+  const double start = now_ms();
+  std::mutex mutex;
+  std::condition_variable_any tick;
+  std::unique_lock lock(mutex);
+  bool any = false;
+  for (auto pause = 1000ms; !tick.wait_for(lock, stop, pause, [] { return false; });
+       pause = 200ms) {
+    if (stop.stop_requested()) break;
+    const size_t done = done_, all = all_;
+    any = true;
+    std::fprintf(stderr, "\r\033[K%s", what_.c_str());
+    if (all > 1) std::fprintf(stderr, " %zu of %zu", done, all);
+    std::fprintf(stderr, ", %.0f s", (now_ms() - start) / 1000);
+  }
+  if (any) std::fprintf(stderr, "\r\033[K");
+}
+
+}  // namespace holomorph

@@ -1,0 +1,88 @@
+// Standard input is read once, so that only one thing can come from there.
+#include "cli/streams.h"
+
+#include <iostream>
+
+#include "cli/progress.h"
+#include "core/error.h"
+#include "scene/export.h"
+#include "scene/scene_json.h"
+
+namespace holomorph {
+
+bool is_standard(const Path& path) {
+  return path == "-";
+}
+
+std::string shown_name(const Path& input) {
+  return is_standard(input) ? "standard input" : input.string();
+}
+
+std::string read_input(const Path& input) {
+  return is_standard(input) ? read_standard_input() : read_stream(input);
+}
+
+void say_warning(const LoadedScene& loaded) {
+  if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
+}
+
+LoadedScene read_scene(const Path& input) {
+  const bool regular = std::filesystem::is_regular_file(input);
+  if (regular && !is_scene_name(input) && !read_file(input).starts_with("{"))
+    throw Error(ErrorKind::bad_input, input.string() +
+                                          ": this is not a scene; make one from a picture with "
+                                          "'holomorph new PICTURE --out SCENE'");
+  const bool streamed = !regular && std::filesystem::exists(input);
+  LoadedScene loaded = is_standard(input) || streamed
+                           ? scene_of_text(read_input(input), shown_name(input))
+                           : load_scene(input);
+  say_warning(loaded);
+  return loaded;
+}
+
+void require_cage(const Scene& scene, const Path& input) {
+  if (!scene.has_cage())
+    throw Error(ErrorKind::bad_input, shown_name(input) +
+                                          ": /cage/rest: the scene has no cage yet; draw one in "
+                                          "the editor or make one with 'holomorph new'");
+}
+
+SceneAndPoints read_scene_and_points(const Path& scene, const Path& points) {
+  if (is_standard(points) && is_standard(scene))
+    throw Error(ErrorKind::bad_input,
+                "standard input is the scene or the points, not both: name a file for one of them");
+  SceneAndPoints read{read_scene(scene).scene, {}};
+  require_cage(read.scene, scene);
+  read.points = points_of_csv(read_input(points), shown_name(points));
+  return read;
+}
+
+void check_out(const Path& out, bool force, const std::vector<Path>& inputs) {
+  if (is_standard(out)) return;
+  std::error_code ignored;
+  for (const Path& input : inputs)
+    if (std::filesystem::is_regular_file(out, ignored) &&
+        std::filesystem::equivalent(out, input, ignored))
+      throw Error(ErrorKind::bad_input,
+                  out.string() + ": this is read by the same command; choose another name");
+  if (!force && is_read_only(out))
+    throw Error(ErrorKind::failed, out.string() + ": the file is read-only; --force replaces it");
+}
+
+void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded) {
+  if (is_standard(out)) return;
+  check_not_a_source(out, sources_of(loaded.scene, scene));
+  check_out(out, force, {});
+}
+
+void write_result(const Path& out, const std::string& bytes) {
+  if (is_standard(out)) return write_standard_output(bytes);
+  // A file is written beside the old one, which must not stay when the user stops the program.
+  std::error_code ignored;
+  std::optional<TidyStop> tidy;
+  if (!std::filesystem::exists(out, ignored) || std::filesystem::is_regular_file(out, ignored))
+    tidy.emplace();
+  write_file(out, bytes);
+}
+
+}  // namespace holomorph

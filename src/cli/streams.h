@@ -1,0 +1,51 @@
+// What commands read and write: files, pipes, and "-" for standard input and output.
+#pragma once
+
+#include <string_view>
+
+#include "scene/document.h"
+
+namespace holomorph {
+
+bool is_standard(const Path& path);
+/// How messages call an input: its path, or "standard input".
+std::string shown_name(const Path& input);
+
+/// The bytes of a file, a pipe or standard input. Throws Error.
+std::string read_input(const Path& input);
+/// A scene; its warning is printed. Throws Error.
+LoadedScene read_scene(const Path& input);
+/// Throws Error for a scene without a cage.
+void require_cage(const Scene& scene, const Path& input);
+
+/// A scene with a cage, and the points that a command is about.
+struct SceneAndPoints {
+  Scene scene;
+  Points points;
+};
+SceneAndPoints read_scene_and_points(const Path& scene, const Path& points);
+
+/// Throws Error where `out` is one of a command's own inputs or, unless forced, read-only.
+void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
+/// The same for a command that reads a scene, whose pictures and surfaces are inputs, too.
+void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded);
+
+/// Into a file, a pipe or standard output. Throws Error.
+void write_result(const Path& out, const std::string& bytes);
+
+void say_warning(const LoadedScene& loaded);
+
+/// printf of numbers, NaN without the sign that some have and no reader expects.
+template <class... Numbers>
+std::string csv_line(const char* format, Numbers... numbers) {
+  char line[200];
+  std::snprintf(line, sizeof line, format, numbers...);
+  std::string out;
+  for (std::string_view rest = line; !rest.empty(); rest.remove_prefix(1)) {
+    if (rest.starts_with("-nan")) rest.remove_prefix(1);
+    out += rest[0];
+  }
+  return out;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,295 @@
+# What commands read and write: pipes, devices, links, protected files, standard streams; how they end when
+# they are stopped, and what they say of wrong arguments.
+import json
+import os
+import pty
+import random
+import shutil
+import signal
+import stat
+import subprocess
+import threading
+import time
+import unittest
+import sys
+
+from PIL import Image
+
+from case import PROGRAM, SOURCE, Case, run
+
+SEED = int(os.environ.get("HOLOMORPH_SEED", random.SystemRandom().randrange(10**6)))
+FISH = os.path.join(SOURCE, "assets/fish.json")
+FERN = os.path.join(SOURCE, "assets/fern.json")
+FFMPEG = """#!/bin/sh
+for word in "$@"; do last=$word; done
+/usr/bin/cat > "${last#file:}"
+"""
+
+
+class Files(Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write("s.json", self.keyed_scene())
+        self.points = self.write("p.csv", "20,20\n30,25\n")
+        os.mkdir(self.path("bin"))
+        with open(self.path("bin/ffmpeg"), "w") as file:
+            file.write(FFMPEG)
+        os.chmod(self.path("bin/ffmpeg"), 0o755)
+        self.paths = {**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]}
+
+    def writers(self):
+        """Every command that writes one file: the name's extension and the words before --out."""
+        commands = [(".csv", ["map", self.scene, "--points", self.points]),
+                    (".csv", ["inverse", self.scene, "--points", self.points]),
+                    (".npy", ["coordinates", self.scene, "--points", self.points]),
+                    (".png", ["render", self.scene]),
+                    (".json", ["new", self.path("red.png")])]
+        for format in ("obj", "svg", "npy", "png", "stmap", "unwarp", "webp", "gif", "apng", "mp4", "webm"):
+            extension = {"stmap": "npy", "unwarp": "png"}.get(format, format)
+            commands.append(("." + extension, ["export", self.scene, "--format", format]))
+        return commands
+
+    def bytes_of(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def test_pipes_and_links_are_written_into_by_every_command(self):
+        for extension, words in self.writers():
+            with self.subTest(words=words):
+                plain, pipe, link, far, near, got = (self.path(n + extension) for n in
+                                                     ("plain", "pipe", "link", "far", "near", "got"))
+                self.good(*words, "--out", plain, env=self.paths)
+                wanted = self.bytes_of(plain)
+                self.assertTrue(wanted)
+                os.mkfifo(pipe)
+                with open(got, "wb") as file:
+                    reader = subprocess.Popen(["cat", pipe], stdout=file)
+                    self.good(*words, "--out", pipe, env=self.paths)
+                    self.assertEqual(reader.wait(20), 0)
+                self.assertTrue(stat.S_ISFIFO(os.lstat(pipe).st_mode), "the pipe is still one")
+                self.assertEqual(self.bytes_of(got), wanted)
+                # A link to a link to a file that is there, and to one that is not yet.
+                for there in (True, False):
+                    if there and words[0] != "new":
+                        self.write(os.path.basename(far), "before")
+                    os.symlink(os.path.basename(far), near)
+                    os.symlink(near, link)
+                    self.good(*words, "--out", link, env=self.paths)
+                    self.assertTrue(os.path.islink(link) and os.path.islink(near))
+                    self.assertEqual(self.bytes_of(far), wanted)
+                    for name in (link, near, far):
+                        os.remove(name)
+                # Links in a circle stay, and a full device is said.
+                os.symlink(link, near)
+                os.symlink(near, link)
+                self.bad(*words, "--out", link, says="symbolic links", status=1, env=self.paths)
+                self.assertTrue(os.path.islink(link))
+                os.remove(link)
+                os.symlink("/dev/full", link)
+                self.bad(*words, "--out", link, says="No space left", status=1, env=self.paths)
+                self.assertEqual(os.readlink(link), "/dev/full")
+                for name in (link, near, pipe, plain, got):
+                    os.remove(name)
+        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [], "nothing half done is left")
+
+    def test_frames_go_into_pipes(self):
+        pipe = self.path("walk-0002.png")
+        os.mkfifo(pipe)
+        with open(self.path("got.png"), "wb") as file:
+            reader = subprocess.Popen(["cat", pipe], stdout=file)
+            self.good("render", self.scene, "--frames", "2..2", "--out", self.path("walk.png"))
+            self.assertEqual(reader.wait(20), 0)
+        self.assertTrue(stat.S_ISFIFO(os.lstat(pipe).st_mode))
+        self.assertEqual(Image.open(self.path("got.png")).size, (70, 60))
+
+    def test_standard_output_gets_what_a_file_gets(self):
+        for extension, words in self.writers():
+            with self.subTest(words=words):
+                plain = self.path("plain" + extension)
+                self.good(*words, "--out", plain, env=self.paths)
+                done = subprocess.run([PROGRAM, *words, "--out", "-"], capture_output=True, env=self.paths, cwd=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.stdout, self.bytes_of(plain))
+                os.remove(plain)
+                with open("/dev/full", "wb") as full:
+                    done = subprocess.run([PROGRAM, *words, "--out", "-"], stdout=full, stderr=subprocess.PIPE,
+                                          env=self.paths, cwd=self.folder)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(b"No space left", done.stderr)
+        for words in (["info", self.scene], ["info", self.scene, "--json"], ["--help"], ["--version"],
+                      ["bench", "--filter", "prepare: mesh", "--json"]):
+            with open("/dev/full", "wb") as full:
+                done = subprocess.run([PROGRAM, *words], stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, 1, words)
+
+    def test_scenes_and_points_come_from_pipes_and_standard_input(self):
+        scene = self.keyed_scene()
+        scene["image"]["file"] = self.path("red.png")
+        text = json.dumps(scene)
+        wanted = self.good("map", self.scene, "--points", self.points).stdout
+        self.assertEqual(self.good("map", "-", "--points", self.points, "--out", "-", input=text).stdout, wanted)
+        self.assertEqual(self.good("map", self.scene, "--points", "-", input="20,20\n30,25\n").stdout, wanted)
+        self.bad("map", "-", "--points", "-", says="not both")
+        for words, name, content in ((("map", self.scene, "--points"), "points", "20,20\n30,25\n"),
+                                     (("map", "--points", self.points), "scene", text)):
+            os.mkfifo(self.path(name))
+            writer = threading.Thread(target=lambda: self.write(name, content))
+            writer.start()
+            self.assertEqual(self.good(*words, self.path(name)).stdout, wanted)
+            writer.join()
+        folder = os.open(self.folder, os.O_RDONLY)
+        self.bad("info", "-", says="standard input: cannot be read", stdin=folder)
+        os.close(folder)
+        self.bad("info", "-", says="standard input: /: the key 'cage'", input='{"format": "holomorph", "version": 1}')
+
+    def test_protected_and_existing_files_are_replaced_only_with_force(self):
+        for extension, words in self.writers():
+            with self.subTest(words=words):
+                kept = self.write("kept" + extension, "mine")
+                os.chmod(kept, 0o444)
+                self.bad(*words, "--out", kept, says="read-only" if words[0] != "new" else "--force", status=1,
+                         env=self.paths)
+                self.assertEqual(self.bytes_of("kept" + extension), b"mine")
+                self.good(*words, "--out", kept, "--force", env=self.paths)
+                self.assertNotEqual(self.bytes_of("kept" + extension), b"mine")
+                os.remove(kept)
+        there = self.write("there.json", "mine")
+        self.bad("new", self.path("red.png"), "--out", there, says="already exists", status=1)
+        self.assertEqual(self.bytes_of("there.json"), b"mine")
+        if os.geteuid() != 0:
+            return
+        # Somebody else's file in a folder where everybody may write.
+        os.chmod(self.folder, 0o777)
+        other = self.write("other.png", "mine")
+        os.chmod(other, 0o644)
+        program = self.path("program")  # where another user can run it
+        shutil.copy(PROGRAM, program)
+        done = subprocess.run([program, "render", self.scene, "--out", other], capture_output=True, text=True,
+                              user=65534, group=65534, extra_groups=[])
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("read-only", done.stderr)
+        self.assertEqual(self.bytes_of("other.png"), b"mine")
+
+    def test_no_command_replaces_what_it_reads(self):
+        for words in (["map", self.scene, "--points", self.points], ["inverse", self.scene, "--points", self.points],
+                      ["coordinates", self.scene, "--points", self.points]):
+            for name in (self.scene, self.points):
+                before = self.bytes_of(name)
+                self.bad(*words, "--out", name, "--force", says="read by the same command")
+                self.assertEqual(self.bytes_of(name), before)
+        self.bad("new", self.path("red.png"), "--out", self.path("red.png"), "--force", says="read by the same command")
+        self.assertEqual(Image.open(self.path("red.png")).size, (60, 40))
+
+    def test_a_full_disk_is_the_reason_that_is_given(self):
+        small = self.path("small")
+        os.mkdir(small)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "none", small], capture_output=True).returncode:
+            self.skipTest("a small disk needs the right to mount one")
+        try:
+            out = os.path.join(small, "o.png")
+            for words in (["render", FISH], ["export", FERN, "--format", "gif", "--scale", "0.2"]):
+                name = out if words[0] == "render" else out[:-3] + "gif"
+                self.bad(*words, "--out", name, says="No space left", status=1)
+                self.assertEqual(os.listdir(small), [])
+        finally:
+            subprocess.run(["umount", small], check=True)
+
+    def test_stopped_commands_end_with_130_and_leave_nothing(self):
+        print("seed", SEED)
+        draw = random.Random(SEED)
+        commands = [["info", FERN, "--frames", "all"], ["map", FERN, "--points", self.points, "--frames", "all"],
+                    ["render", FERN, "--scale", "4", "--out", self.path("o.png")],
+                    ["render", FERN, "--frames", "all", "--out", self.path("o.png")],
+                    ["export", FISH, "--format", "stmap", "--out", self.path("o.npy")], ["bench"],
+                    *(["export", FERN, "--format", kind, "--out", self.path("o." + kind)]
+                      for kind in ("webp", "gif", "apng", "mp4"))]
+        for words in commands:
+            for stop in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(words=words, stop=stop):
+                    process = subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                               text=True, env=self.paths)
+                    time.sleep(draw.uniform(0.1, 1))
+                    process.send_signal(stop)
+                    said = process.communicate(timeout=20)[1]
+                    self.assertEqual(process.returncode, 130, said)
+                    self.assertIn("interrupted", said)
+        left = os.listdir(self.folder)
+        self.assertEqual([n for n in left if n.startswith(".") or n.endswith(("webp", "gif", "apng", "mp4", "npy"))], [])
+        for name in (n for n in left if n.startswith("o-")):
+            Image.open(self.path(name)).load()  # frames that were done are whole
+        pipe = self.path("pipe")
+        os.mkfifo(pipe)
+        process = subprocess.Popen([PROGRAM, "map", self.scene, "--points", self.points, "--out", pipe],
+                                   stderr=subprocess.PIPE)
+        time.sleep(1)  # it waits for a reader
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130)
+
+    def test_rectangles_are_printed_and_the_same_for_parts(self):
+        whole = "70 x 60 pixels, lower left corner at (0, 0)"
+        for words in (["render", self.scene, "--frames", "all", "--out", self.path("a.png")],
+                      ["render", self.scene, "--frames", "1..2", "--out", self.path("a.png")],
+                      ["export", self.scene, "--format", "gif", "--out", self.path("a.gif")],
+                      ["export", self.scene, "--format", "gif", "--frames", "0..1", "--out", self.path("a.gif")]):
+            self.assertIn(whole, self.good(*words).stderr)
+            self.assertIn("60 x 40 pixels, lower left corner at (0, 0)", self.good(*words, "--crop").stderr)
+        self.good("export", self.scene, "--format", "gif", "--crop", "--out", self.path("a.gif"))
+        self.assertEqual(Image.open(self.path("a.gif")).size, (60, 40))
+        self.assertIn("60 x 40", self.good("export", self.scene, "--format", "png", "--time", 1, "--crop", "--out",
+                                           self.path("a.png")).stderr)
+
+    def test_progress_is_shown_on_terminals_and_only_after_a_second(self):
+        def said_on_a_terminal(*words):
+            here, there = pty.openpty()
+            process = subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=there)
+            os.close(there)
+            said = b""
+            try:
+                while block := os.read(here, 4096):
+                    said += block
+            except OSError:  # the other end has gone
+                pass
+            os.close(here)
+            self.assertEqual(process.wait(), 0, said)
+            return said.decode()
+
+        slow = said_on_a_terminal("export", FISH, "--format", "stmap", "--scale", "0.6", "--out", self.path("o.npy"))
+        self.assertRegex(slow, r"export: row \d+ of 420, \d+ s")
+        self.assertIn("\x1b[K", slow.split(" s")[-1], "the line is cleared at the end")
+        self.assertNotIn("\x1b", said_on_a_terminal("render", self.scene, "--frames", "0..2", "--out", self.path("o.png")))
+        self.assertNotIn("row", run("export", FISH, "--format", "stmap", "--scale", "0.6", "--out",
+                                    self.path("o.npy")).stderr)
+
+    def test_wrong_arguments_are_named(self):
+        out = self.path("o.png")
+        for words, says in ((["rendr", "x"], "rendr: there is neither a command nor a file"),
+                            (["render", self.scene, "--outt", out], "--outt"),
+                            (["render", self.scene, "--out", out, "--frames", ""], "--frames: ''"),
+                            (["render", self.scene, "--out", out, "--frames", "3..1"], "backwards"),
+                            (["render", self.scene, "--out", out, "--time", "-1"], "'-1' is not a time"),
+                            (["render", self.scene, "--out", out, "--scale", "abc"], "--scale = abc"),
+                            (["export", self.scene, "--out", out, "--format", "obj", "--crop"], "--crop is not for obj"),
+                            (["export", self.scene, "--out", out, "--format", "svg", "--scale", "2"], "--scale is not for svg"),
+                            (["export", self.scene, "--out", out, "--format", "gif", "--time", "1"], "use --frames"),
+                            (["export", self.scene, "--out", out, "--format", "obj", "--frames", "all"], "use --time"),
+                            (["export", self.scene, "--out", out, "--format", "doc", "--frames", "all"], "format 'doc'"),
+                            (["bench", "--filter", "zzz"], "zzz")):
+            with self.subTest(words=words):
+                self.bad(*words, says=says)
+        self.assertFalse(os.path.exists(out))
+        start = time.monotonic()
+        self.assertIn("--state", self.good(FISH, "--help").stdout)
+        self.assertLess(time.monotonic() - start, 5)  # without opening the scene
+
+    def test_two_runs_of_info_differ_in_their_timings_alone(self):
+        for name in ("fish", "octopus", "heart"):
+            sample = os.path.join(SOURCE, "assets", name + ".json")
+            one, other = (json.loads(self.good("info", sample, "--json").stdout) for _ in range(2))
+            self.assertGreater(one.pop("timings")["pose_ms"], 0)
+            del other["timings"]
+            self.assertEqual(one, other, name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2, warnings="ignore")
