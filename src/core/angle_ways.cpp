@@ -41,20 +41,25 @@ AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
 
 void AngleWays::add(int from, int to) {
   const size_t start = static_cast<size_t>(from), end = static_cast<size_t>(to);
-  const Complex a = nodes_[start], b = nodes_[end], middle = 0.5 * (a + b);
-  const size_t first = places_.size();
-  if (vertex_at_[start] < 0 && vertex_at_[end] < 0) {
-    plain(a, b, nodes_for(std::abs(b - a) / distance_to_corner(a, b)) + more_nodes_, 1);
-  } else if (vertex_at_[start] < 0) {
-    graded(a, vertex_at_[end], 1);
-  } else if (vertex_at_[end] < 0) {
-    graded(b, vertex_at_[start], -1);
-  } else {
-    graded(middle, vertex_at_[end], 1);
-    graded(middle, vertex_at_[start], -1);
-  }
-  if (on_boundary_[start] && on_boundary_[end]) pull_inside(first, b - a);
+  const End a{nodes_[start], vertex_at_[start]}, b{nodes_[end], vertex_at_[end]};
+  const bool may_leave = on_boundary_[start] && on_boundary_[end] && !is_straight(*cage_);
+  if (!may_leave || !(add_inside({a, b}) || add_detour(a, b))) add_leg(a, b);
   steps_.push_back({from, to, static_cast<Index>(places_.size())});
+}
+
+void AngleWays::add_leg(const End& a, const End& b) {
+  if (a.vertex < 0 && b.vertex < 0) {
+    const double ratio = std::abs(b.at - a.at) / distance_to_corner(a.at, b.at);
+    plain(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
+  } else if (a.vertex < 0) {
+    graded(a.at, b.vertex, 1);
+  } else if (b.vertex < 0) {
+    graded(b.at, a.vertex, -1);
+  } else {
+    const Complex middle = 0.5 * (a.at + b.at);
+    graded(middle, b.vertex, 1);
+    graded(middle, a.vertex, -1);
+  }
 }
 
 int AngleWays::vertex_near(Complex z) const {
@@ -104,16 +109,27 @@ void AngleWays::graded(Complex a, int vertex, double sign) {
   weights_.push_back(0);
 }
 
-// Chords of curves that bend inwards run outside, by a hundredth of their length or so.
-void AngleWays::pull_inside(size_t first, Complex way) {
-  if (is_straight(*cage_)) return;
-  for (size_t i = first; i < places_.size(); ++i) {
-    const Complex at = places_[i];
-    for (const double aside : {0.0, 0.002, -0.002, 0.01, -0.01, 0.05, -0.05}) {
-      places_[i] = at + aside * kI * way;
-      if (contains(*cage_, places_[i])) break;
-    }
-  }
+/// Along a chain of legs, unless one of their places is outside.
+bool AngleWays::add_inside(std::initializer_list<End> chain) {
+  const size_t places = places_.size(), tails = tails_.size();
+  for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
+  const auto is_inside = [&](Complex z) { return contains(*cage_, z); };
+  if (std::all_of(places_.begin() + static_cast<Index>(places), places_.end(), is_inside))
+    return true;
+  places_.resize(places);
+  weights_.resize(places);
+  tails_.resize(tails);
+  return false;
+}
+
+// Chords of curves that bend inwards run outside, where the function is another one. Inside, all
+// ways between two nodes give the same integral.
+bool AngleWays::add_detour(const End& a, const End& b) {
+  const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
+  for (const double aside : {0.05, 0.15, 0.4, 0.8})
+    for (const double sign : {1, -1})
+      if (add_inside({a, {middle + sign * aside * across}, b})) return true;
+  return false;
 }
 
 double AngleWays::distance_to_corner(Complex a, Complex b) const {

@@ -2,6 +2,8 @@
 // vertices of a cage.
 #pragma once
 
+#include <initializer_list>
+
 #include "core/deformer.h"
 
 namespace holomorph {
@@ -43,9 +45,17 @@ class AngleWays {
     int vertex;
   };
 
+  /// Where a leg starts or ends: the cage's vertex there, or -1.
+  struct End {
+    Complex at;
+    int vertex = -1;
+  };
+
+  void add_leg(const End& a, const End& b);
+  bool add_inside(std::initializer_list<End> chain);
+  bool add_detour(const End& a, const End& b);
   void plain(Complex a, Complex b, int count, double sign);
   void graded(Complex a, int vertex, double sign);
-  void pull_inside(size_t first, Complex way);
   double distance_to_corner(Complex a, Complex b) const;
 
   const Mesh* mesh_;

@@ -63,6 +63,9 @@ struct FlatCage {
 };
 FlatCage flattened(const Cage& cage);
 
+/// The cage's point nearest to z; `flat` is the flattened cage. Cost: that of nearest_on_polygon.
+BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
+
 /// The same loop run through backwards, from the same first vertex.
 Cage reversed(const Cage& cage);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/cauchy.h"
+#include "core/distortion.h"
 
 namespace holomorph {
 namespace {
@@ -41,6 +42,9 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
   columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
   rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
   cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  is_straight_ = is_straight(rest_);
+  outer_.assign(mesh.vertices.size(), 0);
+  for (const int v : mesh.boundary) outer_[static_cast<size_t>(v)] = 1;
   fill_cells();
   take_boundary();
 }
@@ -72,6 +76,17 @@ void InverseMap::fill_cells() {
   for (int t = 0; t < count; ++t)
     for_each_cell(box_of_triangle(t),
                   [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
+  constexpr double kSheared = 0.7;  // abs(f_zbar) / abs(f_z) of a triangle next to a fold
+  const VectorXc f = Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
+  for (int t = 0; t < count; ++t) {
+    const auto [fz, fzbar] = derivatives_in(mesh_, mesh_.triangles[t], f);
+    if (std::abs(fzbar) <= kSheared * std::abs(fz)) continue;
+    Box box = box_of_triangle(t);
+    const Complex around = 0.5 * Complex(box.width(), box.height());
+    box.include(Complex(box.left, box.bottom) - around);
+    box.include(Complex(box.right, box.top) + around);
+    for_each_cell(box, [](Cell& cell) { cell.may_fold = true; });
+  }
 }
 
 void InverseMap::take_boundary() {
@@ -140,8 +155,18 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
   return at.residual <= good;
 }
 
+/// Between a curve and a chord of the mesh there may be no map to start from.
+Complex InverseMap::pulled_inside(Complex start, int triangle) const {
+  if (is_straight_ || triangle < 0) return start;
+  const auto [a, b, c] = mesh_.triangles[triangle];
+  if (!outer_[a] && !outer_[b] && !outer_[c]) return start;
+  const Complex middle = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3.0;
+  for (int half = 0; half < 8 && !contains(rest_, start); ++half) start = 0.5 * (start + middle);
+  return start;
+}
+
 void InverseMap::add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const {
-  Preimage preimage{start, 0, triangle};
+  Preimage preimage{pulled_inside(start, triangle), 0, triangle};
   if (!improve(w, preimage)) return;
   for (const Preimage& other : found)
     if (std::abs(other.z - preimage.z) < kSame * size_) return;
@@ -154,9 +179,7 @@ bool InverseMap::is_inside(Complex z) const {
   if (near.distance > near_) return winding_number(outline, z) != 0;
   // On the boundary rounding decides: a little inwards counts.
   const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
-  const double left = signed_area(outline) > 0 ? 1 : -1;
-  return contains(rest_, z) ||
-         contains(rest_, z + left * 1e-10 * size_ * kI * side / std::abs(side));
+  return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
 }
 
 std::vector<Preimage> InverseMap::at(Complex w) const {
@@ -191,13 +214,17 @@ std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) 
           found);
     }
   };
-  const auto is_enough = [&] { return wanted ? oriented(found) == *wanted : !found.empty(); };
+  // Preimages of both orientations cancel in the count: there all starts are tried.
   const size_t cell = cell_of(w);
+  const bool may_fold = cells_[cell].may_fold;
+  const auto is_enough = [&] {
+    return !may_fold && (wanted ? oriented(found) == *wanted : !found.empty());
+  };
   try_cell(cell, 1e-9, kAll);
   if (is_enough()) return found;
   // Between the mesh's edge and the map's, or where triangles are too coarse: look around.
   const int column = static_cast<int>(cell) % columns_, row = static_cast<int>(cell) / columns_;
-  const int enough = wanted ? std::max(std::abs(*wanted), 1) : 1;
+  const int enough = may_fold ? kAll : wanted ? std::max(std::abs(*wanted), 1) : 1;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
     for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
       try_cell(static_cast<size_t>(r * columns_ + c), kSlack, enough);
@@ -229,40 +256,36 @@ std::optional<int> InverseMap::turns(const Region& region, Complex w) const {
 /// Triangle by triangle by the argument principle, those near w first.
 std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
   std::vector<Preimage> found;
-  std::vector<char> seen(mesh_.triangles.size(), 0);
-  std::vector<char> outer(mesh_.vertices.size(), 0);
-  for (const int v : mesh_.boundary) outer[v] = 1;
-  for (const double around : {1.0, 8.0, 1e300}) {
-    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto [a, b, c] = mesh_.triangles[t];
-      Box box;
-      for (const int v : {a, b, c}) box.include(positions_[v]);
-      const double slack =
-          around * box.diagonal() + (outer[a] || outer[b] || outer[c] ? reach_ : 0);
-      if (seen[t] || std::abs(w - box.center()) > slack) continue;
-      seen[t] = 1;
-      const Region region{side(a, b), side(b, c), side(c, a)};
-      const auto count = turns(region, w);
-      const size_t before = found.size();
-      if (count && *count != 0) take_region(region, *count, w, 0, found);
-      for (size_t i = before; i < found.size(); ++i) found[i].triangle = static_cast<int>(t);
-    }
-    if (oriented(found) == wanted) break;
+  std::vector<std::pair<double, int>> order;
+  for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh_.triangles[t];
+    Box box;
+    for (const int v : {a, b, c}) box.include(positions_[v]);
+    const double slack = box.diagonal() + (outer_[a] || outer_[b] || outer_[c] ? reach_ : 0);
+    order.emplace_back(std::abs(w - box.center()) / std::max(slack, 1e-300), static_cast<int>(t));
+  }
+  std::ranges::sort(order);
+  constexpr double kFarthest = 8;  // of a triangle's reach: its image is not as large
+  for (const auto& [distance, t] : order) {
+    if (distance > 1 && (distance > kFarthest || oriented(found) == wanted)) break;
+    const auto [a, b, c] = mesh_.triangles[t];
+    const Region region{side(a, b), side(b, c), side(c, a)};
+    const auto count = turns(region, w);
+    const size_t before = found.size();
+    if (count && *count != 0) take_region(region, *count, w, 0, found);
+    for (size_t i = before; i < found.size(); ++i) found[i].triangle = t;
   }
   std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
   return found;
 }
 
-/// The preimages in a region around which the image turns so often; false when they stay unknown.
-bool InverseMap::take_region(const Region& region, int count, Complex w, int depth,
-                             std::vector<Preimage>& found) const {
+/// What Newton's method finds in a region from a few starts.
+std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const {
   const Complex a = region[0].from, b = region[1].from, c = region[2].from;
+  const double area = cross(b - a, c - a), sign = area < 0 ? -1 : 1;
+  const bool curved = std::ranges::any_of(region, [](const Arc& arc) { return arc.segment >= 0; });
+  const double beyond = -(curved ? 0.2 : 1e-9) * std::abs(area);
   const auto is_in = [&](Complex z) {
-    const double area = cross(b - a, c - a), slack = 1e-9 * std::abs(area);
-    const bool curved =
-        std::ranges::any_of(region, [](const Arc& arc) { return arc.segment >= 0; });
-    const double beyond = (curved ? -0.2 * std::abs(area) : -slack);
-    const double sign = area < 0 ? -1 : 1;
     return sign * cross(b - a, z - a) >= beyond && sign * cross(c - b, z - b) >= beyond &&
            sign * cross(a - c, z - c) >= beyond && (!curved || is_inside(z));
   };
@@ -276,10 +299,18 @@ bool InverseMap::take_region(const Region& region, int count, Complex w, int dep
         }))
       here.push_back(preimage);
   }
+  return here;
+}
+
+/// The preimages in a region around which the image turns so often.
+void InverseMap::take_region(const Region& region, int count, Complex w, int depth,
+                             std::vector<Preimage>& found) const {
+  const std::vector<Preimage> here = inside(region, w);
   if (oriented(here) == count) {
     found.insert(found.end(), here.begin(), here.end());
-    return true;
+    return;
   }
+  const Complex a = region[0].from, b = region[1].from, c = region[2].from;
   const double size = std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
   constexpr int kDeepest = 40;
   // Cut in four; elsewhere where a cut would go through a preimage.
@@ -302,15 +333,15 @@ bool InverseMap::take_region(const Region& region, int count, Complex w, int dep
     }
     if (!known || sum != count) continue;
     for (size_t k = 0; k < 4; ++k)
-      if (counts[k] != 0 && !take_region(parts[k], counts[k], w, depth + 1, found)) return false;
-    return true;
+      if (counts[k] != 0) take_region(parts[k], counts[k], w, depth + 1, found);
+    return;
   }
-  // Sheets meet here, or are nearer to each other than can be told.
+  // Sheets meet here, or are nearer to each other than can be told. Where Newton's method finds
+  // nothing the map is not what its boundary says, and nothing is made up.
   Preimage branch{here.empty() ? (a + b + c) / 3.0 : here[0].z};
-  improve(w, branch);
+  if (!improve(w, branch) || !is_inside(branch.z)) return;
   branch.orientation = count < 0 ? -1 : 1;
   found.insert(found.end(), static_cast<size_t>(std::abs(count)), branch);
-  return true;
 }
 
 }  // namespace holomorph

@@ -45,6 +45,7 @@ class InverseMap {
   struct Cell {
     int first = 0, count = 0;
     bool on_boundary = false;  ///< whether the boundary's image may be between it and its chords
+    bool may_fold = false;     ///< whether triangles here are turned over, or nearly flat
   };
   /// Three arcs around a part of the domain.
   using Region = std::array<Arc, 3>;
@@ -57,11 +58,13 @@ class InverseMap {
   bool improve(Complex w, Preimage& start) const;
   bool is_inside(Complex z) const;
   void add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const;
+  Complex pulled_inside(Complex start, int triangle) const;
   std::vector<Preimage> quickly(Complex w, std::optional<int> wanted) const;
   std::vector<Preimage> thoroughly(Complex w, int wanted) const;
   Arc side(int from, int to) const;
   std::optional<int> turns(const Region& region, Complex w) const;
-  bool take_region(const Region& region, int count, Complex w, int depth,
+  std::vector<Preimage> inside(const Region& region, Complex w) const;
+  void take_region(const Region& region, int count, Complex w, int depth,
                    std::vector<Preimage>& found) const;
 
   Cage rest_;
@@ -76,6 +79,8 @@ class InverseMap {
   double near_ = 0;                          ///< how near to the boundary the exact test decides
   FlatCage flat_;
   double size_ = 1;
+  bool is_straight_ = true;  ///< the cage
+  std::vector<char> outer_;  ///< of each mesh vertex: whether it is on the boundary
   Box box_;
   int columns_ = 1, rows_ = 1;
   std::vector<Cell> cells_;

@@ -31,6 +31,10 @@ inline double cross(Complex a, Complex b) {
 inline bool is_finite(Complex z) {
   return std::isfinite(z.real()) && std::isfinite(z.imag());
 }
+/// Whether coordinates are so small that products of four of them do not overflow.
+inline bool is_moderate(Complex z) {
+  return std::abs(z.real()) <= 1e70 && std::abs(z.imag()) <= 1e70;
+}
 
 /// An axis-parallel box; empty until something is included.
 struct Box {

@@ -63,23 +63,35 @@ class AnglePoints final : public PointMap {
               VectorXc at_vertices)
       : mesh_(std::move(mesh)),
         map_(std::move(map)),
-        ways_(*mesh_, map_.coordinates().cage(), Precision::full),
+        ways_(*mesh_, cage(), Precision::full),
+        flat_(flattened(cage())),
         placed_(std::move(placed)),
         at_vertices_(std::move(at_vertices)) {}
 
   Value at(Complex z) const override {
+    if (contains(cage(), z)) return inside(z);
+    // Outside the coordinates are other functions; the map goes on as its tangent.
+    const Complex edge = position_of(cage(), nearest_on(cage(), flat_, z));
+    Value value = inside(edge);
+    value.f += value.fz * (z - edge);
+    return value;
+  }
+
+ private:
+  const Cage& cage() const { return map_.coordinates().cage(); }
+
+  Value inside(Complex z) const {
     AngleWays ways = ways_;
     const int from = ways.vertex_near(z), node = ways.add_node(z);
     const VectorXc slopes = slopes_at(ways.places());
     VectorXc nodes = VectorXc::Zero(ways.nodes());
     nodes[from] = at_vertices_[from];
     ways.integrate(slopes, map_.exponents(placed_.theta), nodes);
-    const Complex beside = beside_vertex(map_.coordinates().cage(), z);
+    const Complex beside = beside_vertex(cage(), z);
     return {placed_.scale * nodes[node] + placed_.move, placed_.scale * slopes_at({&beside, 1})[0],
             0};
   }
 
- private:
   VectorXc slopes_at(std::span<const Complex> points) const {
     const VectorXc theta = placed_.theta.cast<Complex>();
     return (kI * (map_.rows(points) * theta)).array().exp();
@@ -88,6 +100,7 @@ class AnglePoints final : public PointMap {
   std::shared_ptr<const Mesh> mesh_;
   AngleMap map_;
   AngleWays ways_;
+  FlatCage flat_;
   PlacedAngles placed_;
   VectorXc at_vertices_;
 };
@@ -133,9 +146,6 @@ class AnglesDeformer final : public Deformer {
     map_.map(placed.theta, f, wanted.draft);
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
-    if (lost > 0 && lost == count)
-      throw Error(ErrorKind::bad_input,
-                  "the angles bend the picture beyond all numbers; turn the corners less");
     if (lost > 0) say(out, std::to_string(lost) + " points are bent beyond all numbers");
     if (!wanted.derivatives || count == 0) return;
     if (slopes_.rows() != count) slopes_ = slopes();

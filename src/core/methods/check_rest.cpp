@@ -2,6 +2,7 @@
 #include "core/methods/check_rest.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/error.h"
 #include "core/polyline.h"
@@ -13,8 +14,18 @@ namespace {
   throw Error(ErrorKind::bad_input, what);
 }
 
-void check_finite(const Points& points, const char* what) {
-  if (!std::ranges::all_of(points, is_finite)) refuse(std::string(what) + " is not finite");
+/// "sample 7 is (nan, 0); it must be finite".
+void check_finite(const Points& points, const std::string& what) {
+  const auto wrong = std::ranges::find_if_not(points, is_moderate);
+  if (wrong != points.end())
+    refuse(what + " " + std::to_string(wrong - points.begin() + 1) + " is " + point_text(*wrong) +
+           "; coordinates must be finite and at most 1e70");
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 bool is_index(int i, size_t count) {
@@ -28,7 +39,7 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
   };
   if (mesh.triangles.empty() || mesh.boundary.size() < 3)
     refuse("the mesh has no triangles, or no boundary");
-  check_finite(mesh.vertices, "a vertex of the mesh");
+  check_finite(mesh.vertices, "mesh vertex");
   if (!std::ranges::all_of(mesh.triangles, known) || !known(mesh.boundary) ||
       !known(mesh.cage_vertices))
     refuse("the mesh names vertices that it does not have");
@@ -44,22 +55,24 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
   for (const Complex& corner : corners)
     if (std::ranges::none_of(mesh.cage_vertices, [&](int v) { return mesh.vertices[v] == corner; }))
       refuse("the mesh is not one of this cage: " + point_text(corner) +
-             " is not one of its vertices");
+             " is not one of its cage_vertices; make it with mesh_of or domain_mesh");
   if (mesh.cage_vertices.size() != corners.size())
-    refuse("the mesh is not one of this cage: it has another number of cage vertices");
+    refuse("the mesh is not one of this cage: it has " + std::to_string(mesh.cage_vertices.size()) +
+           " cage_vertices, and the cage " + std::to_string(corners.size()));
 }
 
 void check_parameter(const ParameterSpec& spec, const Parameters& values) {
   const auto found = values.find(spec.key);
   if (found == values.end()) return;
   const double value = found->second;
-  const std::string name = "parameter " + spec.key;
-  if (!std::isfinite(value)) refuse(name + " is not finite");
+  const std::string is = "parameter " + spec.key + " is " + number_text(value) + "; ";
   if (spec.kind == ParameterSpec::Kind::number && !(value >= spec.lowest && value <= spec.highest))
-    refuse(name + " is outside its range");
+    refuse(is + "it must be from " + number_text(spec.lowest) + " to " + number_text(spec.highest));
   if (spec.kind == ParameterSpec::Kind::choice &&
       !(value >= 0 && value < static_cast<double>(spec.options.size())))
-    refuse(name + " is not one of its options");
+    refuse(is + "it must be the number of one of its " + std::to_string(spec.options.size()) +
+           " options");
+  if (!std::isfinite(value)) refuse(is + "it must be 0 or 1");
 }
 
 void check_corners(const std::vector<Index>& corners, const Cage& cage) {
@@ -72,23 +85,29 @@ void check_corners(const std::vector<Index>& corners, const Cage& cage) {
 
 void check_rest(const Method& method, const Rest& rest) {
   check_rest_cage(rest.cage);
-  check_finite(rest.samples, "a sample");
-  check_finite(rest.derivative_samples, "a derivative sample");
+  check_finite(rest.samples, "sample");
+  check_finite(rest.derivative_samples, "derivative sample");
   if (!rest.derivative_samples.empty() && rest.derivative_samples.size() != rest.samples.size())
-    refuse("there must be as many derivative samples as samples, or none");
-  for (const RestPin& pin : rest.pins)
-    if (!is_finite(pin.position)) refuse("a pin is not finite");
+    refuse("there are " + std::to_string(rest.derivative_samples.size()) +
+           " derivative samples; there must be none, or as many as the " +
+           std::to_string(rest.samples.size()) + " samples");
+  Points pins;
+  for (const RestPin& pin : rest.pins) pins.push_back(pin.position);
+  check_finite(pins, "pin");
   for (const Points& stroke : rest.strokes) {
     if (stroke.empty()) refuse("a stroke has no points");
     check_stroke(stroke);
   }
-  check_finite(rest.outline, "a point of the outline");
+  check_finite(rest.outline, "outline point");
   check_corners(rest.corners, rest.cage);
   for (const Dab& dab : rest.stiffness)
     if (!is_finite(dab.at) || !std::isfinite(dab.level) || !(dab.radius > 0) ||
         !std::isfinite(dab.radius))
       refuse("a touch of the stiffness brush is not finite, or its radius not positive");
   for (const ParameterSpec& spec : method.parameters) check_parameter(spec, rest.parameters);
+  for (const Method& other : methods())
+    for (const ParameterSpec& spec : other.parameters)
+      check_parameter(spec, parameters_of(rest, other));
   if (method.needs_mesh && !rest.mesh)
     refuse("method " + method.id + " needs the domain's triangles: the rest has no mesh");
   if (rest.mesh) check_mesh(*rest.mesh, rest.cage);

@@ -56,9 +56,12 @@ void check_pose(const Rest& rest, const Pose& pose) {
                                           " segments and the rest cage " +
                                           std::to_string(rest.cage.size()) + "; they must agree");
   for (Index i = 0; i < pose.cage.size(); ++i)
-    if (pose.cage.degree(i) > rest.cage.degree(i))
-      throw Error(ErrorKind::bad_input, "posed segment " + std::to_string(i + 1) +
-                                            " has a higher degree than the rest was prepared for");
+    if (pose.cage.degree(i) < 1 || pose.cage.degree(i) > rest.cage.degree(i))
+      throw Error(ErrorKind::bad_input,
+                  "posed segment " + std::to_string(i + 1) +
+                      " must have from 1 to " + std::to_string(rest.cage.degree(i)) +
+                      " control points, as the rest was prepared for, and has " +
+                      std::to_string(pose.cage.degree(i)));
   if (pose.pins.size() != rest.pins.size())
     throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
   if (pose.strokes.size() != rest.strokes.size())

@@ -127,8 +127,10 @@ class OutlineDeformer final : public Deformer {
     slope_ = {};
   }
 
+  /// Rows sum to one up to rounding, which must not multiply the drawing's distance from the origin.
   static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
-    VectorXc f = product(c, match.phi);
+    const Complex center = match.phi.mean();
+    VectorXc f = product(c, VectorXc(match.phi.array() - center)).array() + center;
     if (match.psi.size() > 0) f += product(c, match.psi.conjugate()).conjugate();
     return f;
   }

@@ -234,8 +234,12 @@ class PinsDeformer final : public LinearDeformer<T> {
     cage_at_pins_.resize(m, this->rest_.cage.control_count());
     cage_at_pins_.topRows(p) = cauchy_coordinates(this->rest_.cage, places, 0);
     if (q > 0) {
-      rows.bottomRows(q) = length * cauchy_coordinates(basis, turning, 1);
-      cage_at_pins_.bottomRows(q) = length * cauchy_coordinates(this->rest_.cage, turning, 1);
+      // At a vertex, where a derivative is infinite in general, that of a point just inside.
+      const auto slopes = [&](const Cage& cage) {
+        return as_complex(planar_coordinates<double>(cage, turning, 1));
+      };
+      rows.bottomRows(q) = length * slopes(basis);
+      cage_at_pins_.bottomRows(q) = length * slopes(this->rest_.cage);
     }
     // Affine maps 1 and (z - center) / L; a single pin without an angle only translates.
     const Index affine = m >= 2 ? 2 : 1;
