@@ -18,7 +18,7 @@ constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
 constexpr double kInset = 7e-4;      ///< of the loop that zeros are counted in, in diagonals
 constexpr double kSoftInset = 5e-3;  ///< where angles may give way: corners are flattened roughly
-constexpr double kReached = 0.01;    ///< of the outline's diagonal: nearer counts as met
+constexpr double kAccepted = 0.8 * kOutlineMet;  ///< distances are measured at samples
 constexpr double kFinest = 0.01;     ///< smoothness: with more, corners are to be rounded
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
@@ -182,8 +182,8 @@ bool OutlineFit::is_met() const {
 
 OutlineFit::Misses OutlineFit::misses() const {
   const OutlineMatch match = after(iterations());
-  const double size = target_.diagonal() / std::abs(frame_.factor);
-  return {match.zeros, match.hausdorff / (kReached * size), match.pins_missed / (kReached * size)};
+  const double accepted = kAccepted * target_.diameter() / std::abs(frame_.factor);
+  return {match.zeros, match.hausdorff / accepted, match.pins_missed / accepted};
 }
 
 // A map that was iterated stays where it is the better one. Leaving the picture upright is a wish:

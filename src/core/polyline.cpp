@@ -96,6 +96,19 @@ double Polyline::diagonal() const {
   return std::hypot(box.right - box.left, box.top - box.bottom);
 }
 
+// The widest of the extents in many directions: off by the cosine of half the angle between two.
+double Polyline::diameter() const {
+  constexpr int kDirections = 50;
+  double widest = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const Complex way = std::polar(1.0, kPi * k / kDirections);
+    const auto [least, most] =
+        std::ranges::minmax(points_, {}, [&](Complex z) { return dot(way, z); });
+    widest = std::max(widest, dot(way, most - least));
+  }
+  return widest;
+}
+
 Points without_repeats(const Points& points) {
   Points kept;
   for (const Complex& z : points)

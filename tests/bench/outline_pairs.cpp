@@ -1,17 +1,25 @@
 // How far outlines of many kinds are met, measured apart from what the method says of itself.
 //
-// outline_pairs random SEED COUNT [upright]: random shapes onto random outlines
+// outline_pairs random SEED COUNT: random smooth shapes onto random outlines, some with limbs
+// outline_pairs stars SEED COUNT: random star-shaped polygons with 4 to 13 corners
 // outline_pairs hard FOLDER [NAME]: all combinations of hard shapes, animals out of the folder
+// outline_pairs check FOLDER: some of each of fresh seeds, for a test
+//
+// Ends with 1 when more than one in a hundred misses by 1 % of the diameter or folds. Pairs are
+// excepted where a hundredth of a boundary has harmonic measure below 1e-12 from the deepest point.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
 #include "../support/outlines.h"
+#include "../support/seeds.h"
 #include "core/cauchy_array.h"
 #include "core/outline_match.h"
 #include "core/outline_start.h"
@@ -33,7 +41,7 @@ Points counter_clockwise(Points points) {
   return points;
 }
 
-/// Values of f or f' along a polygon, more of them until neighbours are near by `far`.
+/// Values of f or f' along a polygon, more of them until neighbors are near by `far`.
 template <class Far>
 Points along(const OutlineMatch& match, Points places, int order, const Far& far) {
   const auto values = [&](const Points& at) {
@@ -102,7 +110,6 @@ double far_from(const Points& a, const Polyline& b) {
 struct Judged {
   double missed = 0;  ///< two-sided, in diameters
   int zeros = 0;
-  bool sure = true;  ///< whether the loop is simple
 };
 
 Judged judge(const OutlineMatch& match, const Points& source, const Points& target) {
@@ -116,14 +123,15 @@ Judged judge(const OutlineMatch& match, const Points& source, const Points& targ
   const Points image =
       along(match, places, 0, [&](Complex a, Complex b) { return std::abs(a - b) > 2e-3 * size; });
   for (const Complex z : image)
-    if (!is_finite(z) || std::abs(z - target[0]) > 10 * size) return {99, 0, true};
+    if (!is_finite(z) || std::abs(z - target[0]) > 10 * size) return {99, 0};
   const Polyline wanted(target, true), got(without_repeats(image), true);
   result.missed = std::max(far_from(outlines::with_steps(got, 5e-4 * size), wanted),
                            far_from(outlines::with_steps(wanted, 5e-4 * size), got)) /
                   size;
   const double own = diameter(source);
-  const Points loop = inset(source, 1e-3 * own);
-  result.sure = !self_crossing(loop);
+  double distance = 1e-3 * own;  // nearer to the boundary where that crosses itself
+  while (self_crossing(inset(source, distance))) distance /= 2;
+  const Points loop = inset(source, distance);
   const Points start = outlines::with_steps(Polyline(loop, true), 1e-3 * own);
   const Points slopes = along(match, start, 1, [](Complex a, Complex b) {
     return !(std::abs(std::arg(b / a)) < 0.5) || std::abs(b) > 4 * std::abs(a) ||
@@ -140,7 +148,7 @@ Judged judge(const OutlineMatch& match, const Points& source, const Points& targ
 double least_measure(const Points& polygon) {
   const Polyline line(polygon, true);
   constexpr int kCount = 3000, kWindow = kCount / 100;
-  const Complex middle = middle_point(line);
+  const Complex middle = deepest_point(line);
   const Polyline::Nearest near = line.nearest(middle);
   const double start = line.length_at(near.segment, near.parameter);
   Points points;
@@ -155,75 +163,78 @@ double least_measure(const Points& polygon) {
   return least;
 }
 
+constexpr double kExcepted = 1e-12;
+
 struct Row {
-  double missed, ms;
-  int zeros;
+  bool excepted = false, met = false, whole = false;
+  double ms = 0;
+
+  bool good() const { return met && whole; }
 };
 
-Row report(const std::string& name, const Points& source, const Points& target,
-           const OutlineSettings& settings, double measure) {
+Row report(const std::string& name, const Points& source, const Points& target, double measure) {
   using Clock = std::chrono::steady_clock;
+  Row row;
+  row.excepted = measure < kExcepted;
   OutlineMatch match;
-  double best = 1e300;
-  const int repeats = std::getenv("REPEATS") ? std::atoi(std::getenv("REPEATS")) : 1;
-  for (int k = 0; k < repeats; ++k) {
+  try {
     const auto start = Clock::now();
-    try {
-      match = matched({polygon_cage(source), target, {}, {}}, settings);
-    } catch (const Error& error) {
-      std::printf("%-28s ERROR %s\n", name.c_str(), error.what());
-      return {1, 0, 0};
-    }
-    best = std::min(best, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    match = matched({polygon_cage(source), target, {}, {}}, {});
+    row.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  } catch (const Error& error) {
+    std::printf("%-28s ERROR %s\n", name.c_str(), error.what());
+    return row;
   }
   const Judged judged = judge(match, counter_clockwise(source), counter_clockwise(target));
-  const bool good = judged.missed < 0.01 && judged.zeros == 0;
-  std::printf("%-28s %-4s %7.3f %% zeros %3d%s vertices %4d steps %2d %6.0f ms", name.c_str(),
-              good ? "ok" : "MISS", 100 * judged.missed, judged.zeros, judged.sure ? " " : "?",
-              static_cast<int>(match.basis.size()), match.iterations, best);
-  std::printf("  own: %.3f %% zeros %d", 100 * match.hausdorff / Polyline(target, true).diagonal(),
-              match.zeros);
-  if (measure < 1) std::printf("  measure %.1e", measure);
-  std::printf("\n");
+  row.met = judged.missed < 0.01;
+  row.whole = judged.zeros == 0;
+  std::printf("%-28s %-8s %7.3f %% zeros %3d vertices %4d steps %2d %6.0f ms", name.c_str(),
+              row.excepted ? "excepted"
+              : row.good() ? "ok"
+                           : "MISS",
+              100 * judged.missed, judged.zeros, static_cast<int>(match.basis.size()),
+              match.iterations, row.ms);
+  std::printf("  own: %.3f %% zeros %d  measure %.1e\n",
+              100 * match.hausdorff / Polyline(target, true).diameter(), match.zeros, measure);
   std::fflush(stdout);
-  return {judged.missed, best, judged.zeros};
+  return row;
 }
 
-void summary(std::vector<Row> rows) {
-  const auto good =
-      std::ranges::count_if(rows, [](const Row& r) { return r.missed < 0.01 && r.zeros == 0; });
-  const auto near = std::ranges::count_if(rows, [](const Row& r) { return r.missed < 0.01; });
-  const auto whole = std::ranges::count_if(rows, [](const Row& r) { return r.zeros == 0; });
+/// Prints the sum; whether 99 of 100 are good.
+bool summary(const char* what, std::vector<Row> rows) {
+  std::erase_if(rows, [](const Row& row) { return row.excepted; });
+  if (rows.empty()) return true;
+  const auto count = [&](auto is) { return static_cast<int>(std::ranges::count_if(rows, is)); };
+  const int all = static_cast<int>(rows.size()), good = count(&Row::good);
   std::ranges::sort(rows, {}, &Row::ms);
-  std::printf("%d pairs: %d good, %d within 1 %%, %d without zeros; median %.0f ms, longest %.0f\n",
-              static_cast<int>(rows.size()), static_cast<int>(good), static_cast<int>(near),
-              static_cast<int>(whole), rows[rows.size() / 2].ms, rows.back().ms);
+  std::printf("%s: %d pairs, %d good, %d within 1 %%, %d without zeros; median %.0f ms, longest %.0f\n",
+              what, all, good, count(&Row::met), count(&Row::whole), rows[rows.size() / 2].ms,
+              rows.back().ms);
+  return all - good <= std::max(1, all / 100);
 }
 
 /// The cage of a scene file.
 Points cage_in(const std::string& path) {
   std::ifstream file(path);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
-  const size_t from = text.find("\"rest\""), to = text.find("],\n    \"pose\"", from);
   Points points;
-  const char* at = text.c_str() + text.find('[', from);
-  const char* end = text.c_str() + (to == std::string::npos ? text.size() : to);
-  int depth = 0;
-  while (at < end) {
-    if (*at == '[') {
-      ++depth;
-      char* after;
-      const double x = std::strtod(at + 1, &after);
-      if (after != at + 1 && *after == ',') {
-        const double y = std::strtod(after + 1, &after);
-        if (depth >= 3) points.emplace_back(x, y);
-        at = after;
-        continue;
-      }
-    }
-    if (*at == ']' && --depth == 0) break;
-    ++at;
+  const nlohmann::json scene = nlohmann::json::parse(file);
+  for (const auto& segment : scene["cage"]["rest"]) {
+    const auto& at = segment[0].is_array() ? segment[0] : segment;
+    points.emplace_back(at[0].get<double>(), at[1].get<double>());
   }
+  return points;
+}
+
+/// A star-shaped polygon of uneven corners.
+Points star(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+  };
+  const int corners = 4 + static_cast<int>(random() % 10);
+  Points points;
+  for (int i = 0; i < corners; ++i)
+    points.push_back(std::polar(number(35, 100), 2 * kPi * (i + number(-0.3, 0.3)) / corners));
   return points;
 }
 
@@ -291,34 +302,68 @@ std::vector<std::pair<std::string, Points>> hard_shapes(const std::string& folde
   return shapes;
 }
 
+std::vector<Row> random_pairs(unsigned first, unsigned count) {
+  std::vector<Row> rows;
+  for (unsigned seed = first; seed < first + count; ++seed)
+    rows.push_back(report("random " + std::to_string(seed), outlines::random(seed, seed % 2, 50),
+                          outlines::random(seed + 100000, seed % 3 == 0, 400), 1));
+  return rows;
+}
+
+std::vector<Row> star_pairs(unsigned first, unsigned count) {
+  std::vector<Row> rows;
+  for (unsigned seed = first; seed < first + count; ++seed)
+    rows.push_back(
+        report("stars " + std::to_string(seed), star(2 * seed), star(2 * seed + 1), 1));
+  return rows;
+}
+
+using Wants = std::function<bool(const std::string& from, const std::string& to)>;
+
+std::vector<Row> hard_pairs(const std::string& folder, const Wants& wants) {
+  const auto shapes = hard_shapes(folder);
+  std::map<std::string, double> measures;
+  for (const auto& [name, points] : shapes) {
+    measures[name] = least_measure(counter_clockwise(points));
+    std::printf("%s: %d vertices, measure %.1e\n", name.c_str(), static_cast<int>(points.size()),
+                measures[name]);
+  }
+  std::vector<Row> rows;
+  for (const auto& [from, source] : shapes)
+    for (const auto& [to, target] : shapes)
+      if (from != to && wants(from, to))
+        rows.push_back(report(from + " to " + to, source, target,
+                              std::min(measures[from], measures[to])));
+  return rows;
+}
+
+bool check_fresh(const std::string& folder) {
+  const unsigned seed = holomorph::seeds_of("outline_pairs", {}).back();
+  const bool smooth = summary("random", random_pairs(seed % 1000000, 30));
+  const bool cornered = summary("stars", star_pairs(seed % 1000000, 30));
+  std::mt19937 random(seed);
+  constexpr unsigned kOneIn = 12;
+  const bool hard = summary("hard", hard_pairs(folder, [&](const auto& from, const auto& to) {
+                              const bool wanted = random() % kOneIn == 0;
+                              return wanted && from != "spiral" && from != "snake" &&
+                                     to != "spiral" && to != "snake";  // excepted, and slow
+                            }));
+  return smooth && cornered && hard;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  const std::string mode = count > 1 ? words[1] : "";
-  OutlineSettings settings;
-  if (std::getenv("UPRIGHT")) settings.upright = std::atof(std::getenv("UPRIGHT"));
-  std::vector<Row> rows;
-  if (mode == "random" && count > 3) {
-    const unsigned first = static_cast<unsigned>(std::atoi(words[2]));
-    for (unsigned seed = first; seed < first + static_cast<unsigned>(std::atoi(words[3])); ++seed) {
-      const Points source = outlines::random(seed, seed % 2, 50),
-                   target = outlines::random(seed + 100000, seed % 3 == 0, 400);
-      rows.push_back(report(std::to_string(seed), source, target, settings, 1));
-    }
-  } else if (mode == "hard" && count > 2) {
-    const auto shapes = hard_shapes(words[2]);
-    std::map<std::string, double> measures;
-    for (const auto& [name, points] : shapes) {
-      measures[name] = least_measure(counter_clockwise(points));
-      std::printf("%s: %zu vertices, measure %.1e%s\n", name.c_str(), points.size(), measures[name],
-                  self_crossing(points) ? " CROSSES ITSELF" : "");
-    }
-    for (const auto& [from, source] : shapes)
-      for (const auto& [to, target] : shapes) {
-        if (from == to || (count > 3 && from != words[3] && from + "-" + to != words[3])) continue;
-        rows.push_back(report(from + " to " + to, source, target, settings,
-                              std::min(measures[from], measures[to])));
-      }
-  }
-  if (!rows.empty()) summary(rows);
+  const std::string mode = count > 2 ? words[1] : "";
+  const auto number = [&](int i) { return static_cast<unsigned>(std::strtoul(words[i], nullptr, 10)); };
+  if (mode == "random" && count > 3)
+    return !summary("random", random_pairs(number(2), number(3)));
+  if (mode == "stars" && count > 3) return !summary("stars", star_pairs(number(2), number(3)));
+  if (mode == "hard")
+    return !summary("hard", hard_pairs(words[2], [&](const auto& from, const auto& to) {
+      return count < 4 || from == words[3] || from + "-" + to == words[3];
+    }));
+  if (mode == "check") return !check_fresh(words[2]);
+  std::puts("outline_pairs random SEED COUNT | stars SEED COUNT | hard FOLDER [NAME] | check FOLDER");
+  return 2;
 }

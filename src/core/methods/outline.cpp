@@ -136,8 +136,7 @@ class OutlineDeformer final : public Deformer {
   }
 
   std::string note(const OutlineMatch& match) const {
-    constexpr double kReached = 0.01;
-    const double size = Polyline(rest_.outline, true).diagonal();
+    const double size = Polyline(rest_.outline, true).diameter();
     const auto percent = [&](double length) {
       char text[32];
       std::snprintf(text, sizeof text, "%.2g %%", 100 * length / size);
@@ -149,8 +148,8 @@ class OutlineDeformer final : public Deformer {
       note +=
           ", in " + std::to_string(match.iterations) + (match.iterations == 1 ? " step" : " steps");
     if (match.zeros > 0) note += "; the picture folds: f' has zeros";
-    const bool reached = match.hausdorff <= kReached * size,
-               met = match.pins_missed <= kReached * size;
+    const bool reached = match.hausdorff <= kOutlineMet * size,
+               met = match.pins_missed <= kOutlineMet * size;
     if (match.pins_held > 0)
       note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
                                    : "; pins are wanted outside of it and held inside";
