@@ -3,9 +3,11 @@
 #include <random>
 
 #include "core/boundary_angles.h"
+#include "core/cauchy.h"
 #include "core/deformer.h"
 #include "core/error.h"
 #include "core/mesher.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -271,6 +273,63 @@ TEST_CASE("Angles: what cannot be is refused") {
   Rest at_corner = with_corners(rest, {0, 1, 2, 3});
   at_corner.pins = {{{600, 100}, true}};
   CHECK(run(at_corner, {rest.cage, {{{620, 90}, 0.3, 1}}, {}, {{}, {}, {}, {}}}).f.allFinite());
+}
+
+TEST_CASE("Angles: the map does not jump, along curves that bend inwards, too") {
+  for (const unsigned seed : seeds_of("angles in curves", {505, 1, 7})) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> by(0, 15);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Rest rest;
+    rest.cage = shapes::curved_star(8, 3, 0.25, seed);
+    rest.precision = Precision::full;
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {1500}));
+    Pose pose{rest.cage, {}};
+    for (Points& segment : pose.cage.segments)
+      for (Complex& z : segment) z += Complex(by(random), by(random));
+    // Pairs of neighbors, most of them near the boundary.
+    constexpr double kStep = 1e-4;
+    while (rest.samples.size() < 800) {
+      const Index e = static_cast<Index>(random() % 8);
+      const double t = 0.05 + 0.9 * unit(random);
+      const Complex on = position_of(rest.cage, {e, t}),
+                    way = position_of(rest.cage, {e, t + 1e-6}) - on;
+      const Complex z = on + kI * way / std::abs(way) * std::pow(10.0, -3 + 4 * unit(random)),
+                    next = z + std::polar(kStep, 2 * kPi * unit(random));
+      if (!contains(rest.cage, z) || !contains(rest.cage, next)) continue;
+      rest.samples.push_back(z);
+      rest.samples.push_back(next);
+    }
+    SampledMap map;
+    const auto deformer = method_named("angles").prepare(rest, nullptr);
+    deformer->deform(pose, map, {true});
+    const double size = box_of(rest.mesh->vertices).diagonal();
+    for (Index i = 0; i < map.f.size(); i += 2) {
+      const Complex step =
+          rest.samples[static_cast<size_t>(i + 1)] - rest.samples[static_cast<size_t>(i)];
+      // The trapezoidal rule is off by step^3 f''' / 12.
+      const Complex jump = map.f[i + 1] - map.f[i] - 0.5 * (map.fz[i] + map.fz[i + 1]) * step;
+      INFO("seed " << seed << ", point " << i);
+      CHECK(std::abs(jump) <= 1e-11 * size);
+    }
+  }
+}
+
+TEST_CASE("Angles: a single point is a row, whatever the map is there") {
+  Rest rest;
+  rest.cage = polygon_cage(Points{{300, 200}, {520, 230}, {500, 400}, {280, 390}});
+  rest.precision = Precision::full;
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {400}));
+  rest.corners = {0, 1, 2, 3};
+  Pose pose{rest.cage, {}};
+  pose.corners.resize(4);
+  pose.corners[0] = {-0.9, 0.9, 1};
+  for (const Complex z : {Complex(300, 200), Complex(300, 200) + 1e-14, Complex(400, 300)}) {
+    rest.samples = {z};
+    SampledMap map;
+    method_named("angles").prepare(rest, nullptr)->deform(pose, map, {true});
+    CHECK(map.f.size() == 1);
+  }
 }
 
 TEST_CASE("Angles: points next to an opened corner are mapped like others, however near they are") {

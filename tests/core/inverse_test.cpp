@@ -230,6 +230,57 @@ TEST_CASE("Inverse: preimages are as many as the boundary's image winds around, 
   }
 }
 
+TEST_CASE(
+    "Inverse: by every method with maps at single points, a point comes back next to the "
+    "boundary") {
+  constexpr double kAccurate = 1e-11;  // of the size and of |w|: what the header promises
+  for (const unsigned seed : seeds_of("inverses of all methods", {41}))
+    for (const Method& method : methods())
+      for (const bool curved : {false, true}) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> by(-18, 18);
+        Rest rest;
+        rest.cage =
+            curved ? curved_star(6, 3, 0.2, seed) : polygon_cage(shapes::star(7, 0.25, seed));
+        rest.precision = Precision::full;
+        rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {700}));
+        rest.samples = rest.mesh->vertices;
+        Pose pose{rest.cage, {}};
+        for (Points& segment : pose.cage.segments)
+          for (Complex& z : segment) z += Complex(by(random), by(random));
+        const auto deformer = method.prepare(rest, nullptr);
+        SampledMap map;
+        deformer->deform(pose, map, {});
+        const auto at = deformer->point_map(pose);
+        if (!at) continue;
+        const InverseMap inverse(rest.cage, *rest.mesh,
+                                 {map.f.data(), static_cast<size_t>(map.f.size())}, *at);
+        const Points outline = flattened(rest.cage).points;
+        const double size = box_of(outline).diagonal();
+        for (const Complex z : inner_points(rest.cage, 40, random(), 0.7)) {
+          const PointMap::Value there = at->at(z);
+          const double squeezed = std::abs(std::abs(there.fz) - std::abs(there.fzbar));
+          if (squeezed < 0.05) continue;  // next to a fold two preimages are nearly one
+          const auto found = inverse.at(there.f);
+          double nearest = 1e300;
+          for (const Preimage& p : found) {
+            nearest = std::min(nearest, std::abs(p.z - z));
+            CHECK(std::abs(at->at(p.z).f - there.f) <= kAccurate * (size + std::abs(there.f)));
+            CHECK((contains(rest.cage, p.z) ||
+                   nearest_on_polygon(outline, p.z).distance <= 1e-4 * size));
+          }
+          INFO(method.id << (curved ? ", curved" : "") << ", seed " << seed << ", z " << z.real()
+                         << " " << z.imag() << ", " << found.size() << " found");
+          CHECK(nearest <= 1e-6);
+          // Where nothing is turned over, and w is not on the boundary, all are counted.
+          const auto wanted = inverse.winding(there.f);
+          int sum = 0;
+          for (const Preimage& p : found) sum += p.orientation;
+          if (wanted) CHECK(sum == *wanted);
+        }
+      }
+}
+
 TEST_CASE("Inverse: a branch point counts as often as sheets meet in it") {
   // z^2 along the boundary of a square around 0 winds twice around 0.
   Points square;

@@ -487,6 +487,15 @@ struct Damage {
   std::function<bool(const Method&)> matters = [](const Method&) { return true; };
 };
 
+/// A rest whose mesh is changed.
+std::function<void(Setup&)> with_mesh(const std::function<void(Mesh&)>& change) {
+  return [change](Setup& s) {
+    Mesh mesh = *s.rest.mesh;
+    change(mesh);
+    s.rest.mesh = std::make_shared<const Mesh>(mesh);
+  };
+}
+
 std::vector<Damage> damages() {
   const auto pins = [](const Method& m) { return m.uses_pins; };
   const auto strokes = [](const Method& m) { return m.uses_strokes; };
@@ -503,18 +512,37 @@ std::vector<Damage> damages() {
       {"no mesh", [](Setup& s) { s.rest.mesh = nullptr; },
        [](const Method& m) { return m.needs_mesh; }},
       {"an empty mesh", [](Setup& s) { s.rest.mesh = std::make_shared<const Mesh>(); }},
-      {"a mesh with a vertex that it does not have",
+      {"a cage segment without points", [](Setup& s) { s.rest.cage.segments[1].clear(); }},
+      {"a cage segment of degree 9",
        [](Setup& s) {
-         Mesh mesh = *s.rest.mesh;
-         mesh.triangles[5][1] = 1 << 20;
-         s.rest.mesh = std::make_shared<const Mesh>(mesh);
+         const Complex from = s.rest.cage.vertex(0), to = s.rest.cage.vertex(1);
+         s.rest.cage.segments[0].clear();
+         for (int k = 0; k < 9; ++k)
+           s.rest.cage.segments[0].push_back(from + (to - from) * (k / 9.0));
        }},
-      {"a mesh that is not finite",
-       [=](Setup& s) {
-         Mesh mesh = *s.rest.mesh;
-         mesh.vertices[7] = nan;
-         s.rest.mesh = std::make_shared<const Mesh>(mesh);
+      {"a cage whose areas overflow", [](Setup& s) { s.rest.cage.segments[1][0] = 1e160; }},
+      {"a sample whose products overflow",
+       [](Setup& s) {
+         s.rest.samples[3] = {0, -1e308};
        }},
+      {"a mesh with a vertex that it does not have",
+       with_mesh([](Mesh& mesh) { mesh.triangles[5][1] = 1 << 20; })},
+      {"a mesh that is not finite", with_mesh([=](Mesh& mesh) { mesh.vertices[7] = nan; })},
+      {"a mesh with a clockwise triangle",
+       with_mesh([](Mesh& mesh) { std::swap(mesh.triangles[4][0], mesh.triangles[4][1]); })},
+      {"a mesh with a vertex that no triangle has", with_mesh([](Mesh& mesh) {
+         mesh.vertices.push_back({100, 100});
+       })},
+      {"a mesh with a boundary beyond it", with_mesh([](Mesh& mesh) { mesh.boundary[2] = -1; })},
+      {"a mesh without a boundary", with_mesh([](Mesh& mesh) { mesh.boundary.clear(); })},
+      {"a mesh with too few cage vertices",
+       with_mesh([](Mesh& mesh) { mesh.cage_vertices.pop_back(); })},
+      {"a mesh with a cage vertex twice",
+       with_mesh([](Mesh& mesh) { mesh.cage_vertices[1] = mesh.cage_vertices[0]; })},
+      {"another method's parameter that is not finite",
+       [](Setup& s) { s.rest.other_parameters["pins"]["smoothness"] = NAN; }},
+      {"a posed segment without points", [](Setup& s) { s.pose.cage.segments[1].clear(); }},
+      {"a posed stroke too few", [](Setup& s) { s.pose.strokes.clear(); }, strokes},
       {"another cage's mesh",
        [](Setup& s) {
          s.rest.mesh = std::make_shared<const Mesh>(
@@ -575,6 +603,92 @@ std::vector<Damage> damages() {
 }
 
 }  // namespace
+
+TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the program") {
+  using Change = std::function<void(Setup&)>;
+  const auto each_posed = [](Setup& s, const std::function<Complex(Complex)>& to) {
+    for (Points& segment : s.pose.cage.segments)
+      for (Complex& z : segment) z = to(z);
+  };
+  const std::vector<std::pair<const char*, Change>> changes{
+      {"pins that coincide",
+       [](Setup& s) {
+         for (RestPin& pin : s.rest.pins) pin.position = {60, 60};
+       }},
+      {"pins with angles on the cage's vertices",
+       [](Setup& s) {
+         for (size_t i = 0; i < s.rest.pins.size(); ++i)
+           s.rest.pins[i] = {s.rest.cage.vertex(static_cast<Index>(i)), true};
+         for (PosePin& pin : s.pose.pins) pin.angle = 0.2;
+       }},
+      {"pins far outside",
+       [](Setup& s) {
+         for (RestPin& pin : s.rest.pins) pin.position = 1e60;
+       }},
+      {"a pin posed very far away",
+       [](Setup& s) {
+         for (PosePin& pin : s.pose.pins) pin.position = 1e60;
+       }},
+      {"samples far outside",
+       [](Setup& s) {
+         for (Complex& z : s.rest.samples) z += 1e4;
+         s.rest.derivative_samples.clear();
+       }},
+      {"a pose in one point", [&](Setup& s) { each_posed(s, [](Complex) { return Complex(5); }); }},
+      {"a pose on a line", [&](Setup& s) { each_posed(s, [](Complex z) { return z.real(); }); }},
+      {"a mirrored pose", [&](Setup& s) { each_posed(s, [](Complex z) { return std::conj(z); }); }},
+      {"a pose far away", [&](Setup& s) { each_posed(s, [](Complex z) { return 1e60 * z; }); }},
+      {"one sample",
+       [](Setup& s) {
+         s.rest.samples.resize(1);
+         s.rest.derivative_samples.clear();
+       }},
+      {"no samples",
+       [](Setup& s) {
+         s.rest.samples.clear();
+         s.rest.derivative_samples.clear();
+       }},
+      {"a stroke outside",
+       [](Setup& s) {
+         for (Points& stroke : s.rest.strokes)
+           for (Complex& z : stroke) z += 1e4;
+       }},
+      {"an outline like a needle",
+       [](Setup& s) {
+         s.rest.outline = {{0, 0}, {100, 0}, {100, 1e-9}};
+       }},
+      {"a brush of any strength",
+       [](Setup& s) {
+         s.rest.stiffness.assign(3, {{50, 50}, 1e60, -1e60});
+       }},
+      {"a single corner",
+       [](Setup& s) {
+         s.rest.corners = {1};
+         s.pose.corners.resize(1);
+       }},
+  };
+  for (const Method& method : methods()) {
+    const Setup whole = setup(method, Precision::full);
+    for (const auto& [name, change] : changes) {
+      Setup odd = whole;
+      change(odd);
+      INFO(method.id << ": " << name);
+      try {
+        const auto deformer = method.prepare(odd.rest, nullptr);
+        for (const bool draft : {false, true}) {
+          SampledMap map;
+          deformer->deform(odd.pose, map, {.derivatives = true, .draft = draft});
+          CHECK(map.f.size() == static_cast<Index>(odd.rest.samples.size()));
+          CHECK(map.f.allFinite());
+        }
+        if (const auto points = deformer->point_map(odd.pose))
+          CHECK(is_finite(points->at(box_of(whole.rest.samples).center()).f));
+      } catch (const Error& error) {
+        CHECK(std::string(error.what()).size() > 10);
+      }
+    }
+  }
+}
 
 TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
   for (const Method& method : methods()) {

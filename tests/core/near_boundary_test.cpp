@@ -215,7 +215,7 @@ TEST_CASE("Curved boundaries: single points are rows at and next to vertices") {
 
 namespace {
 
-/// A slanted pentagon with handles of all kinds, posed at random.
+/// A slanted pentagon with handles of all kinds, posed at random, of any size and anywhere.
 struct Handled {
   Rest rest;
   Pose pose;
@@ -225,12 +225,19 @@ Handled random_handles(const Method& method, std::mt19937& random, bool outline)
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  const auto moved = [&](Complex z) { return z + Complex(uniform(-12, 12), uniform(-12, 12)); };
   Handled made;
+  made.size = std::pow(10.0, uniform(-3, 6));
+  // So far that its own digits last for the map.
+  const Complex offset =
+      std::polar(std::min(1e6, made.size * std::pow(10.0, uniform(-1, 5))), uniform(0, 2 * kPi));
+  const auto at = [&](double x, double y) { return offset + made.size / 100 * Complex(x, y); };
+  const auto moved = [&](Complex z) {
+    return z + made.size / 100 * Complex(uniform(-12, 12), uniform(-12, 12));
+  };
   Points corners, posed;
   for (int i = 0; i < 5; ++i) {
-    corners.push_back(Complex(300, 200) +
-                      std::polar(uniform(70, 100), 2 * kPi * (i + uniform(-0.2, 0.2)) / 5));
+    const Complex way = std::polar(uniform(70, 100), 2 * kPi * (i + uniform(-0.2, 0.2)) / 5);
+    corners.push_back(at(way.real(), way.imag()));
     posed.push_back(moved(corners.back()));
   }
   Rest& rest = made.rest;
@@ -239,11 +246,11 @@ Handled random_handles(const Method& method, std::mt19937& random, bool outline)
   rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {400}));
   made.pose.cage = polygon_cage(posed);
   if (method.uses_pins) {
-    rest.pins = {{{280, 190}, false}, {{320, 215}, false}};
+    rest.pins = {{at(-20, -10), false}, {at(20, 15), false}};
     for (const RestPin& pin : rest.pins) made.pose.pins.push_back({moved(pin.position)});
   }
   if (method.uses_strokes) {
-    rest.strokes = {{{270, 220}, {290, 225}, {310, 220}}};
+    rest.strokes = {{at(-30, 20), at(-10, 25), at(10, 20)}};
     made.pose.strokes.emplace_back();
     for (const Complex z : rest.strokes[0]) made.pose.strokes[0].push_back(moved(z));
   }
@@ -290,8 +297,12 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point ends the
         for (size_t k = 0; k + 1 < firsts.size(); ++k) {
           const bool corner = k % 5 == 0;
           const Index first = static_cast<Index>(firsts[k]);
-          // At corners maps may be powers, of the distance and of its derivative.
-          const double near = (corner ? 1e-2 : 1e-7) * made.size;
+          // A few roundings apart, and what the map makes of that; at corners maps may be powers,
+          // of the distance and of its derivative.
+          constexpr double kUlps = 64;
+          const double rounding = kUlps * std::numeric_limits<double>::epsilon() *
+                                  std::abs(made.rest.samples[static_cast<size_t>(first)]);
+          const double near = corner ? 1e-2 * made.size : 2e-9 * made.size + rounding;
           for (Index i = first; i < static_cast<Index>(firsts[k + 1]); ++i) {
             const Complex z = made.rest.samples[static_cast<size_t>(i)];
             INFO(method.id << (outline ? " onto an outline" : "") << ", seed " << seed
