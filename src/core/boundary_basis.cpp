@@ -200,10 +200,7 @@ Points BoundaryBasis::inset(double share) const {
   for (size_t i = 0; i < n; ++i) {
     const Complex in = samples_[(i + n - 1) % n] - samples_[i],
                   out = samples_[(i + 1) % n] - samples_[i];
-    double angle = std::atan2(cross(out, in), dot(out, in));
-    if (angle <= 0) angle += 2 * kPi;
-    Complex step = share * std::min(std::abs(in), std::abs(out)) *
-                   std::polar(1.0, std::arg(out) + 0.5 * angle);
+    Complex step = share * std::min(std::abs(in), std::abs(out)) * inwards_between(out, in);
     // Not beyond the middle of a thin part.
     for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
                                            winding_number(fine, samples_[i] + 2.0 * step) != 1);

@@ -96,11 +96,9 @@ Complex beside_vertex(const Cage& cage, Complex z) {
     const Points before = cage.controls((v + cage.size() - 1) % cage.size()),
                  after = cage.controls(v);
     const Complex in = before[before.size() - 2] - z, out = after[1] - z;
-    double angle = std::atan2(cross(out, in), dot(out, in));
-    if (angle <= 0) angle += 2 * kPi;
     const double shorter = std::min(std::abs(before.front() - z), std::abs(after.back() - z)),
                  rounding = std::numeric_limits<double>::epsilon() * std::abs(z);
-    return z + std::polar(std::max(1e-9 * shorter, 64 * rounding), std::arg(out) + 0.5 * angle);
+    return z + std::max(1e-9 * shorter, 64 * rounding) * inwards_between(out, in);
   }
   return z;
 }

@@ -301,11 +301,10 @@ VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
     limit.before[m] -= 1.0 / (turn * static_cast<double>(degree_before - m));
   for (int m = 1; m <= degree; ++m) limit.own[m] += 1.0 / (turn * static_cast<double>(m));
   const Complex in = -before.derivative({1, 0}), out = own.derivative({0, 1});
-  double angle = std::atan2(cross(out, in), dot(out, in));
-  if (angle <= 0) angle += 2 * kPi;
-  limit.own[0] += (Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - angle) +
-                   harmonic_number(degree_before) - harmonic_number(degree)) /
-                  turn;
+  limit.own[0] +=
+      (Complex(0.5 * std::log(std::norm(out) / std::norm(in)), 2 * kPi - inner_angle(out, in)) +
+       harmonic_number(degree_before) - harmonic_number(degree)) /
+      turn;
   return limit;
 }
 

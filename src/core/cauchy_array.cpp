@@ -42,11 +42,7 @@ class BlockFiller {
  public:
   BlockFiller(const Cage& cage, double farthest, int order, const kernel::Table& table,
               PlanarMatrix<T>& out)
-      : cage_(cage),
-        rows_(cage, order, CauchyRows::AtVertices::from_inside),
-        order_(order),
-        table_(table),
-        out_(out) {
+      : cage_(cage), order_(order), table_(table), out_(out) {
     for (Index e = 0; e < cage.size(); ++e) {
       offsets_.push_back(cage.control_offset(e));
       segments_.emplace_back(cage.controls(e));
@@ -172,7 +168,8 @@ class BlockFiller {
 
   /// On the boundary and next to vertices the segments must be seen from one place.
   void patch_row(Complex z, Index row) {
-    const auto patch = rows_.patch(z);
+    if (!rows_) rows_.emplace(cage_, order_, CauchyRows::AtVertices::from_inside);
+    const auto patch = rows_->patch(z);
     if (!patch) return;
     for (Index k = 0; k < patch->values.size(); ++k) {
       const Index column = (patch->first + k) % out_.cols();
@@ -182,7 +179,7 @@ class BlockFiller {
   }
 
   const Cage& cage_;
-  CauchyRows rows_;
+  std::optional<CauchyRows> rows_;  ///< made when it is needed
   int order_;
   const kernel::Table& table_;
   PlanarMatrix<T>& out_;

@@ -57,11 +57,9 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
     const Segment& before = segments_[static_cast<size_t>((e + rest.size() - 1) % rest.size())];
     Segment& own = segments_[static_cast<size_t>(e)];
     const Complex in = -before.curve.derivative({1, 0}), out = own.curve.derivative({0, 1});
-    double angle = std::atan2(cross(out, in), dot(out, in));
-    if (angle <= 0) angle += 2 * kPi;
     const double shorter = std::min(std::abs(own.curve.end() - own.curve.start()),
                                     std::abs(before.curve.end() - before.curve.start()));
-    own.inwards = 1e-12 * shorter * std::polar(1.0, std::arg(out) + 0.5 * angle);
+    own.inwards = 1e-12 * shorter * inwards_between(out, in);
     own.reach = 0.05 * shorter;
   }
 }

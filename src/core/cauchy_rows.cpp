@@ -37,9 +37,7 @@ Index CauchyRows::column(size_t segment, int m) const {
 Complex CauchyRows::inwards(size_t vertex) const {
   const Complex in = -segments_[before(vertex)].derivative({1, 0}),
                 out = segments_[vertex].derivative({0, 1});
-  double angle = std::atan2(cross(out, in), dot(out, in));
-  if (angle <= 0) angle += 2 * kPi;
-  return kInside * reach_[vertex] * std::polar(1.0, std::arg(out) + 0.5 * angle);
+  return kInside * reach_[vertex] * inwards_between(out, in);
 }
 
 CauchyRows::Stand CauchyRows::stand_on(const Contact& contact) const {

@@ -78,6 +78,15 @@ Points fitted(std::span<const Complex> samples, std::span<const double> paramete
   return curve;
 }
 
+double inner_angle(Complex out, Complex in) {
+  const double angle = std::atan2(cross(out, in), dot(out, in));
+  return angle > 0 ? angle : angle + 2 * kPi;
+}
+
+Complex inwards_between(Complex out, Complex in) {
+  return std::polar(1.0, std::arg(out) + 0.5 * inner_angle(out, in));
+}
+
 double signed_area(std::span<const Complex> polygon) {
   double twice = 0.0;
   const Complex origin = polygon.empty() ? Complex{} : polygon[0];

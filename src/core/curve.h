@@ -30,6 +30,12 @@ Points elevated(std::span<const Complex> controls, int degree);
 /// samples in the least-squares sense, samples[i] belonging to parameter parameters[i].
 Points fitted(std::span<const Complex> samples, std::span<const double> parameters, int degree);
 
+/// The angle, in (0, 2 pi], by which `out` has to turn counter-clockwise onto `in`: the one inside
+/// at a vertex of a counter-clockwise boundary that is left along `out` and reached against `in`.
+double inner_angle(Complex out, Complex in);
+/// The unit vector that halves it.
+Complex inwards_between(Complex out, Complex in);
+
 /// Signed area of a closed polygon: positive when counter-clockwise.
 double signed_area(std::span<const Complex> polygon);
 

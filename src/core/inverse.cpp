@@ -77,7 +77,8 @@ void InverseMap::fill_cells() {
     for_each_cell(box_of_triangle(t),
                   [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
   constexpr double kSheared = 0.7;  // abs(f_zbar) / abs(f_z) of a triangle next to a fold
-  const VectorXc f = Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
+  const VectorXc f =
+      Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
   for (int t = 0; t < count; ++t) {
     const auto [fz, fzbar] = derivatives_in(mesh_, mesh_.triangles[t], f);
     if (std::abs(fzbar) <= kSheared * std::abs(fz)) continue;

@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "core/cauchy.h"
-#include "core/dense.h"
 #include "core/equal_shares.h"
-#include "core/graded_cuts.h"
 #include "core/inner_loop.h"
+#include "core/outline_basis.h"
 #include "core/outline_samples.h"
 
 namespace holomorph {
@@ -18,54 +17,9 @@ constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
 constexpr double kInset = 7e-4;      ///< of the loop that zeros are counted in, in diagonals
 constexpr double kSoftInset = 5e-3;  ///< where angles may give way: corners are flattened roughly
-constexpr double kAccepted = 0.8 * kOutlineMet;  ///< distances are measured at samples
-constexpr double kFinest = 0.01;     ///< smoothness: with more, corners are to be rounded
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
 constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
-constexpr double kSettled = 1e-3;  ///< relative decrease of the energy that ends the iteration
-
-/// Increasing parameters for each segment of a cage.
-using Cuts = std::vector<std::vector<double>>;
-
-/// Those at arc lengths of its flattened self.
-Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
-             std::vector<double> lengths) {
-  Cuts cuts(static_cast<size_t>(cage.size()));
-  std::ranges::sort(lengths);
-  for (const double length : lengths) {
-    const Polyline::Place at = line.place_at(length);
-    const size_t i = static_cast<size_t>(at.segment), next = (i + 1) % flat.places.size();
-    const Index segment = flat.places[i].segment;
-    const double from = flat.places[i].t,
-                 to = flat.places[next].segment == segment && flat.places[next].t > from
-                          ? flat.places[next].t
-                          : 1;
-    cuts[static_cast<size_t>(segment)].push_back(from + at.parameter * (to - from));
-  }
-  for (std::vector<double>& places : cuts) std::ranges::sort(places);
-  return cuts;
-}
-
-/// All the cage's own vertices are kept; pieces are longer than `least` of their segment.
-Cage cut(const Cage& cage, const Cuts& cuts, double least) {
-  Cage fine;
-  for (Index e = 0; e < cage.size(); ++e) {
-    Points rest = cage.controls(e);
-    double before = 0;
-    for (const double t : cuts[static_cast<size_t>(e)]) {
-      if (t - before <= least || 1 - t <= least) continue;
-      SplitCurve halves = split(rest, (t - before) / (1 - before));
-      halves.before.pop_back();
-      fine.segments.push_back(std::move(halves.before));
-      rest = std::move(halves.after);
-      before = t;
-    }
-    rest.pop_back();
-    fine.segments.push_back(std::move(rest));
-  }
-  return fine;
-}
 
 /// A frame of the shape's own: its first vertex at 0, its first chord along the real axis, its
 /// perimeter 1. What is computed there does not depend on where the drawing stands.
@@ -82,13 +36,6 @@ Points in(const Similarity& frame, Points points) {
 Cage in(const Similarity& frame, Cage cage) {
   for (Points& segment : cage.segments) segment = in(frame, std::move(segment));
   return cage;
-}
-
-MatrixXc coordinates(const Cage& cage, std::span<const BoundaryPoint> places, int order) {
-  if (order > 1 || !is_straight(cage)) return cauchy_coordinates(cage, places, order);
-  Points points;
-  for (const BoundaryPoint& place : places) points.push_back(position_of(cage, place));
-  return as_complex(planar_coordinates<double>(cage, points, order));
 }
 
 /// Rows of C phi + conj(C) psi.
@@ -116,14 +63,6 @@ double difference(const Correspondence& a, const Correspondence& b) {
   return most;
 }
 
-/// The arc lengths of a closed polyline's corners.
-std::vector<double> corners_of(const Polyline& curve) {
-  std::vector<double> corners;
-  for (Index i = 0; i < curve.segments(); ++i)
-    if (std::abs(turn_at(curve, i)) > kCorner) corners.push_back(curve.length_at(i, 0));
-  return corners;
-}
-
 }  // namespace
 
 OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& pins,
@@ -139,7 +78,7 @@ OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& 
       loop_(inner_loop(flat_.points,
                        (settings.stiffness > 0 ? kSoftInset : kInset) * source_.diagonal())),
       unit_(source_.length() / (2 * kPi)),
-      centre_(box_of(target_.points()).center()) {
+      center_(box_of(target_.points()).center()) {
   if (!settings_.published)
     start_ = std::make_unique<ConformalStart>(source_, target_, settings_.upright, pins_);
   if (start_ && start_->is_crowded()) start_.reset();
@@ -172,47 +111,8 @@ void OutlineFit::solve(const Points& pinned) {
   if (may_refine() && !is_met()) refine();
 }
 
-bool OutlineFit::may_refine() const {
-  return start_ && settings_.stiffness == 0 && settings_.smoothness <= kFinest;
-}
-
-bool OutlineFit::is_met() const {
-  return misses().total() <= 1;
-}
-
-OutlineFit::Misses OutlineFit::misses() const {
-  const OutlineMatch match = after(iterations());
-  const double accepted = kAccepted * target_.diameter() / std::abs(frame_.factor);
-  return {match.zeros, match.hausdorff / accepted, match.pins_missed / accepted};
-}
-
-// A map that was iterated stays where it is the better one. Leaving the picture upright is a wish:
-// where that map is not met, the one that is stretched least may be.
-void OutlineFit::refine() {
-  const Misses before = misses();
-  before_ = {basis_, given_basis_, at_samples_, slopes_inside_, iterates_, energies_};
-  follow_start(built_);
-  const bool may_sharpen = !start_->is_near_crowded();
-  if (may_sharpen && misses().total() > 1 && start_->sharpen())
-    follow_start(start_->last(held(pinned_)));
-  Misses now = misses();
-  if (may_sharpen && now.total() > 1 && settings_.upright > 0 && pins_.empty()) {
-    const Correspondence upright = built_;
-    follow_start(start_->least_stretched());
-    if (const Misses free = misses(); free.total() < now.total())
-      now = free;
-    else
-      follow_start(upright);
-  }
-  if (now.total() <= before.total()) return;
-  before_ = {};
-  build(built_);
-  begin(built_, held(pinned_));
-  run(AlternatingFit::Mode::first_order, kSettled, settings_.most_iterations);
-}
-
 void OutlineFit::follow(const Points& pinned) {
-  if (iterates_.empty() || (refined_ && pins_.empty())) return solve(pinned);
+  if (now_.iterates.empty() || (refined_ && pins_.empty())) return solve(pinned);
   before_ = {};
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
@@ -238,28 +138,26 @@ void OutlineFit::begin(const Correspondence& start, const Points& wanted) {
 }
 
 void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
-  iterates_.clear();
-  energies_.clear();
+  now_.iterates.clear();
+  now_.energies.clear();
   fit_->run(mode, settled, most, [this] {
-    iterates_.push_back(fit_->unknowns());
-    energies_.push_back(fit_->energy() / (unit_ * unit_));
+    now_.iterates.push_back(fit_->unknowns());
+    now_.energies.push_back(fit_->energy() / (unit_ * unit_));
   });
 }
 
 OutlineMatch OutlineFit::after(int iteration) const {
   OutlineMatch match;
   const size_t number = static_cast<size_t>(iteration), earlier = before_.iterates.size();
-  const bool is_earlier = number < earlier;
-  const Cage& basis = is_earlier ? before_.basis : basis_;
-  const MatrixXc& at_samples = is_earlier ? before_.at_samples : at_samples_;
-  const PlanarMatrix<double>& slopes_inside = is_earlier ? before_.slopes_inside : slopes_inside_;
-  match.basis = is_earlier ? before_.given_basis : given_basis_;
+  const Stage& stage = number < earlier ? before_ : now_;
+  const Cage& basis = stage.basis;
+  const VectorXc& x = stage.iterates.at(number < earlier ? number : number - earlier);
+  match.basis = stage.given_basis;
   match.iterations = iteration;
   match.energies = before_.energies;
-  match.energies.insert(match.energies.end(), energies_.begin(), energies_.end());
-  const VectorXc& x = is_earlier ? before_.iterates[number] : iterates_.at(number - earlier);
+  match.energies.insert(match.energies.end(), now_.energies.begin(), now_.energies.end());
   const Index n = basis.control_count();
-  const VectorXc phi = x.head(n).array() + centre_, psi = x.tail(x.size() - n);
+  const VectorXc phi = x.head(n).array() + center_, psi = x.tail(x.size() - n);
   const auto sum_of = [&](const MatrixXc& c) -> VectorXc {
     if (psi.size() == 0) return c * phi;
     return c * phi + c.conjugate() * psi;
@@ -275,7 +173,7 @@ OutlineMatch OutlineFit::after(int iteration) const {
     match.pins_missed =
         std::max(match.pins_missed, size * std::abs(pins[static_cast<Index>(i)] - wanted[i]));
   }
-  const VectorXc values = sum_of(at_samples);
+  const VectorXc values = sum_of(stage.at_samples);
   double sum = 0;
   for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
   match.rms = size * std::sqrt(sum / static_cast<double>(values.size()));
@@ -285,7 +183,7 @@ OutlineMatch OutlineFit::after(int iteration) const {
   const auto slopes = [&](const Points& places) {
     return product(planar_coordinates<double>(basis, places, 1), phi);
   };
-  match.zeros = zeros_inside(loop_, product(slopes_inside, phi), slopes);
+  match.zeros = zeros_inside(loop_, product(stage.slopes_inside, phi), slopes);
   return match;
 }
 
@@ -327,164 +225,18 @@ void OutlineFit::take_basis(const Correspondence& start) {
   }
   const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
   constexpr double kLeast = 1e-3;  // of a segment: shorter pieces are none
-  basis_ = cut(cage_, places, kLeast);
-  given_basis_ = cut(given_, places, kLeast);
-}
-
-std::vector<double> OutlineFit::vertex_lengths() const {
-  std::vector<double> lengths;
-  for (size_t i = 0; i < flat_.places.size(); ++i)
-    if (flat_.places[i].t == 0) lengths.push_back(source_.length_at(static_cast<Index>(i), 0));
-  return lengths;
-}
-
-// As graded_cuts has them, all the cage's vertices and what goes to the target's corners among
-// them.
-void OutlineFit::take_graded_basis(const Correspondence& start) {
-  const double length = source_.length(), close = 1e-9 * length;
-  std::vector<double> kept = vertex_lengths();
-  const std::vector<double> own = kept;
-  const Correspondence back = start.inverse();
-  for (const double corner : corners_of(target_)) {
-    const double at = back(corner), once = at - std::floor(at / length) * length;
-    const bool is_new = std::ranges::all_of(kept, [&](double other) {
-      return std::abs(other - once) > close && length - once > close;
-    });
-    if (is_new) kept.push_back(once);
-  }
-  std::ranges::sort(kept);
-  CutRules rules;
-  rules.length = length;
-  rules.size = target_.diagonal();
-  int degree = 1;
-  for (Index e = 0; e < cage_.size(); ++e) degree = std::max(degree, cage_.degree(e));
-  rules.longest *= degree;
-  rules.bent *= degree;
-  rules.most /= degree;
-  constexpr double kLeastCurve = 1e-5;  // of shorter ones rounding decides how they bend
-  if (degree > 1) rules.least = kLeastCurve;
-  const Thickness thickness(source_);
-  constexpr double kOfThickness = 1.5;  // pieces see the other side of a limb from not too near
-  cut_lengths_ = graded_cuts(
-      kept, [&](double s) { return target_.at(start(s)); },
-      [&](double s) { return kOfThickness * thickness(s); }, rules);
-  std::vector<double> inner;
-  std::ranges::set_difference(cut_lengths_, own, std::back_inserter(inner));
-  const Cuts places = cuts_at(cage_, flat_, source_, std::move(inner));
-  basis_ = cut(cage_, places, 0);
-  given_basis_ = cut(given_, places, 0);
-  cut_lengths_.push_back(length);
-}
-
-// Targets are where the correspondence has them, and misses are weighed by the sizes of the images
-// around: where those are small f' is, too, and has no zeros if it is right to a share of itself.
-void OutlineFit::follow_start(const Correspondence& start) {
-  built_ = start;
-  ++builds_;
-  refined_ = true;
-  take_graded_basis(start);
-  take_samples();
-  const std::vector<FitRow> rows = fit_rows(image_sizes());
-  const VectorXc targets = graded_targets();
-  const MatrixXc bends = coordinates(basis_, middles_, 2);
-  MatrixXc left(static_cast<Index>(rows.size()), basis_.control_count());
-  VectorXc right = VectorXc::Zero(left.rows());
-  for (Index i = 0; i < left.rows(); ++i) {
-    const auto [weight, row, is_bend] = rows[static_cast<size_t>(i)];
-    if (is_bend) {
-      const double size = sizes_[static_cast<size_t>(row)];
-      left.row(i) = weight * size * size * bends.row(row);
-    } else {
-      left.row(i) = weight * at_samples_.row(row);
-      right[i] = weight * targets[row];
-    }
-  }
-  if (!is_straight(basis_)) add_ridge(left, right);
-  iterates_ = {least_squares(std::move(left), std::move(right))};
-  energies_ = {mean_square_miss() / (unit_ * unit_)};
-}
-
-/// What is holomorphic outside has no Cauchy integral inside: curves have enough freedom for that.
-/// Weak rows hold their control points to where the correspondence has the nearest vertices.
-void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
-  constexpr double kWeak = 1e-4;
-  const Index rows = left.rows(), n = left.cols();
-  left.conservativeResize(rows + n, n);
-  right.conservativeResize(rows + n);
-  left.bottomRows(n).setZero();
-  const VectorXd sizes = image_sizes();
-  for (Index e = 0; e < basis_.size(); ++e)
-    for (int m = 0; m < basis_.degree(e); ++m) {
-      const Index c = basis_.control_offset(e) + m, row = rows + c;
-      const double share = static_cast<double>(m) / basis_.degree(e);
-      const size_t i = static_cast<size_t>(e);
-      const double length = (1 - share) * cut_lengths_[i] + share * cut_lengths_[i + 1];
-      left(row, c) = kWeak / sizes[e];
-      right[row] = left(row, c) * (target_.at(built_(length)) - centre_);
-    }
-}
-
-/// The lengths of the images of the basis' pieces.
-VectorXd OutlineFit::image_sizes() const {
-  constexpr double kLeast = 1e-13;  // of the target: what rounding leaves
-  VectorXd sizes(basis_.size());
-  const auto image = [&](Index e) {
-    return target_.at(built_(cut_lengths_[static_cast<size_t>(e)]));
-  };
-  for (Index e = 0; e < sizes.size(); ++e)
-    sizes[e] = std::max(kLeast * target_.diagonal(), std::abs(image(e + 1) - image(e)));
-  return sizes;
-}
-
-/// Rows for the samples and for f'', heaviest first, as least_squares needs them.
-std::vector<OutlineFit::FitRow> OutlineFit::fit_rows(const VectorXd& sizes) const {
-  std::vector<FitRow> rows;
-  const Index n = sizes.size();
-  constexpr size_t kStride = 2;  // of the samples: as good as all of them, in half the time
-  for (size_t i = 0; i < samples_.size(); i += kStride) {
-    const Index e = samples_[i].segment;
-    const double size = samples_[i].t == 0 ? std::min(sizes[e], sizes[(e + n - 1) % n]) : sizes[e];
-    rows.push_back({1 / size, static_cast<Index>(i), false});
-  }
-  const double smooth = std::sqrt(settings_.smoothness * static_cast<double>(samples_.size()) /
-                                  static_cast<double>(middles_.size()));
-  for (size_t i = 0; i < middles_.size() && smooth > 0; ++i)
-    rows.push_back({smooth / sizes[middles_[i].segment], static_cast<Index>(i), true});
-  std::ranges::sort(rows, std::greater{}, &FitRow::weight);
-  return rows;
-}
-
-double OutlineFit::mean_square_miss() const {
-  const VectorXc values = at_samples_ * iterates_.back();
-  double sum = 0;
-  for (const Complex& z : values)
-    sum += std::norm(z + centre_ - target_.nearest(z + centre_).point);
-  return sum / static_cast<double>(values.size());
-}
-
-VectorXc OutlineFit::graded_targets() const {
-  VectorXc targets(static_cast<Index>(samples_.size()));
-  for (Index i = 0; i < targets.size(); ++i) {
-    const BoundaryPoint& at = samples_[static_cast<size_t>(i)];
-    const size_t e = static_cast<size_t>(at.segment);
-    double length = (1 - at.t) * cut_lengths_[e] + at.t * cut_lengths_[e + 1];
-    if (!is_straight(basis_, at.segment)) {
-      const Polyline::Nearest near = source_.nearest(position_of(basis_, at));
-      length = source_.length_at(near.segment, near.parameter);
-    }
-    targets[i] = target_.at(built_(length)) - centre_;
-  }
-  return targets;
+  now_.basis = cut(cage_, places, kLeast);
+  now_.given_basis = cut(given_, places, kLeast);
 }
 
 void OutlineFit::take_samples() {
   samples_.clear();
   middles_.clear();
   sizes_.clear();
-  for (Index e = 0; e < basis_.size(); ++e) {
-    const Complex way = basis_.vertex(e + 1) - basis_.vertex(e);
+  for (Index e = 0; e < now_.basis.size(); ++e) {
+    const Complex way = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
     // A curve has as many unknowns as its degree, so it gets as many times the places.
-    const int degree = basis_.degree(e), count = kSamplesPerUnknown * degree;
+    const int degree = now_.basis.degree(e), count = kSamplesPerUnknown * degree;
     for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});
     for (int k = 0; k < degree; ++k) {
       middles_.push_back({e, (k + 0.5) / degree});
@@ -492,15 +244,15 @@ void OutlineFit::take_samples() {
     }
   }
   hints_.assign(samples_.size(), 0);
-  at_samples_ = coordinates(basis_, samples_, 0);
-  slopes_inside_ = planar_coordinates<double>(basis_, loop_, 1);
+  now_.at_samples = coordinates_at(now_.basis, samples_, 0);
+  now_.slopes_inside = planar_coordinates<double>(now_.basis, loop_, 1);
 }
 
 std::vector<FitTerm> OutlineFit::terms() {
   const bool soft = settings_.stiffness > 0;
-  const Index n = basis_.control_count();
+  const Index n = now_.basis.control_count();
   std::vector<FitTerm> terms;
-  FitTerm fit{with_conjugate(at_samples_, soft)};
+  FitTerm fit{with_conjugate(now_.at_samples, soft)};
   fit.project = [this](const VectorXc& values, VectorXc& targets) { project(values, targets); };
   fit.normals = [this](const VectorXc& values, const VectorXc& targets, VectorXc& normals) {
     take_normals(values, targets, normals);
@@ -508,16 +260,16 @@ std::vector<FitTerm> OutlineFit::terms() {
   terms.push_back(std::move(fit));
   if (!pins_.empty())
     terms.push_back(
-        {with_conjugate(cauchy_coordinates(basis_, pins_), soft), settings_.pin_weight});
+        {with_conjugate(cauchy_coordinates(now_.basis, pins_), soft), settings_.pin_weight});
   if (settings_.smoothness > 0 && !settings_.published) {
-    MatrixXc rows = with_conjugate(coordinates(basis_, middles_, 2), soft);
+    MatrixXc rows = with_conjugate(coordinates_at(now_.basis, middles_, 2), soft);
     for (Index e = 0; e < rows.rows(); ++e)
       rows.row(e) *= sizes_[static_cast<size_t>(e)] * sizes_[static_cast<size_t>(e)];
     terms.push_back({std::move(rows), settings_.smoothness});
   }
   if (soft) {
     MatrixXc rows = MatrixXc::Zero(static_cast<Index>(middles_.size()), 2 * n);
-    rows.rightCols(n) = unit_ * coordinates(basis_, middles_, 1).conjugate();
+    rows.rightCols(n) = unit_ * coordinates_at(now_.basis, middles_, 1).conjugate();
     terms.push_back({std::move(rows), settings_.stiffness});
     MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
     constant.rightCols(n).setConstant(1 / static_cast<double>(n));
@@ -529,9 +281,9 @@ std::vector<FitTerm> OutlineFit::terms() {
 void OutlineFit::project(const VectorXc& values, VectorXc& targets) {
   for (Index i = 0; i < values.size(); ++i) {
     Index& hint = hints_[static_cast<size_t>(i)];
-    const Polyline::Nearest nearest = target_.nearest(values[i] + centre_, hint);
+    const Polyline::Nearest nearest = target_.nearest(values[i] + center_, hint);
     hint = nearest.segment;
-    targets[i] = nearest.point - centre_;
+    targets[i] = nearest.point - center_;
   }
 }
 
@@ -573,7 +325,7 @@ Points OutlineFit::held(const Points& pinned) const {
 
 VectorXc OutlineFit::pin_targets(const Points& pinned) const {
   VectorXc targets(static_cast<Index>(pinned.size()));
-  for (Index i = 0; i < targets.size(); ++i) targets[i] = pinned[static_cast<size_t>(i)] - centre_;
+  for (Index i = 0; i < targets.size(); ++i) targets[i] = pinned[static_cast<size_t>(i)] - center_;
   return targets;
 }
 
@@ -581,8 +333,8 @@ VectorXc OutlineFit::start_targets(const Correspondence& start) const {
   VectorXc targets(static_cast<Index>(samples_.size()));
   for (Index i = 0; i < targets.size(); ++i) {
     const Polyline::Nearest at =
-        source_.nearest(position_of(basis_, samples_[static_cast<size_t>(i)]));
-    targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - centre_;
+        source_.nearest(position_of(now_.basis, samples_[static_cast<size_t>(i)]));
+    targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - center_;
   }
   return targets;
 }

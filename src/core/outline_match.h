@@ -65,24 +65,27 @@ class OutlineFit {
   OutlineFit& operator=(const OutlineFit&) = delete;
 
   /// Cost: for 200 vertices 5 ms an iteration, and 60 ms for a basis where there are pins. Where
-  /// the outline is not met (by 0.8 % of its diameter), or f' has zeros, the conformal map itself is
-  /// followed with as many vertices as it needs: 0.1 to 1 s.
+  /// the outline is not met (by 0.8 % of its diameter), or f' has zeros, the conformal map itself
+  /// is followed with as many vertices as it needs: 0.1 to 1 s.
   void solve(const Points& pinned);
   /// The same, roughly: four iterations at most, from a start near the last one where there are
   /// pins, else from the last solution.
   void follow(const Points& pinned);
 
-  const Cage& basis() const { return given_basis_; }
+  const Cage& basis() const { return now_.given_basis; }
   /// How many bases there have been: pins that go far need another one.
   int builds() const { return builds_; }
   /// How many iterations the last call made.
   int iterations() const {
-    return static_cast<int>(before_.iterates.size() + iterates_.size()) - 1;
+    return static_cast<int>(before_.iterates.size() + now_.iterates.size()) - 1;
   }
   /// The map after so many of them.
   OutlineMatch after(int iteration) const;
 
  private:
+  /// Relative decrease of the energy that ends the iteration.
+  static constexpr double kSettled = 1e-3;
+
   void build(const Correspondence& start);
   void begin(const Correspondence& start, const Points& wanted);
   void take_basis(const Correspondence& start);
@@ -121,39 +124,35 @@ class OutlineFit {
   void run(AlternatingFit::Mode mode, double settled, int most);
 
   OutlineSettings settings_;
-  Cage given_, given_basis_;  ///< the source and its cut self where they stand
-  Similarity frame_;          ///< of the source's own; all that follows is in it
+  Cage given_;        ///< the source where it stands
+  Similarity frame_;  ///< of the source's own; all that follows is in it
   Cage cage_;
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
   Points loop_;     ///< just inside the source, where zeros are counted
   double unit_;     ///< L
-  Complex centre_;  ///< what is fitted is f less this
+  Complex center_;  ///< what is fitted is f less this
   /// None for the published method, and for strips too long for it.
   std::unique_ptr<ConformalStart> start_;
-  Cage basis_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
   std::vector<double> cut_lengths_;  ///< of a graded basis' vertices
   std::vector<Index> hints_;
-  MatrixXc at_samples_;                 ///< C there
-  PlanarMatrix<double> slopes_inside_;  ///< C' along the loop inside
-  Correspondence built_;                ///< what the basis was made for
+  Correspondence built_;  ///< what the basis was made for
   int builds_ = 0;
   bool refined_ = false;  ///< whether the basis is the graded one
   std::optional<AlternatingFit> fit_;
-  std::vector<VectorXc> iterates_;
-  std::vector<double> energies_;
-  /// The usual fit, when the map of another basis has replaced it; else no iterates.
+  /// A basis and the maps over it that have been found.
   struct Stage {
-    Cage basis, given_basis;
-    MatrixXc at_samples;
-    PlanarMatrix<double> slopes_inside;
+    Cage basis, given_basis;             ///< the source's cut self, in its own frame and as given
+    MatrixXc at_samples;                 ///< C at the samples
+    PlanarMatrix<double> slopes_inside;  ///< C' along the loop inside
     std::vector<VectorXc> iterates;
     std::vector<double> energies;
   };
-  Stage before_;
+  Stage now_;
+  Stage before_;  ///< the usual fit, when another basis has replaced it; else empty
 };
 
 /// Solved from nothing.

@@ -83,6 +83,13 @@ void append(const Spacing& spacing, const CornerPlace& from, const CornerPlace& 
 
 }  // namespace
 
+std::vector<double> corners_of(const Polyline& curve) {
+  std::vector<double> corners;
+  for (Index i = 0; i < curve.segments(); ++i)
+    if (std::abs(turn_at(curve, i)) > kCorner) corners.push_back(curve.length_at(i, 0));
+  return corners;
+}
+
 Thickness::Thickness(const Polyline& outline) : length_(outline.length()) {
   const size_t n = kThicknessPoints;
   const Points points = at_equal_lengths(outline, kThicknessPoints);

@@ -12,6 +12,9 @@ inline constexpr double kCorner = kPi / 6;
 /// By how much a closed polyline turns at a vertex.
 double turn_at(const Polyline& outline, Index vertex);
 
+/// The arc lengths of a closed polyline's corners.
+std::vector<double> corners_of(const Polyline& curve);
+
 /// Radii of the largest disks that touch a closed polyline from either side, the smaller one: half
 /// of the local thickness of what is inside and outside.
 class Thickness {

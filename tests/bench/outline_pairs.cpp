@@ -207,9 +207,10 @@ bool summary(const char* what, std::vector<Row> rows) {
   const auto count = [&](auto is) { return static_cast<int>(std::ranges::count_if(rows, is)); };
   const int all = static_cast<int>(rows.size()), good = count(&Row::good);
   std::ranges::sort(rows, {}, &Row::ms);
-  std::printf("%s: %d pairs, %d good, %d within 1 %%, %d without zeros; median %.0f ms, longest %.0f\n",
-              what, all, good, count(&Row::met), count(&Row::whole), rows[rows.size() / 2].ms,
-              rows.back().ms);
+  std::printf(
+      "%s: %d pairs, %d good, %d within 1 %%, %d without zeros; median %.0f ms, longest %.0f\n",
+      what, all, good, count(&Row::met), count(&Row::whole), rows[rows.size() / 2].ms,
+      rows.back().ms);
   return all - good <= std::max(1, all / 100);
 }
 
@@ -313,8 +314,7 @@ std::vector<Row> random_pairs(unsigned first, unsigned count) {
 std::vector<Row> star_pairs(unsigned first, unsigned count) {
   std::vector<Row> rows;
   for (unsigned seed = first; seed < first + count; ++seed)
-    rows.push_back(
-        report("stars " + std::to_string(seed), star(2 * seed), star(2 * seed + 1), 1));
+    rows.push_back(report("stars " + std::to_string(seed), star(2 * seed), star(2 * seed + 1), 1));
   return rows;
 }
 
@@ -332,8 +332,8 @@ std::vector<Row> hard_pairs(const std::string& folder, const Wants& wants) {
   for (const auto& [from, source] : shapes)
     for (const auto& [to, target] : shapes)
       if (from != to && wants(from, to))
-        rows.push_back(report(from + " to " + to, source, target,
-                              std::min(measures[from], measures[to])));
+        rows.push_back(
+            report(from + " to " + to, source, target, std::min(measures[from], measures[to])));
   return rows;
 }
 
@@ -355,15 +355,17 @@ bool check_fresh(const std::string& folder) {
 
 int main(int count, char** words) {
   const std::string mode = count > 2 ? words[1] : "";
-  const auto number = [&](int i) { return static_cast<unsigned>(std::strtoul(words[i], nullptr, 10)); };
-  if (mode == "random" && count > 3)
-    return !summary("random", random_pairs(number(2), number(3)));
+  const auto number = [&](int i) {
+    return static_cast<unsigned>(std::strtoul(words[i], nullptr, 10));
+  };
+  if (mode == "random" && count > 3) return !summary("random", random_pairs(number(2), number(3)));
   if (mode == "stars" && count > 3) return !summary("stars", star_pairs(number(2), number(3)));
   if (mode == "hard")
     return !summary("hard", hard_pairs(words[2], [&](const auto& from, const auto& to) {
-      return count < 4 || from == words[3] || from + "-" + to == words[3];
-    }));
+                      return count < 4 || from == words[3] || from + "-" + to == words[3];
+                    }));
   if (mode == "check") return !check_fresh(words[2]);
-  std::puts("outline_pairs random SEED COUNT | stars SEED COUNT | hard FOLDER [NAME] | check FOLDER");
+  std::puts(
+      "outline_pairs random SEED COUNT | stars SEED COUNT | hard FOLDER [NAME] | check FOLDER");
   return 2;
 }

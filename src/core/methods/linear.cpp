@@ -58,8 +58,8 @@ void check_pose(const Rest& rest, const Pose& pose) {
   for (Index i = 0; i < pose.cage.size(); ++i)
     if (pose.cage.degree(i) < 1 || pose.cage.degree(i) > rest.cage.degree(i))
       throw Error(ErrorKind::bad_input,
-                  "posed segment " + std::to_string(i + 1) +
-                      " must have from 1 to " + std::to_string(rest.cage.degree(i)) +
+                  "posed segment " + std::to_string(i + 1) + " must have from 1 to " +
+                      std::to_string(rest.cage.degree(i)) +
                       " control points, as the rest was prepared for, and has " +
                       std::to_string(pose.cage.degree(i)));
   if (pose.pins.size() != rest.pins.size())

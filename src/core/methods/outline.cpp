@@ -127,7 +127,8 @@ class OutlineDeformer final : public Deformer {
     slope_ = {};
   }
 
-  /// Rows sum to one up to rounding, which must not multiply the drawing's distance from the origin.
+  /// Rows sum to one up to rounding, which must not multiply the drawing's distance from the
+  /// origin.
   static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
     const Complex center = match.phi.mean();
     VectorXc f = product(c, VectorXc(match.phi.array() - center)).array() + center;
