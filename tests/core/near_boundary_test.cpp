@@ -140,7 +140,9 @@ TEST_CASE("Maps next to the boundary agree with 50 digits, by every path") {
         }
         INFO("seed " << seed << " round " << round << " size " << made.size << " point " << i
                      << " z " << z.real() << " " << z.imag());
-        CHECK(off <= 1e-9 * made.size + change);
+        // An image is z plus a displacement: where the map squeezes, z's own distance from the
+        // boundary stays.
+        CHECK(off <= 1e-9 * made.size + std::max(change, 16 * ulp));
         CHECK(is_finite(slopes[row]));
         if (!at_vertex) CHECK(slope_off <= 1e-9 + slope_change);
       }
