@@ -19,11 +19,11 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
                      std::ranges::min_element(mesh.vertices, {},
                                               [&](Complex z) { return std::norm(z - center); }) -
                      mesh.vertices.begin());
-  std::vector<std::vector<int>> neighbours(static_cast<size_t>(count));
+  std::vector<std::vector<int>> neighbors(static_cast<size_t>(count));
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
-      neighbours[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
-      neighbours[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
+      neighbors[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
+      neighbors[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
     }
   std::vector<char> reached(static_cast<size_t>(count), 0), outer(static_cast<size_t>(count), 0);
   for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
@@ -31,7 +31,7 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
   reached[static_cast<size_t>(root_)] = 1;
   for (size_t at = 0, end = 0; at < queue.size() || end < last.size();) {
     const int from = at < queue.size() ? queue[at++] : last[end++];
-    for (const int next : neighbours[static_cast<size_t>(from)])
+    for (const int next : neighbors[static_cast<size_t>(from)])
       if (!std::exchange(reached[static_cast<size_t>(next)], 1)) {
         edges_.push_back({from, next});
         (outer[static_cast<size_t>(next)] ? last : queue).push_back(next);

@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-/// A zero of a function, as the argument principle sees it: the centre of a triangle, and how often
+/// A zero of a function, as the argument principle sees it: the center of a triangle, and how often
 /// the values wind around 0 along the triangle's edges.
 struct Zero {
   Complex place;
@@ -19,7 +19,7 @@ std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 /// How often values along a closed loop turn around 0.
 int turns_of(const VectorXc& values);
 
-/// The argument along a closed boundary, from increments between neighbouring samples, less 2 pi
+/// The argument along a closed boundary, from increments between neighboring samples, less 2 pi
 /// per zero at the sample nearest to it, or across the domain from there when that turns the
 /// boundary clearly less: so it is a function again, the sum of all increments is 0. Zeros that are
 /// missing in the list (or too many in it) are made up for where |value| is least. Throws Error

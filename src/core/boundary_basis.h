@@ -13,7 +13,7 @@
 
 namespace holomorph {
 
-/// A part of the domain's boundary between two neighbouring samples.
+/// A part of the domain's boundary between two neighboring samples.
 struct BoundaryPiece {
   Index segment = 0;
   double from = 0, to = 1;  ///< its parameters on the segment
@@ -49,7 +49,7 @@ class BoundaryBasis {
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   Index size() const { return static_cast<Index>(polygon_.size()); }
 
-  /// The samples moved inwards by a share of the distance to their nearer neighbour, and no farther
+  /// The samples moved inwards by a share of the distance to their nearer neighbor, and no farther
   /// than to the middle of a thin part.
   Points inset(double share) const;
 

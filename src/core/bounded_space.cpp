@@ -25,8 +25,8 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
     system_.quadratic.bottomRightCorner(2 * n, 2 * n) = distance_.quadratic();
   }
   take_distance_of_l();
-  centre_ = VectorXd::Zero(system_.unknowns());
-  centre_.head(2 * n) = stacked(tight.middle() * basis_->one());
+  center_ = VectorXd::Zero(system_.unknowns());
+  center_.head(2 * n) = stacked(tight.middle() * basis_->one());
 }
 
 void BoundedSpace::take_distance_of_l() {
@@ -78,9 +78,9 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
 
 ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
   ConeSolution start;
-  start.x = centre_;
-  if (warm && warm->solution.x.size() == centre_.size()) {
-    const VectorXd x = 0.98 * warm->solution.x + 0.02 * centre_;
+  start.x = center_;
+  if (warm && warm->solution.x.size() == center_.size()) {
+    const VectorXd x = 0.98 * warm->solution.x + 0.02 * center_;
     if (is_feasible(system_, x)) {
       start.x = x;
       start.fit_duals = warm->solution.fit_duals;
@@ -118,7 +118,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
   const CertifiedProgram program{certifier_,
                                  settings_.bounds,
                                  system_,
-                                 centre_,
+                                 center_,
                                  [this](const VectorXd& x) { return map_of(x); },
                                  [this](const Points& points, ConeSystem& system) {
                                    append_samples(basis_->whitened(basis_->values(points)), system);

@@ -65,7 +65,7 @@ class BoundedSpace {
   ConeSystem system_;
   HolomorphicDistance distance_;  ///< of nu
   Certifier certifier_;
-  VectorXd centre_;  ///< nu = 0, l in the middle of the bounds
+  VectorXd center_;  ///< nu = 0, l in the middle of the bounds
 };
 
 }  // namespace holomorph

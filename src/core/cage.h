@@ -82,7 +82,7 @@ std::vector<Index> reversed_columns(const Cage& cage);
 /// Cuts segment `segment` at parameter t in (0, 1) by de Casteljau: the curve stays as it is.
 void insert_vertex(Cage& cage, Index segment, double t);
 
-/// What happens to curved neighbours of a vertex that is removed: they follow the old curve by
+/// What happens to curved neighbors of a vertex that is removed: they follow the old curve by
 /// least squares with the larger degree, or become one cubic with the outer tangents.
 enum class Refit { curve, tangents };
 

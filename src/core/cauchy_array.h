@@ -46,9 +46,10 @@ bool has_avx2();
 /// Cauchy coordinates (order 0 or 1) of a cage's control points at points: points x control points.
 /// Orientation, boundary limits and identities as in cauchy_coordinates, but derivatives at
 /// vertices are looked at from 1e-12 of an edge inside, so that finite limits come out. Bases of
-/// degree above 4 take the path of cauchy.h. Points that are near each other should be neighbours
-/// in the list. Cost with AVX2: 3 ns per point and edge of degree 1, 8 ns of degree 3; 0.4 us per
-/// point and curved cubic segment, most of it for the roots.
+/// degree above 4 take the path of cauchy.h. Rows of order 0 sum to one up to 1e-11: products with
+/// control points far from the origin are to be taken from a middle of theirs. Points that are near
+/// each other should be neighbors in the list. Cost with AVX2: 3 ns per point and edge of degree 1,
+/// 8 ns of degree 3; 0.4 us per point and curved cubic segment, most of it for the roots.
 template <class T>
 PlanarMatrix<T> planar_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0,
                                    Kernel kernel = Kernel::automatic);

@@ -140,7 +140,7 @@ CauchySum::Value CauchySum::at(Complex point) const {
       const Complex slope = segment.curve.derivative(root);
       const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)), angle_of(root));
       turns += log.imag();
-      // Where a curve goes on smoothly, its neighbours' extensions come as near: beyond its ends
+      // Where a curve goes on smoothly, its neighbors' extensions come as near: beyond its ends
       // a segment is as far as its end.
       const double beyond = std::max({0.0, -root.s.real(), -root.q.real()});
       const double beside = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);

@@ -20,12 +20,12 @@ std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> so
 
 namespace {
 
-/// A start that lies inside a system, from x towards its centre if need be.
-ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& centre) {
+/// A start that lies inside a system, from x towards its center if need be.
+ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& center) {
   const VectorXd x = start.x;
   for (double share = 0.02; !is_feasible(system, start.x) && share <= 1; share *= 2)
-    start.x = (1 - share) * x + share * centre;
-  if (!is_feasible(system, start.x)) start.x = centre;
+    start.x = (1 - share) * x + share * center;
+  if (!is_feasible(system, start.x)) start.x = center;
   return start;
 }
 
@@ -38,7 +38,7 @@ BoundedMap CertifiedProgram::solved(const ConeTarget& target, const ConeSettings
   ConeSystem cut = system;
   append(cuts, cut);
   return proved(target, settings,
-                holomorph::solved(cut, target, settings, inside(cut, start, centre)), cuts);
+                holomorph::solved(cut, target, settings, inside(cut, start, center)), cuts);
 }
 
 BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings& settings,
@@ -62,15 +62,15 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
     const Points& open = best.certificate.open;
     append(open, cut);
     best.cuts.insert(best.cuts.end(), open.begin(), open.end());
-    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, centre)));
+    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
   }
-  // The centre is certified, and on the way there every enclosure shrinks.
+  // The center is certified, and on the way there every enclosure shrinks.
   const VectorXd x = best.solution.x;
   for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
     best.blend = share;
     ConeSolution nearer = best.solution;
     nearer.iterations = 0;
-    nearer.x = (1 - share) * x + share * centre;
+    nearer.x = (1 - share) * x + share * center;
     take(std::move(nearer));
     if (share == 1) break;
   }

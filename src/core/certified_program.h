@@ -16,7 +16,7 @@ struct BoundedMap {
   int rounds = 0;      ///< of added samples
   Points cuts;         ///< all samples that were added
   int iterations = 0;  ///< of all rounds
-  double blend = 0;    ///< how far towards the centre of the bounds it was moved, to be proved
+  double blend = 0;    ///< how far towards the center of the bounds it was moved, to be proved
 };
 
 /// The bound that the solutions' energies would gain most from if it were wider; none when no bound
@@ -29,13 +29,13 @@ struct CertifiedProgram {
   const Certifier& certifier;
   const Bounds& bounds;  ///< to be proved; the program's own are a little narrower
   const ConeSystem& system;
-  const VectorXd& centre;  ///< feasible, and certified by all means
+  const VectorXd& center;  ///< feasible, and certified by all means
   std::function<LogMap(const VectorXd& x)> map_of;
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
 
   /// Solves from a feasible start, with cuts that are likely to be needed. What cannot be proved is
-  /// cut off by added samples, then moved towards the centre, as far as that itself if need be.
+  /// cut off by added samples, then moved towards the center, as far as that itself if need be.
   /// Cost: that of the program, and again of each round.
   BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
                     const ConeSolution& start, const Points& cuts = {}) const;

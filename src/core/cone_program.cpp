@@ -13,7 +13,7 @@ namespace {
 
 /// After a step shorter than this, which a slack that is curved and nearly used up allows, the next
 /// one goes back towards the central path.
-constexpr double kShort = 0.3, kRecentre = 0.5;
+constexpr double kShort = 0.3, kRecenter = 0.5;
 
 class Solver {
  public:
@@ -34,7 +34,7 @@ class Solver {
     u_ = heights(at_.x);
     push(at_.x, s_);
     check(take_heights(u_, s_), "cone program: the start is strictly feasible");
-    centre_duals();
+    center_duals();
     start_fit(start.fit_duals.size() == k_);
     scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
   }
@@ -79,7 +79,7 @@ class Solver {
   }
 
   /// z = mu s^-1 where there are no multipliers, at a moderate mu or the present one.
-  void centre_duals() {
+  void center_duals() {
     if (at_.z.size() != s_.size()) at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, 0));
     const Index known = std::min(at_.z.empty() ? 0 : at_.z[0].cols(), m_);
     double mu = 0.1 / static_cast<double>(std::max<Index>(m_, 1));
@@ -323,7 +323,7 @@ class Solver {
     for (const Side* side : {&up_, &down_})
       if (k_ > 0) later += (side->s + reach * side->ds).dot(side->z + reach * side->dz);
     double center = std::pow(std::clamp(later / at_.gap, 0.0, 1.0), 3);
-    if (length_ < kShort) center = std::max(center, kRecentre);
+    if (length_ < kShort) center = std::max(center, kRecenter);
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i) {
         const Scaling& scaling = scalings_[c][static_cast<size_t>(i)];

@@ -1,6 +1,6 @@
 // Small dense second-order cone programs: a convex fit under cones at many samples.
 //
-//     minimise   x'Px / 2 + c'x + constant + weight * sum of |fit_k . a - wanted_k|
+//     minimize   x'Px / 2 + c'x + constant + weight * sum of |fit_k . a - wanted_k|
 //     subject to |w_i(b)| <= height_ci(u_i(a))   for each sample i and each cone c,
 //                height(u) = offset + slope u - decay e^-u,
 //

@@ -179,7 +179,7 @@ std::optional<Crossing> self_crossing(std::span<const Complex> polygon) {
 
   const auto cross_at = [&](Index i, Index j) -> std::optional<Complex> {
     const Complex a = at(i), b = at(i + 1), c = at(j), d = at(j + 1);
-    // Neighbours share a vertex by construction: they cross only when one folds back on the other.
+    // Neighbors share a vertex by construction: they cross only when one folds back on the other.
     if ((i + 1) % n == j)
       return orientation(a, b, d) == 0 && dot(a - b, d - b) > 0 ? std::optional(b) : std::nullopt;
     if ((j + 1) % n == i)

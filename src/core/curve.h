@@ -62,7 +62,7 @@ struct Crossing {
   Complex point;
 };
 
-/// The first self-crossing of a closed polygon, or none when it is simple. Neighbouring edges
+/// The first self-crossing of a closed polygon, or none when it is simple. Neighboring edges
 /// cross only when they overlap. Sweep over x-sorted boxes: O(n log n) for ordinary outlines.
 std::optional<Crossing> self_crossing(std::span<const Complex> polygon);
 

@@ -77,7 +77,7 @@ struct Rest {
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
   Points derivative_samples;
-  /// The cage's triangles, for methods that integrate or minimise over them.
+  /// The cage's triangles, for methods that integrate or minimize over them.
   std::shared_ptr<const Mesh> mesh;
   Parameters parameters;
   /// Parameters of other methods by id, for those that follow another one.

@@ -34,8 +34,8 @@ struct Orthonormal {
 Orthonormal orthonormal(MatrixXc a);
 
 /// The x with the least |A x - b|, by Householder's reflections. A has at least as many rows as
-/// columns and full rank. Rows of very different sizes are no trouble when they fall from the
-/// first one on.
+/// columns and full rank. Rows of very different sizes keep their digits when they are
+/// sorted by size, the largest first.
 VectorXc least_squares(MatrixXc a, VectorXc b);
 
 /// A symmetric positive definite matrix as L L^T; reads the lower triangle only.

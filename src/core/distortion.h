@@ -21,7 +21,7 @@ int flipped_triangles(const Mesh& mesh, const VectorXc& f);
 /// Measures of a whole map on a mesh.
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;
-  Points zeros;               ///< centres of the rest triangles around which f_z winds
+  Points zeros;               ///< centers of the rest triangles around which f_z winds
   double turning_number = 0;  ///< of the image of the boundary
   bool simple_boundary = true;
   int flipped_triangles = 0;

@@ -39,14 +39,14 @@ std::vector<double> turning(const Polyline& curve) {
 
 Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
   const Points from = at_equal_lengths(source, kShifts), to = at_equal_lengths(target, kShifts);
-  const Complex centre_from = mean(from), centre_to = mean(to);
+  const Complex center_from = mean(from), center_to = mean(to);
   Index best = 0;
   double least = INFINITY;
   for (Index shift = 0; shift < kShifts; ++shift) {
     double sum = 0;
     for (Index i = 0; i < kShifts; ++i)
-      sum += std::norm(from[static_cast<size_t>(i)] - centre_from -
-                       to[static_cast<size_t>((i + shift) % kShifts)] + centre_to);
+      sum += std::norm(from[static_cast<size_t>(i)] - center_from -
+                       to[static_cast<size_t>((i + shift) % kShifts)] + center_to);
     if (sum < least) least = sum, best = shift;
   }
   return by_equal_shares(source, target, best);

@@ -1,4 +1,4 @@
-// Piecewise linear colour maps over nine anchors.
+// Piecewise linear color maps over nine anchors.
 #include "core/heat.h"
 
 #include "core/error.h"

@@ -1,7 +1,7 @@
-// Heat maps: which quantity a view shows, its range, and the colours.
+// Heat maps: which quantity a view shows, its range, and the colors.
 //
 // Sequential maps follow viridis (matplotlib, CC0), the diverging one ColorBrewer's RdBu; both are
-// readable with every common colour-vision deficiency.
+// readable with every common color-vision deficiency.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ inline bool is_heat(View view) {
   return view == View::angle || view == View::area || view == View::stretch;
 }
 
-/// A range of values and the colours over it.
+/// A range of values and the colors over it.
 struct HeatScale {
   double low = 0, high = 1;
   bool diverging = false;
@@ -40,7 +40,7 @@ Eigen::VectorXd heat_values(View view, const Distortion& distortion);
 HeatScale heat_scale(View view, const Eigen::VectorXd& values, bool automatic);
 
 using Color = std::array<float, 3>;
-/// The colour at `t` in [0, 1] (clamped).
+/// The color at `t` in [0, 1] (clamped).
 Color heat_color(double t, bool diverging);
 /// Position of a value on a scale, clamped to [0, 1]; not-a-number counts as the far end.
 double heat_position(const HeatScale& scale, double value);

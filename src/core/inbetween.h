@@ -39,7 +39,7 @@ class Inbetween {
   Shape shape_of(const VectorXc& f, const Shape* before = nullptr,
                  const ExpectedTurn& expected = {}) const;
 
-  /// By how much each quantity of a shape changes with time at a key between its neighbours, which
+  /// By how much each quantity of a shape changes with time at a key between its neighbors, which
   /// lie `to_before` and `to_after` away: monotone cubics (Fritsch, Carlson 1980); 0 at ends.
   VectorXc slopes(const Shape* before, const Shape& here, const Shape* after, double to_before,
                   double to_after) const;
@@ -65,7 +65,7 @@ class Inbetween {
   Location stillest(const VectorXc& a, const VectorXc& b) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  /// Triangles in an order in which each one but the first has an earlier neighbour.
+  /// Triangles in an order in which each one but the first has an earlier neighbor.
   struct Visit {
     int triangle, from;
   };

@@ -57,7 +57,7 @@ struct Step {
 }  // namespace
 
 Points inner_loop(const Points& polygon, double distance) {
-  constexpr int kHalvings = 8;
+  constexpr int kHalvings = 20;
   const double longest = 3 * distance;
   Points loop = offset_inwards(polygon, distance);
   for (int halving = 0; halving < kHalvings && self_crossing(loop); ++halving) {

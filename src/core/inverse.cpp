@@ -12,7 +12,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 1e-4;  ///< of the control points' box: what `flattened` may be off, twice
+constexpr double kNear = 1e-4;  ///< of the control points' box: twice the error of `flattened`
 constexpr double kSame = 1e-7;  ///< of the size: nearer to each other, preimages are one
 constexpr double kOn = 1e-12;
 constexpr double kBranch = 1e-5;
@@ -188,7 +188,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   const std::optional<int> wanted = winding(w);
   std::vector<Preimage> found = quickly(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
-  // What is beyond the boundary by a little was counted; on it there is no telling.
+  // Points slightly outside were counted. On the boundary itself the count is not defined.
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
     if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
@@ -196,7 +196,10 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   }
   if (oriented(inner) == *wanted) return inner;
   std::vector<Preimage> all = thoroughly(w, *wanted);
-  return oriented(all) == *wanted ? all : found;
+  const auto off = [&](const std::vector<Preimage>& some) {
+    return std::abs(oriented(some) - *wanted);
+  };
+  return off(all) < off(found) ? all : found;
 }
 
 /// From the triangles whose images are around w, or near it.

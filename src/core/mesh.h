@@ -10,7 +10,7 @@ namespace holomorph {
 
 using Triangle = std::array<int, 3>;
 
-/// Counter-clockwise triangles over `vertices`. Neighbouring vertices stand near each other in the
+/// Counter-clockwise triangles over `vertices`. Neighboring vertices stand near each other in the
 /// list, which is what caches and the array path like. Value type.
 struct Mesh {
   Points vertices;
@@ -47,7 +47,7 @@ std::optional<Location> locate(const Mesh& mesh, std::span<const Complex> positi
 Location locate_near(const Mesh& mesh, Complex z);
 
 /// Where derivatives are sampled: each vertex itself, but cage vertices, where f' is in general
-/// infinite, moved to the mean of the centres of the triangles around them.
+/// infinite, moved to the mean of the centers of the triangles around them.
 Points derivative_samples(const Mesh& mesh);
 
 }  // namespace holomorph

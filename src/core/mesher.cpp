@@ -78,8 +78,8 @@ class Sizing {
   }
 
   /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex). Its
-  /// mean is taken at the cells' centres and the area from the polygon: thin parts lie between
-  /// centres.
+  /// mean is taken at the cells' centers and the area from the polygon: thin parts lie between
+  /// centers.
   double expected_vertices(std::span<const Complex> polygon) const {
     double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
     int inside = 0;
@@ -106,7 +106,7 @@ class Sizing {
   std::vector<float> distance_;
 };
 
-/// Refinement criteria: CGAL's angle bound, and the sizing at each triangle's centre.
+/// Refinement criteria: CGAL's angle bound, and the sizing at each triangle's center.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
   using Base = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 
@@ -286,7 +286,7 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   }
 }
 
-/// Moves inner vertices of triangles that settling turned over to the mean of their neighbours.
+/// Moves inner vertices of triangles that settling turned over to the mean of their neighbors.
 void untangle(Mesh& mesh) {
   std::vector<char> outer(mesh.vertices.size(), 0);
   for (const int v : mesh.boundary) outer[v] = 1;

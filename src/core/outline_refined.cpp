@@ -85,10 +85,10 @@ void OutlineFit::take_graded_basis(const Correspondence& start) {
   rules.longest *= degree;
   rules.bent *= degree;
   rules.most /= degree;
-  constexpr double kLeastCurve = 1e-5;  // of shorter ones rounding decides how they bend
+  constexpr double kLeastCurve = 1e-5;  // shorter pieces would bend by rounding
   if (degree > 1) rules.least = kLeastCurve;
   const Thickness thickness(source_);
-  constexpr double kOfThickness = 1.5;  // pieces see the other side of a limb from not too near
+  constexpr double kOfThickness = 1.5;  // so that pieces stay short beside the other side
   cut_lengths_ = graded_cuts(
       kept, [&](double s) { return target_.at(start(s)); },
       [&](double s) { return kOfThickness * thickness(s); }, rules);

@@ -101,14 +101,14 @@ double nearest_length(const Polyline& outline, Complex z) {
 /// Starts a list of arc lengths, once around, where the zipper is best: near the middle, and with a
 /// long step, because all else is as good as its first step is long.
 std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& outline,
-                                   Complex centre) {
+                                   Complex center) {
   constexpr double kNear = 1.4, kLonger = 1.001;
-  const double near = kNear * outline.nearest(centre).distance;
+  const double near = kNear * outline.nearest(center).distance;
   size_t best = 0;
   double longest = 0;
   for (size_t i = 0; i + 1 < lengths.size(); ++i) {
     const double step = lengths[i + 1] - lengths[i];
-    if (step > kLonger * longest && std::abs(outline.at(lengths[i]) - centre) <= near)
+    if (step > kLonger * longest && std::abs(outline.at(lengths[i]) - center) <= near)
       best = i, longest = step;
   }
   std::rotate(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(best), lengths.end());
@@ -117,13 +117,13 @@ std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& 
 }
 
 Seen seen(const Polyline& outline, Sampling sampling) {
-  const Complex centre = middle_point(outline);
+  const Complex center = middle_point(outline);
   std::vector<double> lengths = from_long_step(
-      graded_lengths(outline, nearest_length(outline, centre), sampling.points, sampling.least),
-      outline, centre);
+      graded_lengths(outline, nearest_length(outline, center), sampling.points, sampling.least),
+      outline, center);
   Points points;
   for (const double length : lengths) points.push_back(outline.at(length));
-  RiemannMap map(points, centre);
+  RiemannMap map(points, center);
   std::vector<double> angles(map.angles().begin(), map.angles().end());
   const PeriodicCurve angle_at{std::move(lengths), std::move(angles), outline.length(), 2 * kPi};
   Seen result{&outline, std::move(map), angle_at, angle_at.through_inverse(), {}};

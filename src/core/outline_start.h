@@ -21,7 +21,7 @@ Complex middle_point(const Polyline& outline);
 /// turn.
 struct Correspondence {
   PeriodicCurve lengths;  ///< the target's of the source's
-  double badness = 0;     ///< root of what was minimised
+  double badness = 0;     ///< root of what was minimized
 
   double source_length() const { return lengths.x_period; }
   double target_length() const { return lengths.y_period; }
@@ -36,9 +36,9 @@ struct Correspondence {
 class ConformalStart {
  public:
   /// Both closed, simple and counter-clockwise, and outliving this; pins inside the source. What is
-  /// minimised is the mean square of ln of the relative stretch along the boundary, plus `upright`
+  /// minimized is the mean square of ln of the relative stretch along both outlines, plus `upright`
   /// times the square of the angle by which the picture is turned (with 0, how the two stand does
-  /// not matter), plus 10 times the squares of the hyperbolic distances of the pins' images from
+  /// not matter), plus 1000 times the squares of the hyperbolic distances of the pins' images from
   /// where they are wanted. Throws Error when an outline touches itself. Cost: about 20 ms.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
@@ -50,7 +50,7 @@ class ConformalStart {
   /// those at the ends of strips twelve times as long as wide: no start can be found then.
   bool is_crowded() const;
   /// Whether a hundredth of one of the outlines is seen from its deepest point within 5e-13 of the
-  /// whole turn: what rounding leaves there may not do.
+  /// whole turn: rounding may spoil the map there.
   bool is_near_crowded() const;
   /// With pins wanted there, or without any. Cost: 3 to 25 ms.
   Correspondence best(const Points& pinned = {});

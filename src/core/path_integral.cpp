@@ -14,7 +14,7 @@ constexpr int kNodes = 12;
 /// The ends of a line's panels, as shares of it.
 std::vector<double> panels_of(const Points& polygon, const Line& line) {
   const double length = std::abs(line.to - line.from);
-  constexpr int kMost = 64;
+  constexpr int kMost = 2000;  // along a boundary that is a thousandth of the line away
   std::vector<double> ends{0};
   while (ends.back() < 1 && static_cast<int>(ends.size()) < kMost) {
     const Complex here = line.from + ends.back() * (line.to - line.from);

@@ -9,7 +9,7 @@ namespace holomorph {
 
 class Polyline {
  public:
-  /// Neighbouring points must differ; two points at least, three when it closes. Cost: linear.
+  /// Neighboring points must differ; two points at least, three when it closes. Cost: linear.
   Polyline(Points points, bool closed);
 
   struct Nearest {

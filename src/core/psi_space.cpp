@@ -65,9 +65,9 @@ ConeTarget PsiSpace::target_of(const BoundedReference& reference, const VectorXc
   target.linear = psi.linear;
   target.constant = psi.constant;
   if (pins_.rows() > 0) {
-    const VectorXc centred = (wanted.array() - wanted.mean()).matrix() / size_;
-    target.linear -= pin_weight_ * stacked(pins_.adjoint() * centred);
-    target.constant += 0.5 * pin_weight_ * centred.squaredNorm();
+    const VectorXc centerd = (wanted.array() - wanted.mean()).matrix() / size_;
+    target.linear -= pin_weight_ * stacked(pins_.adjoint() * centerd);
+    target.constant += 0.5 * pin_weight_ * centerd.squaredNorm();
   }
   return target;
 }
@@ -94,19 +94,19 @@ BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference
   if (settings_.bounds.k == 0 || !conformal.certificate.holds) return conformal;
   ConeSystem system = discs_;
   system.cones = discs((conformal_.certifier().coordinates() * l).real());
-  const VectorXd centre = VectorXd::Zero(system.unknowns());
+  const VectorXd center = VectorXd::Zero(system.unknowns());
   const CertifiedProgram program{
       conformal_.certifier(),
       settings_.bounds,
       system,
-      centre,
+      center,
       [&](const VectorXd& x) {
         return LogMap{l, basis_->coefficients(complex_of(x)), LogMap::Second::psi};
       },
       [&](const Points& points, ConeSystem& cut) { append_discs(points, l, cut); }};
   ConeSolution start;
-  start.x = centre;
-  if (warm && warm->solution.x.size() == centre.size())
+  start.x = center;
+  if (warm && warm->solution.x.size() == center.size())
     for (double share = 0.98; share > 0.5; share *= 0.9)
       if (is_feasible(system, share * warm->solution.x)) {
         start.x = share * warm->solution.x;

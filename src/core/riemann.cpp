@@ -70,7 +70,7 @@ Complex RiemannMap::open(const Arc& arc, Complex z) {
       straight.real());
 }
 
-RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex centre) {
+RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex center) {
   const size_t n = polygon.size();
   check(n >= 3, "Riemann map: a polygon of three vertices");
   first_ = polygon[0];
@@ -80,7 +80,7 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex centre) {
   for (size_t i = 2; i < n; ++i) inside.push_back(first_root(polygon[i]));
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   OpenPoints done{{kInfinity, 0}, {kInfinity}};
-  Complex middle = first_root(centre);
+  Complex middle = first_root(center);
   for (size_t k = 0; k < inside.size(); ++k) {
     const Arc centered = centering(middle);
     const Complex a = straightened(centered, inside[k]);
@@ -100,14 +100,14 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex centre) {
   last_ = centering(middle);
   last_.inverse_b = 1 / done.at[0];
   const Complex quarter = straightened(last_, middle);
-  centre_ = -quarter * quarter;
+  center_ = -quarter * quarter;
   set_angles(done);
 }
 
 // The first vertex is at infinity, the others are squares on the negative axis.
 void RiemannMap::set_angles(const OpenPoints& points) {
   const Index n = static_cast<Index>(points.at.size());
-  const double first = points.at[0], u = centre_.real(), v = centre_.imag();
+  const double first = points.at[0], u = center_.real(), v = center_.imag();
   angles_.resize(n);
   steps_.resize(n);
   angles_[0] = 0;
@@ -151,7 +151,7 @@ Complex RiemannMap::in_half_plane(Complex z) const {
 
 Complex RiemannMap::at(Complex z) const {
   const Complex w = in_half_plane(z);
-  return (w - centre_) / (w - std::conj(centre_));
+  return (w - center_) / (w - std::conj(center_));
 }
 
 }  // namespace holomorph

@@ -15,9 +15,9 @@ class RiemannMap {
  public:
   /// For the inside of a simple polygon in counter-clockwise order, three vertices at least, of
   /// which each edge is one arc: the finer the polygon, the nearer the map to that of a smooth
-  /// curve through the vertices. `centre` is the inner point that goes to 0. Throws Error where the
+  /// curve through the vertices. `center` is the inner point that goes to 0. Throws Error where the
   /// polygon's vertices coincide. Cost: half of vertices^2 square roots.
-  RiemannMap(std::span<const Complex> polygon, Complex centre);
+  RiemannMap(std::span<const Complex> polygon, Complex center);
 
   /// To the unit disk; for points inside. Cost: one square root for each vertex.
   Complex at(Complex z) const;
@@ -49,7 +49,7 @@ class RiemannMap {
   Complex first_, second_;  ///< vertices
   std::vector<Arc> arcs_;
   Arc last_;        ///< takes the first vertex to infinity
-  Complex centre_;  ///< in the half-plane
+  Complex center_;  ///< in the half-plane
   VectorXd angles_, steps_;
 };
 

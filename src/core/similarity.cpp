@@ -1,4 +1,4 @@
-// Centres go to centres; the factor is a quotient of sums of products.
+// Centers go to centers; the factor is a quotient of sums of products.
 #include "core/similarity.h"
 
 #include "core/error.h"

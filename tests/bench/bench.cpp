@@ -356,6 +356,8 @@ const Entry kEntries[] = {
      [](int) { return outline_figures(true).median_ms; }},
     {"outline: iterations to 1.01 of the last distance, 100 vertices, slowest of 30 pairs", "ms",
      16, 3, outline_iterations_ms},
+    {"outline: hard pairs (disk to star, square to E and others), slowest of six", "ms", 2000, 1,
+     [](int) { return hard_outline_ms(); }},
     {"strokes: drag, 5 strokes of 20 samples, without the map", "ms", 2, 101, strokes_drag_ms},
     {"angles: prepare, 20 corners, 10k vertices", "ms", 500, 5, angles_prepare_ms},
     {"angles: drag of a corner, 40 angles, 10k vertices", "ms", 2, 51, angles_drag_ms},

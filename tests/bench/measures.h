@@ -19,6 +19,8 @@ inline constexpr int kOutlinePairs = 30;
 /// The iterations alone, 100 vertices and 400 samples, until the distance is within 1 % of its last
 /// value: of the slowest of the pairs.
 double outline_iterations_ms(int runs);
+/// The slowest of six hard pairs, from nothing.
+double hard_outline_ms();
 
 /// Hilbert coordinates and the angle map of 20 corners at 10k mesh vertices; a frame in which one
 /// corner is dragged, and one from nothing.

@@ -6,6 +6,7 @@
 #include "core/deformer.h"
 #include "core/mesher.h"
 #include "core/outline_match.h"
+#include "support/hard_outlines.h"
 #include "support/outlines.h"
 
 namespace holomorph::bench {
@@ -50,7 +51,7 @@ OutlineFigures outline_figures(bool published) {
     const OutlineMatch match = matched({pair.cage, pair.outline, {}, {}}, settings);
     times.push_back(now_ms() - start);
     figures.reached +=
-        match.zeros == 0 && match.hausdorff < 0.01 * Polyline(pair.outline, true).diagonal();
+        match.zeros == 0 && match.hausdorff < 0.01 * Polyline(pair.outline, true).diameter();
   }
   std::nth_element(times.begin(), times.begin() + kOutlinePairs / 2, times.end());
   figures.median_ms = times[kOutlinePairs / 2];
@@ -71,6 +72,22 @@ double outline_iterations_ms(int runs) {
     slowest = std::max(slowest, all * needed / std::max(fit.iterations(), 1));
   }
   return slowest;
+}
+
+double hard_outline_ms() {
+  const auto shapes = outlines::hard_shapes();
+  const auto shape = [&](const std::string& name) {
+    return std::ranges::find(shapes, name, &std::pair<std::string, Points>::first)->second;
+  };
+  double longest = 0;
+  for (const auto& [from, to] :
+       {std::pair("disk", "star"), std::pair("square", "E"), std::pair("disk", "hourglass"),
+        std::pair("star", "comb"), std::pair("E", "H"), std::pair("comb", "disk")}) {
+    const double start = now_ms();
+    matched({polygon_cage(shape(from)), shape(to), {}, {}}, {});
+    longest = std::max(longest, now_ms() - start);
+  }
+  return longest;
 }
 
 double strokes_drag_ms(int runs) {

@@ -110,7 +110,7 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {0, 0}, {10, 0}, {0, 10}})),
              Catch::Contains("no length"));
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {NAN, 0}, {0, 10}})),
-             Catch::Contains("no number"));
+             Catch::Contains("not a finite number"));
   // A spike that ends a few units in the last place above another edge.
   const double tip = 10 * (1 + 4e-16);
   CHECK_THAT(message(polygon_cage(

@@ -238,7 +238,7 @@ TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees
 }
 
 TEST_CASE("Curved rest: single points on the boundary are their own segment's, however it is cut") {
-  // Where a segment was cut, its neighbours' extensions pass through its points, too.
+  // Where a segment was cut, its neighbors' extensions pass through its points, too.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> by(-1, 1);
   for (const bool straight : {true, false}) {

@@ -343,7 +343,7 @@ TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins"
     pose.pins.push_back({z + data[i], 0});
     rest.samples.push_back(center + std::polar(45.0, 0.7 * i));
   }
-  // minimise  smoothness mean |L^2 h''|^2 + weight mean |h - data|^2  over h = C g, by one QR.
+  // minimize  smoothness mean |L^2 h''|^2 + weight mean |h - data|^2  over h = C g, by one QR.
   const double length = perimeter(polygon) / (2 * kPi), m = 5, n = 100;
   std::vector<BoundaryPoint> midpoints;
   for (Index e = 0; e < cage.size(); ++e) midpoints.push_back({e, 0.5});
@@ -423,7 +423,7 @@ TEST_CASE("A pin that turns also scales") {
             .maxCoeff() < 1e-8);
 }
 
-TEST_CASE("The pins' correction minimises the smoothness energy among maps that meet them") {
+TEST_CASE("The pins' correction minimizes the smoothness energy among maps that meet them") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;
@@ -693,16 +693,26 @@ TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the p
 TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
   for (const Method& method : methods()) {
     const Setup whole = setup(method, Precision::full);
-    const auto is_refused = [&](const Setup& s) {
+    const auto throws = [](const std::function<void()>& call) {
       try {
-        SampledMap map;
-        method.prepare(s.rest, nullptr)->deform(s.pose, map, {true});
+        call();
       } catch (const Error& error) {
         CHECK(error.kind() == ErrorKind::bad_input);
         CHECK(std::string(error.what()).size() > 10);
         return true;
       }
       return false;
+    };
+    const auto is_refused = [&](const Setup& s) {
+      std::unique_ptr<Deformer> deformer;
+      if (throws([&] { deformer = method.prepare(s.rest, nullptr); })) return true;
+      SampledMap map;
+      const bool refused = throws([&] { deformer->deform(s.pose, map, {true}); });
+      CHECK(throws([&] { deformer->deform(s.pose, map, {.draft = true}); }) == refused);
+      std::unique_ptr<PointMap> points;
+      const bool none = throws([&] { points = deformer->point_map(s.pose); }) || !points;
+      if (refused) CHECK(none);
+      return refused;
     };
     REQUIRE_FALSE(is_refused(whole));
     for (const Damage& damage : damages()) {

@@ -18,9 +18,9 @@ using namespace holomorph;
 
 namespace {
 
-Points circle(Complex centre, double radius, int n) {
+Points circle(Complex center, double radius, int n) {
   Points points;
-  for (int i = 0; i < n; ++i) points.push_back(centre + radius * std::polar(1.0, 2 * kPi * i / n));
+  for (int i = 0; i < n; ++i) points.push_back(center + radius * std::polar(1.0, 2 * kPi * i / n));
   return points;
 }
 
@@ -53,14 +53,14 @@ struct Onto {
 }  // namespace
 
 TEST_CASE("Riemann map: of a disk it is a map of the disk to itself") {
-  const Complex middle(3, 1), centre(3.5, 1.2);
+  const Complex middle(3, 1), center(3.5, 1.2);
   constexpr double kArcs = 2e-6;  // 400 vertices, each arc a third-order fit
-  const RiemannMap map(circle(middle, 2, 400), centre);
+  const RiemannMap map(circle(middle, 2, 400), center);
   const auto exact = [&](Complex z) {
-    const Complex u = (z - middle) / 2.0, a = (centre - middle) / 2.0;
+    const Complex u = (z - middle) / 2.0, a = (center - middle) / 2.0;
     return (u - a) / (1.0 - std::conj(a) * u);
   };
-  CHECK(std::abs(map.at(centre)) <= 1e-12);
+  CHECK(std::abs(map.at(center)) <= 1e-12);
   const Complex turn = map.at({4, 2}) / exact({4, 2});
   CHECK(std::abs(std::abs(turn) - 1) <= kArcs);
   for (const Complex z : {Complex(3, 1), Complex(2, 0.5), Complex(3.1, 2.7), Complex(4.9, 1)})

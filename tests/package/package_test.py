@@ -76,8 +76,9 @@ class Package(unittest.TestCase):
             self.assertIn(part, text)
         self.assertIn("/usr/share/common-licenses/GPL-3", text)
         with open(os.path.join(doc, "README.md")) as file:
-            linked = re.findall(r"\]\(((?:docs|schema)/[^)#]+)\)", file.read())
-        self.assertTrue(any(name.startswith("schema/") for name in linked) and len(linked) > 5, linked)
+            linked = [name for name in re.findall(r"\]\(([^)#]+)\)", file.read()) if not name.startswith("http")]
+        for name in ("schema/scene.schema.json", "assets", "src/DECISIONS.md"):
+            self.assertIn(name, linked)
         for name in linked:
             self.assertTrue(os.path.exists(os.path.join(doc, name)), name)
 

@@ -96,16 +96,16 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
     const double mu = count > 0 ? s.dot(z) / static_cast<double>(count) : 0;
     std::vector<Eigen::Matrix4d> blocks = identity_blocks(t);
     VectorXd pull = weighted(t, y - g);
-    const double centre = 0.2 * mu;
+    const double center = 0.2 * mu;
     for (Index r = 0; r < count; ++r) {
       const Element n = normals.segment<4>(4 * rows[r]);
       blocks[static_cast<size_t>(rows[r])] += z[r] / s[r] * n * n.transpose();
-      pull.segment<4>(4 * rows[r]) += (z[r] * off[r] + centre) / s[r] * n;
+      pull.segment<4>(4 * rows[r]) += (z[r] * off[r] + center) / s[r] * n;
     }
     t.factor(blocks);
     const VectorXd dx = t.solve(-t.adjoint(pull));
     const VectorXd ds = -off - along(t.apply(dx));
-    const VectorXd dz = (centre - s.array() * z.array() - z.array() * ds.array()) / s.array();
+    const VectorXd dz = (center - s.array() * z.array() - z.array() * ds.array()) / s.array();
     double length = 1;
     for (Index r = 0; r < count; ++r) {
       if (ds[r] < 0) length = std::min(length, -0.95 * s[r] / ds[r]);

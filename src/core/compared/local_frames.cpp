@@ -163,8 +163,8 @@ class LocalFrames {
       if (distance(moved) + mu * barrier_value(moved, r) > now + 0.1 * length * slope) continue;
       x_ += length * dx;
       r_ = r;
-      constexpr double kCentred = 1e-2;  // Newton's decrement, squared, in units of mu
-      return -slope > kCentred * mu;
+      constexpr double kCenterd = 1e-2;  // Newton's decrement, squared, in units of mu
+      return -slope > kCenterd * mu;
     }
     return false;
   }

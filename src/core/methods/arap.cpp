@@ -76,7 +76,7 @@ class ArapDeformer final : public Deformer {
                     ? mesh_.vertices[static_cast<size_t>(i)]
                     : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
     } else {
-      out.iterations = minimise(targets, wanted.draft);
+      out.iterations = minimize(targets, wanted.draft);
       if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
         out.status = SampledMap::Status::iterating;
     }
@@ -121,7 +121,7 @@ class ArapDeformer final : public Deformer {
     f_ = conformal_.solve(right);
   }
 
-  int minimise(const Points& targets, bool draft) {
+  int minimize(const Points& targets, bool draft) {
     if (!draft || f_.size() == 0) start(targets);
     const int most = draft ? kDraftIterations : kMostIterations;
     int iteration = 0;

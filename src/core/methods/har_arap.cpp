@@ -40,7 +40,7 @@ class HarArapDeformer final : public Deformer {
     out = SampledMap{};
     out.note = handles_.note();
     if (const auto rigid = handles_.rigid(targets)) return move_rigidly(*rigid, out, wanted);
-    out.iterations = minimise(targets, wanted.draft);
+    out.iterations = minimize(targets, wanted.draft);
     if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
       out.status = SampledMap::Status::iterating;
     out.f = product(values_, phi_) + product(values_, psi_).conjugate();
@@ -129,7 +129,7 @@ class HarArapDeformer final : public Deformer {
     psi_.imag() = x.segment(3 * n, n);
   }
 
-  int minimise(const Points& targets, bool draft) {
+  int minimize(const Points& targets, bool draft) {
     const VectorXd handles = handle_right(targets);
     if (!draft || phi_.size() == 0) take(conformal_.solve(handles));
     const Index n = basis_.size();

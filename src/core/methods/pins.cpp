@@ -2,7 +2,7 @@
 // be: the energy mean |h''|^2 over the boundary, at the midpoints of straight edges (Segall,
 // Ben-Chen 2016, E_s and E_p2p; Lin, Chen 2024, 4.5, where the cage is curved).
 //
-// With the energy's rows in QR form, R g = y, the minimiser is spanned by the pins themselves, as
+// With the energy's rows in QR form, R g = y, the minimizer is spanned by the pins themselves, as
 // thin-plate splines are: (M M* + ridge) lambda + T c = data with M = P R^-1 and T the affine maps,
 // which cost nothing. A soft pin is a ridge, an exact one is none; a system of the pins' number is
 // all that a pin more costs, besides its column of the operator.
@@ -82,7 +82,7 @@ struct PinBasis {
     rows.topRows(n) = cauchy_coordinates(basis, smoothness_places(basis), 2) *
                       (length * length / std::sqrt(static_cast<double>(n)));
     // The energy leaves affine maps free; two rows at an inner point make R invertible. They do not
-    // change the minimiser, because the affine part is solved for separately.
+    // change the minimizer, because the affine part is solved for separately.
     const Complex anchor = inner_point();
     rows.row(n) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
     rows.row(n + 1) = length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);

@@ -3,7 +3,7 @@
 // (E_r) and as conformal as wanted.
 //
 // f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
-// minimised by alternating least squares. Without strokes it is method `pins`.
+// minimized by alternating least squares. Without strokes it is method `pins`.
 #include <cstdio>
 
 #include "core/alternating_fit.h"
