@@ -15,7 +15,7 @@ _holomorph() {
   elif [[ $word == -* ]]; then
     [ "$COMP_CWORD" -gt 1 ] || command=
     # shellcheck disable=SC2086
-    mapfile -t COMPREPLY < <(compgen -W "$(holomorph $command --help 2>/dev/null | grep -oE -- '--[a-z-]+')" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "$(holomorph $command --help 2>/dev/null | grep -oE -- '--[a-z-]+' | sort -u)" -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -- "$word")
   fi

@@ -57,15 +57,18 @@ void run(const NewCommand& command) {
   if (!command.force && !is_standard(command.out) && std::filesystem::is_regular_file(command.out))
     throw Error(ErrorKind::failed,
                 command.out.string() + ": the file already exists; --force replaces it");
+  if (command.margin && !(*command.margin >= 0))
+    throw Error(ErrorKind::bad_input, "--margin: the distance cannot be below 0");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
   say_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
   Scene scene = with_cage(
-      loaded.scene, command.cage
-                        ? cage_of_file(*command.cage, picture)
-                        : auto_cage(picture, {command.vertices, command.margin, command.curved}));
+      loaded.scene,
+      command.cage
+          ? cage_of_file(*command.cage, picture)
+          : auto_cage(picture, {command.vertices, command.margin.value_or(-1), command.curved}));
   check_rest_cage(scene.rest);
   if (command.pose)
     scene.pose =
@@ -88,7 +91,7 @@ void run(const NewCommand& command) {
   const std::string text = json_of(portable(scene, absolute(command.out).parent_path()));
   scene_from_json(text, command.out.string());  // what could not be read again is not written
   write_result(command.out, text);
-  std::fprintf(stderr, "%s: a cage with %zu vertices\n", command.out.c_str(),
+  std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
                static_cast<size_t>(scene.rest.size()));
 }
 

@@ -43,7 +43,7 @@ struct NewCommand {
   Path image, out;
   bool force = false;  ///< replaces existing scenes, too
   int vertices = 30;
-  double margin = -1;
+  std::optional<double> margin = {};  ///< pixels; none: 2 % of the longer side
   bool curved = false;
   std::optional<Path> cage;     ///< SVG file, or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file

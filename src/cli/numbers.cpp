@@ -66,7 +66,7 @@ void run(const MapCommand& command) {
 
 void run(const InverseCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
-  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  const auto [scene, points] = read_scene_and_points(command.scene, command.points, true);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("inverse: point");
   std::string out = std::string(moments[0].frame ? "frame," : "") +

@@ -113,7 +113,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
         loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
-  std::fprintf(stderr, "%s: %d frames of %s\n", command.out.c_str(), film->count,
+  std::fprintf(stderr, "%s: %d frames of %s\n", shown_output(command.out).c_str(), film->count,
                rectangle_text(film->width, film->height, film->corner).c_str());
 }
 
@@ -222,7 +222,7 @@ void run(const RenderCommand& command) {
     bytes = format.encode(result.image);
   }
   write_result(command.out, bytes);
-  std::fprintf(stderr, "%s: %s\n", command.out.c_str(),
+  std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(),
                rectangle_text(result.image.width, result.image.height, result.corner).c_str());
 }
 
@@ -239,7 +239,7 @@ void run(const ExportCommand& command) {
   if (is_film(format)) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_result(command.out, bytes);
-  std::fprintf(stderr, "%s: %zu bytes\n", command.out.c_str(), bytes.size());
+  std::fprintf(stderr, "%s: %zu bytes\n", shown_output(command.out).c_str(), bytes.size());
 }
 
 }  // namespace holomorph

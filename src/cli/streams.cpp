@@ -18,6 +18,10 @@ std::string shown_name(const Path& input) {
   return is_standard(input) ? "standard input" : input.string();
 }
 
+std::string shown_output(const Path& out) {
+  return is_standard(out) ? "standard output" : out.string();
+}
+
 std::string read_input(const Path& input) {
   return is_standard(input) ? read_standard_input() : read_stream(input);
 }
@@ -47,13 +51,13 @@ void require_cage(const Scene& scene, const Path& input) {
                                           "the editor or make one with 'holomorph new'");
 }
 
-SceneAndPoints read_scene_and_points(const Path& scene, const Path& points) {
+SceneAndPoints read_scene_and_points(const Path& scene, const Path& points, bool takes_nan) {
   if (is_standard(points) && is_standard(scene))
     throw Error(ErrorKind::bad_input,
                 "standard input is the scene or the points, not both: name a file for one of them");
   SceneAndPoints read{read_scene(scene).scene, {}};
   require_cage(read.scene, scene);
-  read.points = points_of_csv(read_input(points), shown_name(points));
+  read.points = points_of_csv(read_input(points), shown_name(points), takes_nan);
   return read;
 }
 

@@ -8,8 +8,9 @@
 namespace holomorph {
 
 bool is_standard(const Path& path);
-/// How messages call an input: its path, or "standard input".
+/// How messages call an input or output: its path, or "standard input", "standard output".
 std::string shown_name(const Path& input);
+std::string shown_output(const Path& out);
 
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
@@ -23,7 +24,8 @@ struct SceneAndPoints {
   Scene scene;
   Points points;
 };
-SceneAndPoints read_scene_and_points(const Path& scene, const Path& points);
+/// `takes_nan`: rows that are nan, as `map` writes them, are points, too.
+SceneAndPoints read_scene_and_points(const Path& scene, const Path& points, bool takes_nan = false);
 
 /// Throws Error where `out` is one of a command's own inputs or, unless forced, read-only.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);

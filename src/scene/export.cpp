@@ -78,7 +78,7 @@ std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int ima
   return out;
 }
 
-Points points_of_csv(const std::string& text, const std::string& name) {
+Points points_of_csv(const std::string& text, const std::string& name, bool takes_nan) {
   Points points;
   std::istringstream lines(text);
   std::string line;
@@ -92,7 +92,7 @@ Points points_of_csv(const std::string& text, const std::string& name) {
     bool good = true;
     for (double& x : pair) {
       x = std::strtod(at, &end);
-      good = good && end != at && std::isfinite(x);
+      good = good && end != at && (std::isfinite(x) || (takes_nan && std::isnan(x)));
       at = end;
     }
     good = good &&

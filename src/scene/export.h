@@ -21,6 +21,6 @@ std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int ima
 
 /// The points of a CSV file: two numbers a line, separated by comma, semicolon or blanks; a first
 /// line that is no pair of numbers is a heading. Throws Error naming the line.
-Points points_of_csv(const std::string& text, const std::string& name);
+Points points_of_csv(const std::string& text, const std::string& name, bool takes_nan = false);
 
 }  // namespace holomorph

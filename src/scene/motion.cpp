@@ -155,7 +155,13 @@ const Pose* Motion::pose_at(double time) const {
   for (const Key& key : keys_)
     if (std::abs(key.time - time) < kHere) return &key.pose;
   const auto [i, u] = place_of(time);
-  return u == 0 ? &keys_[i].pose : nullptr;
+  if (u == 0) return &keys_[i].pose;
+  // Between two keys of one pose nothing moves, unless the motion swings through them.
+  constexpr double kStill = 1e-9;  // of the size
+  const Key &from = keys_[i], &to = keys_[i + 1];
+  if (!(from.pose == to.pose) || to.turns != 0) return nullptr;
+  const double moved = (map_at(time) - from.shape.f).cwiseAbs().maxCoeff();
+  return moved <= kStill * box_of(between_->mesh().vertices).diagonal() ? &from.pose : nullptr;
 }
 
 double Motion::turned_at(double time) const {

@@ -417,6 +417,25 @@ class CommandLine(Case):
         for frame, report in zip(range(5), frames):
             self.assertEqual(report["time"], frame / 4)
 
+    def test_between_two_equal_keys_the_map_is_theirs(self):
+        scene = self.keyed_scene()
+        bent = {"cage": [[[15, 10]], [[70, 20]], [[40, 60]], [[0, 35]]]}
+        scene["keyframes"] = [{"time": 0, "pose": bent}, {"time": 0.6, "pose": bent}, {"time": 1, "pose": {}}]
+        scene["method"] = {"id": "bounded"}
+        frames = json.loads(self.good("info", self.write("s.json", scene), "--frames", "all", "--json").stdout)
+        self.assertEqual([f["status"] for f in frames][:2], ["certified"] * 2)
+        self.assertEqual(frames[1]["max_k"], frames[0]["max_k"])
+        self.assertEqual(frames[3]["status"], "blended")
+
+    def test_what_map_could_not_map_goes_through_inverse(self):
+        path = self.write("s.json", dict(self.keyed_scene(), keyframes=[]))
+        mapped = self.good("map", path, "--points", self.write("p.csv", "20,20\n999,999\n30,25\n")).stdout
+        pairs = "".join(",".join(row.split(",")[:2]) + "\n" for row in mapped.split())
+        rows = list(csv.reader(io.StringIO(self.good("inverse", path, "--points", "-", input=pairs).stdout)))[1:]
+        self.assertEqual([row[3] for row in rows], ["1", "0", "1"])
+        self.assertEqual(rows[1][:2], ["nan", "nan"])
+        self.bad("map", path, "--points", self.write("n.csv", "nan,nan\n"), says="line 1")
+
     def test_keyframes_that_do_not_fit_are_an_error_and_not_a_still(self):
         other = {**self.keyed_scene(), "keyframes": [{"time": 0, "pose": {"cage": [[[0, 0]], [[1, 0]], [[0, 1]]]}}]}
         path, points = self.write("other.json", other), self.write("points.csv", "20,20\n")
