@@ -197,8 +197,9 @@ class Files(Case):
     def test_stopped_commands_end_with_130_and_leave_nothing(self):
         print("seed", SEED)
         draw = random.Random(SEED)
-        commands = [["info", FERN, "--frames", "all"], ["map", FERN, "--points", self.points, "--frames", "all"],
-                    ["render", FERN, "--scale", "4", "--out", self.path("o.png")],
+        many = self.write("many.csv", "20,20\n" * 20000)
+        commands = [["info", FERN, "--frames", "all"], ["map", FERN, "--points", many, "--frames", "all"],
+                    ["render", FERN, "--scale", "8", "--out", self.path("o.png")],
                     ["render", FERN, "--frames", "all", "--out", self.path("o.png")],
                     ["export", FISH, "--format", "stmap", "--out", self.path("o.npy")], ["bench"],
                     *(["export", FERN, "--format", kind, "--out", self.path("o." + kind)]
@@ -208,7 +209,7 @@ class Files(Case):
                 with self.subTest(words=words, stop=stop):
                     process = subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                                text=True, env=self.paths)
-                    time.sleep(draw.uniform(0.1, 1))
+                    time.sleep(draw.uniform(0.1, 0.4))
                     process.send_signal(stop)
                     said = process.communicate(timeout=20)[1]
                     self.assertEqual(process.returncode, 130, said)
