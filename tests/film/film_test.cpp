@@ -40,13 +40,13 @@ TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
     // behind the last one.
     for (const int calls : {0, 5, 13, 20, 26}) {
       int left = calls;
-      const bool there = write_film(out, film_scene(), &image, {}, [&](int done, int all) {
+      const auto there = write_film(out, film_scene(), &image, {}, [&](int done, int all) {
         CHECK(all == 13);
         CHECK(done <= all);
         return left-- > 0;
       });
       INFO("cancelled after " << calls);
-      CHECK_FALSE(there);
+      CHECK_FALSE(there.has_value());
       CHECK(folder.names() == std::vector<std::string>{before.filename().string()});
       CHECK(read_file(before) == "what was there");
     }
