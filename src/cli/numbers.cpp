@@ -40,7 +40,7 @@ void run(const MapCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
   const auto [scene, points] = read_scene_and_points(command.scene, command.points);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
-  Progress progress("map: frame");
+  Progress progress("map", "frame");
   std::vector<char> inside;
   for (const Complex& z : points) inside.push_back(contains(scene.rest, z));
   std::string out =
@@ -68,7 +68,7 @@ void run(const InverseCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
   const auto [scene, points] = read_scene_and_points(command.scene, command.points, true);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
-  Progress progress("inverse: point");
+  Progress progress("inverse", "point");
   std::string out = std::string(moments[0].frame ? "frame," : "") +
                     (command.all ? "point,x,y,residual,count\n" : "x,y,residual,count\n");
   TimedMap timed(scene);
@@ -114,7 +114,7 @@ void run(const InfoCommand& command) {
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   std::vector<SceneReport> reports;
   {
-    Progress progress("info: frame");
+    Progress progress("info", "frame");
     TimedMap timed(scene);
     for (size_t k = 0; k < moments.size(); ++k) {
       progress.step(k, moments.size());

@@ -34,7 +34,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
   const TidyStop tidy;
   std::string said;
   {
-    Progress progress("render: frame");
+    Progress progress("render", "frame");
     const size_t count = static_cast<size_t>(range.last - range.first + 1);
     PictureMaker maker(scene, loaded.image(), loaded.pictures);
     if (!command.crop)
@@ -103,7 +103,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   if (is_standard(out)) out = folder.emplace().path() / ("film." + command.format);
   std::optional<FilmFrame> film;
   {
-    Progress progress("export: frame");
+    Progress progress("export", "frame");
     film = write_film(
         out, loaded.scene, loaded.image(), options,
         [&](int done, int all) {
@@ -134,7 +134,7 @@ void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
 std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   const std::string& format = command.format;
   require_cage(loaded.scene, command.scene);
-  Progress progress(format == "stmap" ? "export: row" : "export");
+  Progress progress("export", "row");
   const std::optional<double>& time = command.moments.time;
   const double scale = command.scale.value_or(1);
   if (format == "unwarp") return encode_png(unwarped(loaded.scene, loaded.image(), scale, time));

@@ -49,7 +49,7 @@ void stop_if_interrupted() {
   if (interrupted) throw Interrupted{};
 }
 
-Progress::Progress(const std::string& what) : what_(what) {
+Progress::Progress(const std::string& what, const std::string& unit) : what_(what), unit_(unit) {
   if (::isatty(STDERR_FILENO)) shown_ = std::jthread([this](std::stop_token s) { show(s); });
 }
 
@@ -78,7 +78,7 @@ void Progress::show(const std::stop_token& stop) const {
     const size_t done = done_, all = all_;
     any = true;
     std::fprintf(stderr, "\r\033[K%s", what_.c_str());
-    if (all > 1) std::fprintf(stderr, " %zu of %zu", done, all);
+    if (all > 1) std::fprintf(stderr, ": %s %zu of %zu", unit_.c_str(), done, all);
     std::fprintf(stderr, ", %.0f s", (now_ms() - start) / 1000);
   }
   if (any) std::fprintf(stderr, "\r\033[K");

@@ -26,10 +26,12 @@ bool is_interrupted();
 /// Throws Interrupted.
 void stop_if_interrupted();
 
-/// On a terminal a line of what is being done, from the first second on.
+/// On a terminal a line of what is being done, from the first second on: "render: frame 3 of 24, 2
+/// s".
 class Progress {
  public:
-  explicit Progress(const std::string& what);
+  /// `unit` is what steps are.
+  explicit Progress(const std::string& what, const std::string& unit = "step");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -39,7 +41,7 @@ class Progress {
  private:
   void show(const std::stop_token& stop) const;
 
-  std::string what_;
+  std::string what_, unit_;
   std::atomic<size_t> done_ = 0, all_ = 0;
   std::jthread shown_;  ///< last, so that it ends before what it shows
 };
