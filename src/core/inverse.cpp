@@ -171,7 +171,17 @@ void InverseMap::add(Complex w, Complex start, int triangle, std::vector<Preimag
   if (!improve(w, preimage)) return;
   for (const Preimage& other : found)
     if (std::abs(other.z - preimage.z) < kSame * size_) return;
-  if (is_inside(preimage.z)) found.push_back(preimage);
+  if (is_in_inner_triangle(preimage) || is_inside(preimage.z)) found.push_back(preimage);
+}
+
+/// Whether a preimage is in its own triangle and that is away from the boundary: then it is inside.
+bool InverseMap::is_in_inner_triangle(const Preimage& preimage) const {
+  if (preimage.triangle < 0) return false;
+  const auto [i, j, k] = mesh_.triangles[preimage.triangle];
+  if (outer_[i] || outer_[j] || outer_[k]) return false;
+  const Complex a = mesh_.vertices[i] - preimage.z, b = mesh_.vertices[j] - preimage.z,
+                c = mesh_.vertices[k] - preimage.z;
+  return cross(a, b) >= 0 && cross(b, c) >= 0 && cross(c, a) >= 0;
 }
 
 bool InverseMap::is_inside(Complex z) const {

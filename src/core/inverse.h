@@ -57,6 +57,7 @@ class InverseMap {
   size_t cell_of(Complex w) const;
   bool improve(Complex w, Preimage& start) const;
   bool is_inside(Complex z) const;
+  bool is_in_inner_triangle(const Preimage& preimage) const;
   void add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const;
   Complex pulled_inside(Complex start, int triangle) const;
   std::vector<Preimage> quickly(Complex w, std::optional<int> wanted) const;
