@@ -11,6 +11,9 @@ double rounding_at(Complex w, Complex f) {
   return 1e-13 * (std::abs(w) + std::abs(f));
 }
 
+/// Of the squares of an arc's chord and bulge: farther away than three times their sum, w is clear.
+constexpr double kFar = 9;
+
 /// Whether w is farther from the piece's chord than its arc may be.
 bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
   return nearest_on_segment(piece.from, piece.to, w).distance >
@@ -60,7 +63,29 @@ std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int dept
   return *before + *after;
 }
 
+// The polygon of the chords winds as often as it crosses the ray from w to the right; arcs that w
+// is not clear of turn by more or less than their chords.
 std::optional<int> ImageWinding::turns(std::span<const Piece> loop, Complex w) const {
+  int crossings = 0;
+  double more = 0;
+  for (const Piece& piece : loop) {
+    const Complex a = piece.from - w, b = piece.to - w;
+    if ((a.imag() <= 0) != (b.imag() <= 0)) {
+      const double side = cross(a, b);
+      if (side == 0) return turns_by_angles(loop, w);
+      if ((side > 0) == (b.imag() > 0)) crossings += side > 0 ? 1 : -1;
+    }
+    if (std::norm(a) > kFar * (std::norm(b - a) + piece.bulge * piece.bulge) &&
+        std::norm(a) > kFar * rounding_at(w, piece.from) * rounding_at(w, piece.from))
+      continue;
+    const auto part = turn(piece, w);
+    if (!part) return {};
+    more += *part - std::atan2(cross(a, b), dot(a, b));
+  }
+  return crossings + static_cast<int>(std::lround(more / (2 * kPi)));
+}
+
+std::optional<int> ImageWinding::turns_by_angles(std::span<const Piece> loop, Complex w) const {
   double sum = 0;
   for (const Piece& piece : loop) {
     const auto part = turn(piece, w);

@@ -47,6 +47,7 @@ class ImageWinding {
  private:
   Piece piece_between(const Arc& arc, Complex from, Complex to) const;
   std::optional<double> turn(const Piece& piece, Complex w, int depth) const;
+  std::optional<int> turns_by_angles(std::span<const Piece> loop, Complex w) const;
 
   const Cage& cage_;
   const PointMap& map_;
