@@ -35,8 +35,7 @@ AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
     check(vertex != corners_.end(), "angle ways: the mesh is one of the cage");
     vertex_at_[static_cast<size_t>(node)] = static_cast<int>(vertex - corners_.begin());
   }
-  on_boundary_.assign(nodes_.size(), false);
-  for (const int node : mesh.boundary) on_boundary_[static_cast<size_t>(node)] = true;
+  on_boundary_ = boundary_marks(mesh);
 }
 
 void AngleWays::add(int from, int to) {
@@ -77,7 +76,7 @@ int AngleWays::add_node(Complex z) {
   if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
   nodes_.push_back(z);
   vertex_at_.push_back(-1);
-  on_boundary_.push_back(true);
+  on_boundary_.push_back(1);  // perhaps: asked before a leg is added
   add(nearest, nodes() - 1);
   return nodes() - 1;
 }
@@ -122,8 +121,8 @@ bool AngleWays::add_inside(std::initializer_list<End> chain) {
   return false;
 }
 
-// Chords of curves that bend inwards run outside, where the function is another one. Inside, all
-// ways between two nodes give the same integral.
+// Chords of curves that bend inwards run outside the cage, where the coordinates are different
+// functions. Inside, all paths between two nodes give the same integral.
 bool AngleWays::add_detour(const End& a, const End& b) {
   const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
   for (const double aside : {0.05, 0.15, 0.4, 0.8})

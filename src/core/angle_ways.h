@@ -63,7 +63,7 @@ class AngleWays {
   Points corners_, nodes_, places_;
   int more_nodes_, panels_;     ///< what Precision::full adds
   std::vector<int> vertex_at_;  ///< the cage's vertex at a node, or -1
-  std::vector<bool> on_boundary_;
+  std::vector<char> on_boundary_;
   std::vector<Step> steps_;
   std::vector<Tail> tails_;
   std::vector<Complex> weights_;

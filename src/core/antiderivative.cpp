@@ -25,8 +25,8 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
       neighbors[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
       neighbors[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
     }
-  std::vector<char> reached(static_cast<size_t>(count), 0), outer(static_cast<size_t>(count), 0);
-  for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
+  const std::vector<char> outer = boundary_marks(mesh);
+  std::vector<char> reached(static_cast<size_t>(count), 0);
   std::vector<int> queue{root_}, last;  // boundary vertices lead on only where nothing else does
   reached[static_cast<size_t>(root_)] = 1;
   for (size_t at = 0, end = 0; at < queue.size() || end < last.size();) {

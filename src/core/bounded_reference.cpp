@@ -36,8 +36,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
 void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis) {
   const Points inset = basis.inset(kInset);
   for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
-  std::vector<char> outer(mesh.vertices.size(), 0);
-  for (const int v : mesh.boundary) outer[static_cast<size_t>(v)] = 1;
+  const std::vector<char> outer = boundary_marks(mesh);
   std::vector<int> inner;
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!outer[v]) inner.push_back(static_cast<int>(v));

@@ -42,9 +42,7 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
   columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
   rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
   cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
-  is_straight_ = is_straight(rest_);
-  outer_.assign(mesh.vertices.size(), 0);
-  for (const int v : mesh.boundary) outer_[static_cast<size_t>(v)] = 1;
+  outer_ = boundary_marks(mesh);
   fill_cells();
   take_boundary();
 }
@@ -158,9 +156,9 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
 
 /// Between a curve and a chord of the mesh there may be no map to start from.
 Complex InverseMap::pulled_inside(Complex start, int triangle) const {
-  if (is_straight_ || triangle < 0) return start;
+  if (triangle < 0) return start;
   const auto [a, b, c] = mesh_.triangles[triangle];
-  if (!outer_[a] && !outer_[b] && !outer_[c]) return start;
+  if ((!outer_[a] && !outer_[b] && !outer_[c]) || is_straight(rest_)) return start;
   const Complex middle = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3.0;
   for (int half = 0; half < 8 && !contains(rest_, start); ++half) start = 0.5 * (start + middle);
   return start;
@@ -228,7 +226,7 @@ std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) 
           found);
     }
   };
-  // Preimages of both orientations cancel in the count: there all starts are tried.
+  // Next to a fold, preimages of opposite orientation cancel in the count, so all starts are tried.
   const size_t cell = cell_of(w);
   const bool may_fold = cells_[cell].may_fold;
   const auto is_enough = [&] {
@@ -350,8 +348,8 @@ void InverseMap::take_region(const Region& region, int count, Complex w, int dep
       if (counts[k] != 0) take_region(parts[k], counts[k], w, depth + 1, found);
     return;
   }
-  // Sheets meet here, or are nearer to each other than can be told. Where Newton's method finds
-  // nothing the map is not what its boundary says, and nothing is made up.
+  // Sheets meet here, or are closer together than rounding can separate. If Newton's method does
+  // not converge to a point inside, no preimage is reported.
   Preimage branch{here.empty() ? (a + b + c) / 3.0 : here[0].z};
   if (!improve(w, branch) || !is_inside(branch.z)) return;
   branch.orientation = count < 0 ? -1 : 1;

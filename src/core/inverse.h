@@ -80,8 +80,7 @@ class InverseMap {
   double near_ = 0;                          ///< how near to the boundary the exact test decides
   FlatCage flat_;
   double size_ = 1;
-  bool is_straight_ = true;  ///< the cage
-  std::vector<char> outer_;  ///< of each mesh vertex: whether it is on the boundary
+  std::vector<char> outer_;  ///< the mesh's boundary_marks
   Box box_;
   int columns_ = 1, rows_ = 1;
   std::vector<Cell> cells_;

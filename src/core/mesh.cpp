@@ -61,6 +61,12 @@ Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles)
   return mesh;
 }
 
+std::vector<char> boundary_marks(const Mesh& mesh) {
+  std::vector<char> marks(mesh.vertices.size(), 0);
+  for (const int v : mesh.boundary) marks[static_cast<size_t>(v)] = 1;
+  return marks;
+}
+
 Complex Location::in(const Mesh& mesh, std::span<const Complex> positions) const {
   const Triangle& corners = mesh.triangles[triangle];
   Complex z = 0;

@@ -25,9 +25,12 @@ struct Mesh {
 /// They must make one disk without a hole, none of them flat, that fills the cage: its boundary
 /// vertices lie on the cage to 1e-4 of the cage's size, every cage vertex is one of them to 1e-9 of
 /// the size (and is moved to the very place), and its area is the cage's to 1e-3 of the size
-/// squared. Throws Error that says what is missing. Cost: O(n log n) in the
-/// triangles, and boundary vertices times cage vertices.
+/// squared. Throws Error that says what is missing. Cost: O(n log n) in the triangles, and boundary
+/// vertices times cage vertices.
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles);
+
+/// For each vertex 1 when it is on the boundary, else 0. Cost: linear.
+std::vector<char> boundary_marks(const Mesh& mesh);
 
 /// A point's triangle and barycentric coordinates in it.
 struct Location {

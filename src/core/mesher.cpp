@@ -288,8 +288,7 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
 
 /// Moves inner vertices of triangles that settling turned over to the mean of their neighbors.
 void untangle(Mesh& mesh) {
-  std::vector<char> outer(mesh.vertices.size(), 0);
-  for (const int v : mesh.boundary) outer[v] = 1;
+  const std::vector<char> outer = boundary_marks(mesh);
   constexpr int kMostRounds = 50;
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<char> moves(mesh.vertices.size(), 0);

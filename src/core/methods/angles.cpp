@@ -70,7 +70,7 @@ class AnglePoints final : public PointMap {
 
   Value at(Complex z) const override {
     if (contains(cage(), z)) return inside(z);
-    // Outside the coordinates are other functions; the map goes on as its tangent.
+    // Outside the cage the coordinates are different functions: the map continues as its tangent.
     const Complex edge = position_of(cage(), nearest_on(cage(), flat_, z));
     Value value = inside(edge);
     value.f += value.fz * (z - edge);
