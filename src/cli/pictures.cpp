@@ -64,7 +64,7 @@ bool is_film(const std::string& format) {
          });
 }
 
-/// A folder for one file, which goes with it.
+/// A new folder, which is removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder()
@@ -101,7 +101,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   std::optional<TemporaryFolder> folder;
   Path out = command.out;
   if (is_standard(out)) out = folder.emplace().path() / ("film." + command.format);
-  std::optional<FilmFrame> film;
+  std::optional<WrittenFilm> film;
   {
     Progress progress("export", "frame");
     film = write_film(
@@ -113,7 +113,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
         loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
-  std::fprintf(stderr, "%s: %d frames of %s\n", shown_output(command.out).c_str(), film->count,
+  std::fprintf(stderr, "%s: %d frames of %s\n", shown_output(command.out).c_str(), film->frames,
                rectangle_text(film->width, film->height, film->corner).c_str());
 }
 
@@ -157,20 +157,21 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
-/// What each format that is not a film takes besides a scene.
+/// Which options a format of `export` takes.
 struct Format {
   std::string id;
   bool scale = false, crop = false, time = false, frames = false;
 };
 const Format& format_named(const std::string& id) {
-  static const std::vector<Format> formats{{"obj", false, false, true},
-                                           {"svg", false, false, true},
-                                           {"npy", false, false, true},
-                                           {"png", true, true, true, true},
-                                           {"stmap", true, false, true},
-                                           {"unwarp", true, false, true},
-                                           {"textured", true}};
-  static const Format film{"film", true, true, false, true};
+  static const std::vector<Format> formats{
+      {.id = "obj", .time = true},
+      {.id = "svg", .time = true},
+      {.id = "npy", .time = true},
+      {.id = "png", .scale = true, .crop = true, .time = true, .frames = true},
+      {.id = "stmap", .scale = true, .time = true},
+      {.id = "unwarp", .scale = true, .time = true},
+      {.id = "textured", .scale = true}};
+  static const Format film{.id = "film", .scale = true, .crop = true, .frames = true};
   if (is_film(id)) return film;
   const auto found = std::ranges::find(formats, id, &Format::id);
   if (found != formats.end()) return *found;

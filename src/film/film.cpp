@@ -6,10 +6,10 @@
 
 namespace holomorph {
 
-std::optional<FilmFrame> write_film(const Path& out, const Scene& scene, const Image* source,
-                                    const FilmOptions& options,
-                                    const std::function<bool(int done, int all)>& progress,
-                                    const Pictures& others) {
+std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
+                                      const FilmOptions& options,
+                                      const std::function<bool(int done, int all)>& progress,
+                                      const Pictures& others) {
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "the scene has no keyframes, so there is no film in it");
@@ -26,7 +26,7 @@ std::optional<FilmFrame> write_film(const Path& out, const Scene& scene, const I
     picture.shows = maker.shown_at(frame_times(scene), [&] { return progress(0, frames); });
     if (!picture.shows) return {};
   }
-  FilmFrame film{frames, 0, 0, 0};
+  WrittenFilm film{frames, 0, 0, 0};
   std::unique_ptr<FilmWriter> writer;
   for (int i = 0; i < frames; ++i) {
     if (!progress(i, frames)) return {};

@@ -15,10 +15,10 @@ struct FilmOptions {
   bool loops = true;
 };
 
-/// What every frame of a film is.
-struct FilmFrame {
-  int count = 0, width = 0, height = 0;  ///< of frames; in pixels
-  Complex corner;                        ///< the lower left one, in the plane
+/// What has been written.
+struct WrittenFilm {
+  int frames = 0, width = 0, height = 0;  ///< of each frame, in pixels
+  Complex corner;                         ///< each frame's lower left one, in the plane
 };
 
 /// Draws frames of a scene, as picture_of does, into a file whose extension says the kind. Without
@@ -27,9 +27,9 @@ struct FilmFrame {
 /// returns false nothing is written. Throws Error for a scene without keyframes and for what cannot
 /// be drawn or written. Returns none when nothing is written. Cost: a picture for each frame, on
 /// all cores.
-std::optional<FilmFrame> write_film(const Path& out, const Scene& scene, const Image* source,
-                                    const FilmOptions& options,
-                                    const std::function<bool(int done, int all)>& progress,
-                                    const Pictures& others = {});
+std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
+                                      const FilmOptions& options,
+                                      const std::function<bool(int done, int all)>& progress,
+                                      const Pictures& others = {});
 
 }  // namespace holomorph

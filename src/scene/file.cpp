@@ -191,20 +191,15 @@ void write_file(const Path& wanted, const std::string& bytes) {
 }
 
 void move_file(const Path& finished, const Path& wanted) {
-  if (is_stream(wanted)) {
-    write_into(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
+  std::error_code error;
+  if (is_stream(wanted) || std::filesystem::is_symlink(wanted, error)) {
+    write_file(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
     ::unlink(finished.c_str());
     return;
   }
-  const Path path = target_of(wanted);
-  if (path != wanted) {  // perhaps on another disk
-    write_file(path, read_file(finished, std::numeric_limits<size_t>::max()));
-    ::unlink(finished.c_str());
-    return;
-  }
-  ::chmod(finished.c_str(), mode_for(path));
-  if (::rename(finished.c_str(), path.c_str()) != 0) fail(path, "cannot be written");
-  sync_directory(folder_of(path));
+  ::chmod(finished.c_str(), mode_for(wanted));
+  if (::rename(finished.c_str(), wanted.c_str()) != 0) fail(wanted, "cannot be written");
+  sync_directory(folder_of(wanted));
 }
 
 FileLock::FileLock(const Path& path)
