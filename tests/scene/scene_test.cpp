@@ -193,6 +193,21 @@ TEST_CASE("A document saves a picture's path relative to the scene, wherever tha
   CHECK_THROWS_WITH(load_scene(folder.path / "scenes" / "s.json"), Catch::Contains("/image/file"));
 }
 
+TEST_CASE("Neither saving nor exporting replaces a read-only file or a source of the scene") {
+  const Folder folder;
+  const Path kept = folder.path / "kept.json";
+  write_file(kept, "mine");
+  std::filesystem::permissions(kept, std::filesystem::perms::owner_read);
+  Document document;
+  CHECK_THROWS_WITH(document.save(kept), Catch::Contains("read-only"));
+  CHECK_THROWS_WITH(check_may_write(kept, document.sources()), Catch::Contains("read-only"));
+  CHECK(read_file(kept) == "mine");
+  const Path free = folder.path / "free.json";
+  check_may_write(free, document.sources());
+  document.save(free);
+  CHECK_THROWS_WITH(check_may_write(free, document.sources()), Catch::Contains("scene itself"));
+}
+
 TEST_CASE("An autosave holds the last commit, moves with its scene, and is found again") {
   const Folder folder;
   write_file(folder.path / "dot.png", encode_png(Image(8, 6)));

@@ -1,0 +1,61 @@
+// The rest and pose that the contract tests give every method.
+#pragma once
+
+#include "core/deformer.h"
+#include "core/mesher.h"
+#include "support/shapes.h"
+
+namespace holomorph {
+
+struct Setup {
+  Rest rest;
+  Pose pose;
+};
+
+inline Complex bend(Complex z) {
+  return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12);
+}
+
+/// How the rest is written: straight, straight with a higher degree, or curved.
+enum class Shape { straight, raised, curved };
+
+inline Cage cage_of(Shape shape) {
+  const Cage straight = polygon_cage(shapes::l_shape());
+  if (shape == Shape::straight) return straight;
+  Cage cubic = straight;
+  for (Points& segment : cubic.segments) segment.resize(3);
+  cubic = elevated_to(straight, cubic);
+  if (shape == Shape::curved)
+    for (Points& segment : cubic.segments) {
+      segment[1] += Complex(6, -8);
+      segment[2] += Complex(5, 9);
+    }
+  return cubic;
+}
+
+/// A cage with three pins (one of them turning) and two strokes where the method uses them; posed
+/// by a bend.
+inline Setup setup(const Method& method, Precision precision, Shape shape = Shape::straight) {
+  Setup s;
+  s.rest.cage = cage_of(shape);
+  s.rest.precision = precision;
+  const Mesh mesh = domain_mesh(s.rest.cage, {400});
+  s.rest.samples = mesh.vertices;
+  s.rest.mesh = std::make_shared<const Mesh>(mesh);
+  s.rest.derivative_samples = derivative_samples(mesh);
+  if (method.uses_pins) s.rest.pins = {{{40, 40}, false}, {{150, 60}, true}, {{50, 160}, false}};
+  if (method.uses_strokes)
+    s.rest.strokes = {{{20, 20}, {60, 30}, {110, 25}}, {{30, 90}, {30, 150}}};
+  s.pose.cage = s.rest.cage;
+  for (Points& segment : s.pose.cage.segments)
+    for (Complex& z : segment) z = bend(z);
+  for (const Points& stroke : s.rest.strokes) {
+    s.pose.strokes.emplace_back();
+    for (const Complex& z : stroke) s.pose.strokes.back().push_back(bend(z) + Complex(2, 4));
+  }
+  for (const RestPin& pin : s.rest.pins)
+    s.pose.pins.push_back({bend(pin.position) + Complex(5, -3), 0.3});
+  return s;
+}
+
+}  // namespace holomorph
