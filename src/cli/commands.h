@@ -62,7 +62,8 @@ struct BenchCommand {
   bool json = false;
 };
 
-/// Throws Error when there is no such file, with the names of commands when it was meant for one.
+/// Throws Error when the file does not exist. For a word that may have been meant as a command, the
+/// message points to --help.
 void check_is_file(const Path& path);
 
 /// Each does its work and throws Error when it cannot, Interrupted when the user stops it.

@@ -14,7 +14,8 @@ struct Interrupted {};
 /// TidyStop lives, make stop_if_interrupted() throw.
 void install_signal_handlers();
 
-/// For what must not be left half done.
+/// While one lives, the program ends only where it calls stop_if_interrupted(), so that nothing is
+/// left half done.
 class TidyStop {
  public:
   TidyStop();
@@ -26,16 +27,16 @@ bool is_interrupted();
 /// Throws Interrupted.
 void stop_if_interrupted();
 
-/// On a terminal a line of what is being done, from the first second on: "render: frame 3 of 24, 2
-/// s".
+/// Shows on a terminal, after the first second, what a command is doing and for how long:
+/// "render: frame 3 of 24, 2 s".
 class Progress {
  public:
-  /// `unit` is what steps are.
+  /// `unit` names the steps, such as "frame".
   explicit Progress(const std::string& what, const std::string& unit = "step");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// So many steps are done of all. Throws Interrupted.
+  /// Tells that `done` of `all` steps are done. Throws Interrupted.
   void step(size_t done, size_t all);
 
  private:

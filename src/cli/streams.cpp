@@ -81,7 +81,7 @@ void check_out(const Path& out, bool force, const Path& scene, const LoadedScene
 
 void write_result(const Path& out, const std::string& bytes) {
   if (is_standard(out)) return write_standard_output(bytes);
-  // A file is written beside the old one, which must not stay when the user stops the program.
+  // Replacing a file writes a temporary one next to it, which an interrupt must not leave behind.
   std::error_code ignored;
   std::optional<TidyStop> tidy;
   if (!std::filesystem::exists(out, ignored) || std::filesystem::is_regular_file(out, ignored))

@@ -11,7 +11,8 @@ double rounding_at(Complex w, Complex f) {
   return 1e-13 * (std::abs(w) + std::abs(f));
 }
 
-/// Of the squares of an arc's chord and bulge: farther away than three times their sum, w is clear.
+/// w is clear of an arc when its squared distance from the arc's start exceeds this many times the
+/// sum of the squared chord and the squared bulge.
 constexpr double kFar = 9;
 
 /// Whether w is farther from the piece's chord than its arc may be.

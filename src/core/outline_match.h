@@ -13,7 +13,7 @@
 
 namespace holomorph {
 
-/// Of an outline's diameter: where the two-sided Hausdorff distance is below, the outline is met.
+/// An outline is met when the two-sided Hausdorff distance is below this share of its diameter.
 inline constexpr double kOutlineMet = 0.01;
 
 struct OutlineSettings {
@@ -45,9 +45,10 @@ struct OutlineMatch {
   double hausdorff = 0;    ///< the largest distance either way
   double pins_missed = 0;  ///< the largest distance of a pin from where it was wanted
   int pins_held = 0;       ///< that were wanted outside of the outline, and are held just inside
-  /// Of f_z, farther inside than a thousandth of the shape's size, or five thousandths with
-  /// stiffness (argument principle): the picture folds around each; the turning number is one more.
-  /// Where a corner is flattened, the exact f_z is 0 at the corner itself.
+  /// The number of zeros of f_z, by the argument principle, at least a thousandth of the shape's
+  /// size inside (five thousandths with stiffness). The picture folds around each zero, and each
+  /// adds one to the turning number. Where a corner is flattened, the exact f_z is 0 at the corner
+  /// itself.
   int zeros = 0;
   int iterations = 0;
   std::vector<double>

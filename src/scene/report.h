@@ -25,9 +25,10 @@ struct SceneReport {
 /// triangles.
 SceneReport report_of(TimedMap& timed, const TimedMap::Frame& frame);
 
-/// The same as readable lines, or as JSON with the keys of the specification: an object, or a list
-/// of them for frames.
+/// A report as readable lines.
 std::string text_of(const SceneReport& report);
+/// Reports as JSON with the keys of the specification: one object for a single report without a
+/// frame, else a list of objects.
 std::string json_of(const std::vector<SceneReport>& reports);
 
 /// "exact", "iterating", "certified" or "infeasible".
