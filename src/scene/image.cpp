@@ -1,8 +1,7 @@
-// stb_image behind two functions, upright as Exif says; other formats by their own libraries.
+// The table of formats: which library reads and writes what.
 #include "scene/image.h"
 
 #include <libexif/exif-data.h>
-#include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
@@ -10,16 +9,21 @@
 #include <memory>
 
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/image_formats.h"
 
 namespace holomorph {
 
-void check_image_size(int width, int height, const std::string& name) {
-  constexpr int kLargest = 16384;
+void PixelBudget::take(size_t width, size_t height, const std::string& name) {
+  constexpr size_t kLargest = 16384;
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at most " +
                                           std::to_string(kLargest) + " a side can be opened");
+  const double pixels = static_cast<double>(width) * static_cast<double>(height);
+  check_budget(&Budget::pixels, taken_ + pixels,
+               name + (taken_ > 0 ? ": with this picture all of them have" : ": the picture has"));
+  taken_ += pixels;
 }
 
 const std::vector<std::string>& picture_extensions() {
@@ -28,11 +32,7 @@ const std::vector<std::string>& picture_extensions() {
   return all;
 }
 
-namespace {
-
-/// What a photograph says of the way in which the camera was held, 1 to 8 as Exif counts them.
-int orientation_of(const std::string& bytes) {
-  if (!bytes.starts_with("\xff\xd8")) return 1;
+int orientation_of_exif(const std::string& bytes) {
   const std::unique_ptr<ExifData, void (*)(ExifData*)> data(
       exif_data_new_from_data(reinterpret_cast<const unsigned char*>(bytes.data()),
                               static_cast<unsigned>(bytes.size())),
@@ -44,9 +44,8 @@ int orientation_of(const std::string& bytes) {
   return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 
-/// Turned and mirrored so that its top is up.
 Image upright(Image image, int orientation) {
-  if (orientation == 1) return image;
+  if (orientation <= 1 || orientation > 8) return image;
   const bool turned = orientation >= 5;
   Image result(turned ? image.height : image.width, turned ? image.width : image.height);
   const int w = image.width - 1, h = image.height - 1;
@@ -65,29 +64,18 @@ Image upright(Image image, int orientation) {
   return result;
 }
 
-}  // namespace
-
-Image decode_image(const std::string& bytes, const std::string& name) {
-  if (is_webp(bytes)) return decode_webp(bytes, name);
-  if (is_tiff(bytes)) return decode_tiff(bytes, name);
-  if (is_ora(bytes)) return decode_ora(bytes, name);
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-    throw Error(ErrorKind::bad_input,
-                name +
-                    ": this is no picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
-                    "BMP, TGA, GIF or PSD)");
-  check_image_size(width, height, name);
-  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
-  if (!pixels)
-    throw Error(ErrorKind::bad_input,
-                name + ": the picture is damaged (" + stbi_failure_reason() + ")");
-  Image image(width, height);
-  std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size());
-  return upright(std::move(image), orientation_of(bytes));
+Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  if (is_png(bytes)) return decode_png(bytes, name, pixels);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, name, pixels);
+  if (is_webp(bytes)) return decode_webp(bytes, name, pixels);
+  if (is_tiff(bytes)) return decode_tiff(bytes, name, pixels);
+  if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
+  if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
+  if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
+  throw Error(ErrorKind::bad_input,
+              name +
+                  ": this is no picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
+                  "BMP, TGA, GIF or PSD)");
 }
 
 namespace {

@@ -29,10 +29,26 @@ struct Image {
   }
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster and what else stb_image reads; photographs upright.
-/// `name` is for messages. Throws Error{bad_input} for what is no picture, or one of more than
-/// 16384 pixels a side.
-Image decode_image(const std::string& bytes, const std::string& name);
+/// How many pixels may still be decoded, by all the pictures of a scene.
+class PixelBudget {
+ public:
+  /// What is left when so many pixels are open already.
+  explicit PixelBudget(double taken = 0) : taken_(taken) {}
+  /// Before anything is decoded. Throws Error{bad_input} for more than are left, and for more than
+  /// 16384 pixels a side.
+  void take(size_t width, size_t height, const std::string& name);
+
+ private:
+  double taken_;
+};
+
+/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, GIF, BMP, TGA and PSD; upright, and in sRGB. `name`
+/// is for messages. Throws Error{bad_input} for what is no picture, damaged, cut off or too large.
+Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+inline Image decode_image(const std::string& bytes, const std::string& name) {
+  PixelBudget alone;
+  return decode_image(bytes, name, alone);
+}
 
 /// How files that decode_image may read are named: lower case, with the dot.
 const std::vector<std::string>& picture_extensions();

@@ -10,15 +10,15 @@
 #include <pugixml.hpp>
 
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/image_formats.h"
 
 namespace holomorph {
 namespace {
 
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
-constexpr int kDeepest = 50;         ///< groups in groups
-constexpr int kFarthest = 1 << 20;   ///< of a layer from the canvas' corner
-constexpr double kMostPixels = 1e9;  ///< of all layers, each as large as the canvas
+constexpr int kDeepest = 50;        ///< groups in groups
+constexpr int kFarthest = 1 << 20;  ///< of a layer from the canvas' corner
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw Error(ErrorKind::bad_input, name + ": this OpenRaster file is damaged: " + what);
@@ -36,10 +36,10 @@ class Archive {
     if (!zip_) fail(name_, "it is no archive");
   }
 
-  Image picture(const std::string& entry) const {
+  Image picture(const std::string& entry, PixelBudget& pixels) const {
     const std::string bytes = read(entry);
-    if (!bytes.starts_with("\x89PNG")) fail(name_, entry + " is no PNG file");
-    return decode_image(bytes, name_ + ", " + entry);
+    if (!is_png(bytes)) fail(name_, entry + " is no PNG file");
+    return decode_png(bytes, name_ + ", " + entry, pixels);
   }
 
   std::string read(const std::string& entry) const {
@@ -103,12 +103,13 @@ Stack stack_of(const Archive& archive, const std::string& name) {
   const pugi::xml_node image = document.child("image");
   Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}};
   if (stack.width < 1 || stack.height < 1) fail(name, "it has no size");
-  check_image_size(stack.width, stack.height, name);
+  PixelBudget one;
+  one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   collect(image.child("stack"), {}, 0, stack);
   if (stack.layers.empty()) fail(name, "it has no layers of pixels");
-  if (1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()) > kMostPixels)
-    throw Error(ErrorKind::bad_input,
-                name + ": the layers have more than 1e9 pixels in all; merge some of them");
+  check_budget(&Budget::pixels,
+               1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()),
+               name + ": the layers have");
   return stack;
 }
 
@@ -120,8 +121,8 @@ bool is_ora(const std::string& bytes) {
          bytes.substr(0, 100).find("mimetypeimage/openraster") != std::string::npos;
 }
 
-Image decode_ora(const std::string& bytes, const std::string& name) {
-  return Archive(bytes, name).picture("mergedimage.png");
+Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  return Archive(bytes, name).picture("mergedimage.png", pixels);
 }
 
 std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name) {
@@ -131,23 +132,25 @@ std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& na
   return layers;
 }
 
-Image decode_ora_layer(const std::string& bytes, const std::string& entry,
-                       const std::string& name) {
+Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
+                       PixelBudget& pixels) {
   const Archive archive(bytes, name);
   const Stack stack = stack_of(archive, name);
   const auto placed = std::ranges::find_if(
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
   if (placed == stack.layers.end()) fail(name, "it has no layer " + entry + " any more");
-  const Image pixels = archive.picture(entry);
+  PixelBudget alone;  // what lies outside the canvas is not kept
+  const Image picture = archive.picture(entry, alone);
+  pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   Image canvas(stack.width, stack.height);
-  for (int r = 0; r < pixels.height; ++r) {
+  for (int r = 0; r < picture.height; ++r) {
     const long row = static_cast<long>(r) + placed->y;
     if (row < 0 || row >= canvas.height) continue;
-    for (int c = 0; c < pixels.width; ++c) {
+    for (int c = 0; c < picture.width; ++c) {
       const long column = static_cast<long>(c) + placed->x;
       if (column < 0 || column >= canvas.width) continue;
       std::uint8_t* to = canvas.at(static_cast<int>(column), static_cast<int>(row));
-      std::memcpy(to, pixels.at(c, r), 4);
+      std::memcpy(to, picture.at(c, r), 4);
       to[3] = static_cast<std::uint8_t>(std::lround(to[3] * placed->opacity));
     }
   }

@@ -16,6 +16,7 @@ struct OraLayer {
 std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name);
 /// One layer on the whole canvas, its opacity in its pixels; blending modes are not kept. Throws
 /// Error{bad_input}.
-Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name);
+Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
+                       PixelBudget& pixels);
 
 }  // namespace holomorph

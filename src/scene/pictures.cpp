@@ -18,8 +18,9 @@ Picture PictureFiles::picture(const ImageReference& reference) {
     found = files_.emplace(name, std::move(file)).first;
   }
   const File& file = found->second;
-  Image image = reference.entry.empty() ? decode_image(file.bytes, name)
-                                        : decode_ora_layer(file.bytes, reference.entry, name);
+  Image image = reference.entry.empty()
+                    ? decode_image(file.bytes, name, pixels_)
+                    : decode_ora_layer(file.bytes, reference.entry, name, pixels_);
   return {std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
 }
 
@@ -53,6 +54,13 @@ const Picture* Pictures::find(const ImageReference& reference) const {
 
 void Pictures::put(const ImageReference& reference, Picture picture) {
   all_[{reference.file, reference.entry}] = std::move(picture);
+}
+
+double Pictures::pixels() const {
+  double count = 0;
+  for (const auto& [name, picture] : all_)
+    count += static_cast<double>(picture.image->width) * picture.image->height;
+  return count;
 }
 
 std::vector<ImageReference> Pictures::changed() const {

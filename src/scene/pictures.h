@@ -20,6 +20,8 @@ struct Picture {
 /// Reads what references name; a file that several of them share once.
 class PictureFiles {
  public:
+  /// `open` is how many pixels are there already.
+  explicit PictureFiles(double open = 0) : pixels_(open) {}
   /// Throws Error.
   Picture picture(const ImageReference& reference);
 
@@ -29,10 +31,11 @@ class PictureFiles {
     std::filesystem::file_time_type changed = {};
   };
   std::map<std::string, File> files_;  ///< by path
+  PixelBudget pixels_;
 };
 /// One of them alone. Throws Error.
-inline Picture read_picture(const ImageReference& reference) {
-  return PictureFiles().picture(reference);
+inline Picture read_picture(const ImageReference& reference, double open = 0) {
+  return PictureFiles(open).picture(reference);
 }
 /// What names a picture: its file, whose path becomes absolute, and its layer in there if it is
 /// one.
@@ -48,6 +51,8 @@ class Pictures {
   std::shared_ptr<const Image> shared(const Scene& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
+  /// How many pixels all of them have.
+  double pixels() const;
   /// What lies in files that have changed since they were read, and are still there.
   std::vector<ImageReference> changed() const;
 

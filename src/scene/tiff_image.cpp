@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "scene/image_formats.h"
+#include "scene/to_srgb.h"
 
 namespace holomorph {
 namespace {
@@ -43,6 +44,23 @@ toff_t size_of(thandle_t handle) {
   return static_cast<Stream*>(handle)->bytes.size();
 }
 
+/// libtiff packs a pixel into a number, and gives colours multiplied by alpha.
+void make_straight(Image& image) {
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    uint32_t pixel = 0;
+    std::memcpy(&pixel, &image.pixels[i], 4);
+    const uint32_t alpha = TIFFGetA(pixel);
+    const auto straight = [&](uint32_t value) {
+      return static_cast<std::uint8_t>(
+          alpha == 0 ? 0 : std::min(255u, (255 * value + alpha / 2) / alpha));
+    };
+    image.pixels[i] = straight(TIFFGetR(pixel));
+    image.pixels[i + 1] = straight(TIFFGetG(pixel));
+    image.pixels[i + 2] = straight(TIFFGetB(pixel));
+    image.pixels[i + 3] = static_cast<std::uint8_t>(alpha);
+  }
+}
+
 struct Close {
   void operator()(TIFF* file) const { TIFFClose(file); }
 };
@@ -55,12 +73,18 @@ bool is_tiff(const std::string& bytes) {
   return head == "II*\0"sv || head == "MM\0*"sv;
 }
 
-Image decode_tiff(const std::string& bytes, const std::string& name) {
-  TIFFSetWarningHandler(nullptr);
-  TIFFSetErrorHandler(nullptr);
+Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // of a strip or a tile
+  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                             TIFFOpenOptionsFree);
+  const auto quiet = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kLargestBlock);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), quiet, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), quiet, nullptr);
   Stream stream{bytes};
-  const std::unique_ptr<TIFF, Close> file(TIFFClientOpen(
-      name.c_str(), "rm", &stream, read, no_write, seek, no_close, size_of, nullptr, nullptr));
+  const std::unique_ptr<TIFF, Close> file(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
+                                                            no_write, seek, no_close, size_of,
+                                                            nullptr, nullptr, options.get()));
   const auto damaged = [&](const std::string& why) {
     return Error(ErrorKind::bad_input, name + ": the TIFF picture cannot be read" + why);
   };
@@ -68,27 +92,24 @@ Image decode_tiff(const std::string& bytes, const std::string& name) {
   if (!file || !TIFFGetField(file.get(), TIFFTAG_IMAGEWIDTH, &width) ||
       !TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &height) || width == 0 || height == 0)
     throw damaged("");
-  check_image_size(static_cast<int>(std::min(width, 1u << 30)),
-                   static_cast<int>(std::min(height, 1u << 30)), name);
+  pixels.take(width, height, name);
   char why[1024] = "";
   if (!TIFFRGBAImageOK(file.get(), why)) throw damaged(std::string(": ") + why);
   Image image(static_cast<int>(width), static_cast<int>(height));
-  std::vector<uint32_t> pixels(image.pixels.size() / 4);
-  if (!TIFFReadRGBAImageOriented(file.get(), width, height, pixels.data(), ORIENTATION_TOPLEFT, 1))
-    throw damaged("; it is damaged");
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    const uint32_t alpha = TIFFGetA(pixels[i]);
-    // libtiff gives colours multiplied by alpha.
-    const auto straight = [&](uint32_t value) {
-      return static_cast<std::uint8_t>(
-          alpha == 0 ? 0 : std::min(255u, (255 * value + alpha / 2) / alpha));
-    };
-    image.pixels[4 * i] = straight(TIFFGetR(pixels[i]));
-    image.pixels[4 * i + 1] = straight(TIFFGetG(pixels[i]));
-    image.pixels[4 * i + 2] = straight(TIFFGetB(pixels[i]));
-    image.pixels[4 * i + 3] = static_cast<std::uint8_t>(alpha);
-  }
-  return image;
+  auto* packed = reinterpret_cast<uint32_t*>(image.pixels.data());
+  if (!TIFFReadRGBAImageOriented(file.get(), width, height, packed, ORIENTATION_TOPLEFT, 1))
+    throw damaged("; it is damaged or cut off");
+  make_straight(image);
+  uint32_t size = 0;
+  void* profile = nullptr;
+  if (TIFFGetField(file.get(), TIFFTAG_ICCPROFILE, &size, &profile))
+    to_srgb(image, std::string(static_cast<const char*>(profile), size));
+  // libtiff has mirrored it upright; rows for columns are left to do.
+  uint16_t orientation = 1;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
+  const bool over = orientation == ORIENTATION_LEFTTOP || orientation == ORIENTATION_RIGHTBOT,
+             under = orientation == ORIENTATION_RIGHTTOP || orientation == ORIENTATION_LEFTBOT;
+  return upright(std::move(image), over ? 5 : under ? 7 : 1);
 }
 
 }  // namespace holomorph

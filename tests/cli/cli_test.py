@@ -565,7 +565,7 @@ class CommandLine(Case):
             half = file.read()[:20000]
         with open(self.path("half.png"), "wb") as file:
             file.write(half)
-        self.bad("new", "--force", self.path("half.png"), "--out", self.path("n.json"), says="damaged")
+        self.bad("new", "--force", self.path("half.png"), "--out", self.path("n.json"), says="cut off")
         self.assertFalse(os.path.exists(self.path("n.json")))
         self.bad("frobnicate", "x", says="")
         self.assertEqual(run("--help").returncode, 0)
