@@ -55,8 +55,7 @@ std::string Files::open(const Path& path) {
         dialog_.start_in(std::filesystem::absolute(path).parent_path());
         keep_recent(path);
       });
-  if (!problem.empty() && !std::filesystem::exists(path) &&
-      std::erase(preferences_.recent, path) > 0)
+  if (!problem.empty() && !is_there(path) && std::erase(preferences_.recent, path) > 0)
     keep_preferences();
   return problem;
 }

@@ -31,7 +31,7 @@ Path assets() {
   std::error_code error;
   const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
   const Path installed = program.parent_path().parent_path() / "share/holomorph/assets";
-  return !error && std::filesystem::exists(installed) ? installed : Path(HOLOMORPH_ASSETS);
+  return !error && is_there(installed) ? installed : Path(HOLOMORPH_ASSETS);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::vector<Sample> load_samples() {
   std::vector<Sample> samples;
   for (const Row& row : kRows) {
     Sample sample{folder / (std::string(row.name) + ".json"), row.title, row.text, {}};
-    if (!std::filesystem::exists(sample.scene)) continue;
+    if (!is_there(sample.scene)) continue;
     try {
       const LoadedScene loaded = load_scene(sample.scene);
       PictureOptions options;

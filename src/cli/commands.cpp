@@ -44,7 +44,7 @@ std::vector<Path> inputs_of(const NewCommand& command) {
 }  // namespace
 
 void check_is_file(const Path& path) {
-  if (std::filesystem::exists(path)) return;
+  if (is_there(path)) return;
   const bool command = path.string().find_first_of("./") == std::string::npos;
   throw Error(ErrorKind::bad_input,
               path.string() + (command ? ": there is neither a command nor a file of this name; "
@@ -54,7 +54,7 @@ void check_is_file(const Path& path) {
 
 void run(const NewCommand& command) {
   check_out(command.out, command.force, inputs_of(command));
-  if (!command.force && !is_standard(command.out) && std::filesystem::is_regular_file(command.out))
+  if (!command.force && !is_standard(command.out) && is_file(command.out))
     throw Error(ErrorKind::failed,
                 command.out.string() + ": the file already exists; --force replaces it");
   if (command.margin && !(*command.margin >= 0))

@@ -31,12 +31,12 @@ void say_warning(const LoadedScene& loaded) {
 }
 
 LoadedScene read_scene(const Path& input) {
-  const bool regular = std::filesystem::is_regular_file(input);
+  const bool regular = is_file(input);
   if (regular && !is_scene_name(input) && !read_file(input).starts_with("{"))
     throw Error(ErrorKind::bad_input, input.string() +
                                           ": this is not a scene; make one from a picture with "
                                           "'holomorph new PICTURE --out SCENE'");
-  const bool streamed = !regular && std::filesystem::exists(input);
+  const bool streamed = !regular && is_there(input);
   LoadedScene loaded = is_standard(input) || streamed
                            ? scene_of_text(read_input(input), shown_name(input))
                            : load_scene(input);
@@ -65,8 +65,7 @@ void check_out(const Path& out, bool force, const std::vector<Path>& inputs) {
   if (is_standard(out)) return;
   std::error_code ignored;
   for (const Path& input : inputs)
-    if (std::filesystem::is_regular_file(out, ignored) &&
-        std::filesystem::equivalent(out, input, ignored))
+    if (is_file(out) && std::filesystem::equivalent(out, input, ignored))
       throw Error(ErrorKind::bad_input,
                   out.string() + ": this is read by the same command; choose another name");
   if (!force && is_read_only(out))
@@ -84,8 +83,7 @@ void write_result(const Path& out, const std::string& bytes) {
   // Replacing a file writes a temporary one next to it, which an interrupt must not leave behind.
   std::error_code ignored;
   std::optional<TidyStop> tidy;
-  if (!std::filesystem::exists(out, ignored) || std::filesystem::is_regular_file(out, ignored))
-    tidy.emplace();
+  if (!is_there(out) || is_file(out)) tidy.emplace();
   write_file(out, bytes);
 }
 

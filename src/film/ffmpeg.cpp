@@ -1,5 +1,5 @@
 // Films by the program ffmpeg. It reads raw frames from a socket, so that its end is an error here
-// and no signal, and writes beside the wanted file.
+// and no signal, and writes to a file that is open already, so that no name can lead it elsewhere.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,8 +26,7 @@ struct Close {
 class FfmpegWriter final : public FilmWriter {
  public:
   FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
-      : out_(out), part_(out), opaque_(opaque) {
-    part_.replace_filename("." + out.stem().string() + ".part" + out.extension().string());
+      : out_(out), film_(out), opaque_(opaque) {
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
     std::vector<std::string> words{"ffmpeg",
@@ -47,14 +46,12 @@ class FfmpegWriter final : public FilmWriter {
                                    "-i",
                                    "pipe:0"};
     words.insert(words.end(), codec.begin(), codec.end());
-    words.push_back("file:" + part_.string());
+    words.push_back("file:/dev/fd/" + std::to_string(kPassedDescriptor));
     start(words);
   }
   ~FfmpegWriter() override {
     if (child_.pid > 0) ::kill(child_.pid, SIGKILL);
     end();
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
   }
 
   void add(const Image& frame) override {
@@ -71,13 +68,13 @@ class FfmpegWriter final : public FilmWriter {
 
   void finish() override {
     if (end() != 0) fail();
-    move_file(part_, out_);
+    film_.put_in_place();
   }
 
  private:
   void start(const std::vector<std::string>& words) {
     if (!log_) throw Error(ErrorKind::failed, "no temporary file for ffmpeg can be made");
-    if (const auto child = start_program(words, ::fileno(log_.get()))) {
+    if (const auto child = start_program(words, ::fileno(log_.get()), film_.descriptor())) {
       child_ = *child;
       return;
     }
@@ -110,7 +107,8 @@ class FfmpegWriter final : public FilmWriter {
                 out_.string() + ": ffmpeg failed" + (said.empty() ? "" : ": " + said));
   }
 
-  Path out_, part_;
+  Path out_;
+  NewFile film_;
   bool opaque_;
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
   Child child_;
@@ -125,7 +123,7 @@ std::unique_ptr<FilmWriter> mp4_writer(const Path& out, const FilmShape& shape) 
       out, shape,
       std::vector<std::string>{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v",
                                "libx264", "-crf", "17", "-pix_fmt", "yuv420p", "-movflags",
-                               "+faststart"},
+                               "+faststart", "-f", "mp4"},
       true);
 }
 
@@ -133,7 +131,7 @@ std::unique_ptr<FilmWriter> webm_writer(const Path& out, const FilmShape& shape)
   return std::make_unique<FfmpegWriter>(
       out, shape,
       std::vector<std::string>{"-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "24", "-pix_fmt",
-                               "yuva420p", "-auto-alt-ref", "0"},
+                               "yuva420p", "-auto-alt-ref", "0", "-f", "webm"},
       false);
 }
 

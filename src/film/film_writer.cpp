@@ -9,16 +9,10 @@
 namespace holomorph {
 namespace {
 
+/// Frames wait in a folder until all are there: what had their names stays until then.
 class PngFrames final : public FilmWriter {
  public:
-  explicit PngFrames(const Path& out) : out_(out) {}
-  ~PngFrames() override {
-    wait();
-    for (int i = 0; i < frames_; ++i) {
-      std::error_code ignored;
-      std::filesystem::remove(part(i), ignored);
-    }
-  }
+  explicit PngFrames(const Path& out) : out_(out), waiting_(out) {}
   void add(const Image& frame) override {
     files_.add([path = part(frames_), frame] {
       write_file(path, encode_png(frame));
@@ -36,20 +30,10 @@ class PngFrames final : public FilmWriter {
   }
 
  private:
-  void wait() noexcept {
-    try {
-      files_.finish();
-    } catch (...) {
-      // Whoever added frames has been told, or does not want them any more.
-    }
-  }
-  /// Where a frame waits until all are there: what had its name stays until then.
-  Path part(int frame) const {
-    Path path = numbered(out_, frame);
-    return path.replace_filename("." + path.filename().string() + ".part");
-  }
+  Path part(int frame) const { return waiting_.path() / std::to_string(frame); }
 
   Path out_;
+  NewFolder waiting_;
   int frames_ = 0;
   OrderedTasks<Path> files_{[](const Path&) {}};
 };

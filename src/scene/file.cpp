@@ -8,10 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <random>
 #include <sstream>
 #include <vector>
 
@@ -20,7 +24,8 @@ namespace holomorph {
 namespace {
 
 [[noreturn]] void fail(const Path& path, const char* what) {
-  throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + std::strerror(errno));
+  const std::string reason = std::strerror(errno);  // before anything else sets it
+  throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + reason);
 }
 
 /// Closed when it goes out of scope.
@@ -38,7 +43,7 @@ void sync_directory(const Path& directory) {
 }
 
 /// False with errno when not all bytes could be written.
-bool write_all(int descriptor, const std::string& bytes) {
+bool write_all(int descriptor, std::string_view bytes) {
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
     if (wrote < 0 && errno == EINTR) continue;
@@ -78,27 +83,81 @@ Path folder_of(const Path& path) {
   return path.has_parent_path() ? path.parent_path() : Path(".");
 }
 
-/// Whether a path names something that is written into. Throws Error for a folder.
-bool is_stream(const Path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status))
-    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory; name a file");
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+/// Of files that are not there yet. Read without setting it, which other threads would notice.
+mode_t mode_of_new_files() {
+  static const mode_t mask = [] {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+      if (unsigned value = 0; word == "Umask:" && status >> std::oct >> value) return value;
+    return 022u;
+  }();
+  return 0666 & ~mask;
 }
 
 /// The permissions of what is replaced, or those of new files.
 mode_t mode_for(const Path& path) {
   struct stat before {};
-  if (::stat(path.c_str(), &before) == 0) return before.st_mode & 07777;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
+  return ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : mode_of_new_files();
+}
+
+constexpr std::string_view kTemporary = ".holomorph-";
+constexpr size_t kRandom = 8;  ///< letters behind it
+
+bool is_temporary(const std::string& name) {
+  return name.starts_with(kTemporary) && name.size() == kTemporary.size() + kRandom &&
+         name.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz", kTemporary.size()) ==
+             std::string::npos;
+}
+
+Path fresh_temporary(const Path& folder) {
+  thread_local std::random_device random;
+  std::string name(kTemporary);
+  for (size_t k = 0; k < kRandom; ++k)
+    name += "0123456789abcdefghijklmnopqrstuvwxyz"[random() % 36];
+  return folder / name;
+}
+
+/// Removes what killed programs have left in a folder: what is locked is in use.
+void clean(const Path& folder) {
+  using Clock = std::chrono::steady_clock;
+  static std::mutex mutex;
+  static std::map<Path, Clock::time_point> cleaned;  // not again for each of a film's frames
+  {
+    const std::lock_guard lock(mutex);
+    const auto [last, first] = cleaned.try_emplace(folder, Clock::now());
+    if (!first && Clock::now() - last->second < std::chrono::minutes(1)) return;
+    last->second = Clock::now();
+    if (cleaned.size() > 1000) cleaned.clear();
+  }
+  std::error_code error;
+  std::vector<Path> left;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_temporary(entry->path().filename().string())) left.push_back(entry->path());
+  for (const Path& path : left) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) continue;
+    const Descriptor closed{fd};
+    struct stat found {};
+    if (::fstat(fd, &found) != 0 || found.st_uid != ::geteuid() ||
+        (!S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode)))
+      continue;
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove_all(path, error);
+  }
+}
+
+/// Locks what was just made. False when somebody has cleaned it away before.
+bool lock_fresh(int descriptor) {
+  while (::flock(descriptor, LOCK_EX) != 0)
+    if (errno != EINTR) break;  // where there are no locks nobody cleans
+  struct stat found {};
+  return ::fstat(descriptor, &found) == 0 && found.st_nlink > 0;
 }
 
 /// Up to the end; `name` is for messages.
-std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
+std::string read_descriptor(int descriptor, const Path& name, size_t limit, size_t expected = 0) {
   std::string bytes;
+  bytes.reserve(expected);
   std::vector<char> block(1 << 16);
   while (true) {
     const ssize_t count = ::read(descriptor, block.data(), block.size());
@@ -117,34 +176,74 @@ std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
 
 }  // namespace
 
-std::string read_file(const Path& path, size_t limit) {
+bool is_there(const Path& path) {
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    throw Error(ErrorKind::bad_input, path.string() + ": there is no such file");
-  if (std::filesystem::is_directory(status))
-    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory, not a file");
-  if (!std::filesystem::is_regular_file(status))
-    throw Error(ErrorKind::bad_input, path.string() + ": this is not a regular file");
-  if (std::filesystem::file_size(path, error) > limit)
-    throw Error(ErrorKind::bad_input,
-                path.string() + ": the file is larger than " + std::to_string(limit >> 20) + " MB");
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw Error(ErrorKind::bad_input, path.string() + ": the file cannot be read");
+  return std::filesystem::exists(path, error);
+}
+
+bool is_file(const Path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+namespace {
+
+/// What is wrong with a file that cannot be opened.
+std::string unreadable(const Path& path, int reason) {
+  std::error_code error;
+  if (reason == ENOENT && std::filesystem::is_symlink(path, error))
+    return "this is a link to " + std::filesystem::read_symlink(path, error).string() +
+           ", and there is no such file";
+  if (reason == ENOENT || reason == ENOTDIR) return "there is no such file";
+  if (reason == ELOOP) return "this is a link that leads to itself";
+  if (reason == ENAMETOOLONG) return "the name is too long";
+  return std::string("cannot be read: ") + std::strerror(reason);
+}
+
+std::string shortened(const Path& path) {
+  constexpr size_t kMost = 300;
+  const std::string name = path.string();
+  return name.size() <= kMost ? name : name.substr(0, kMost) + "...";
+}
+
+std::string read_path(const Path& path, size_t limit, bool streams) {
+  const auto refuse = [&](const std::string& why) {
+    return Error(ErrorKind::bad_input, shortened(path) + ": " + why);
+  };
+  if (path.native().find('\0') != std::string::npos) throw refuse("no file can have this name");
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) throw refuse(unreadable(path, errno));
+  if (S_ISDIR(found.st_mode)) throw refuse("this is a directory, not a file");
+  // Devices are not even opened: some do what they are for.
+  if (!S_ISREG(found.st_mode) && !streams) throw refuse("this is not a regular file");
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  if (fd < 0) throw refuse(unreadable(path, errno));
+  const Descriptor closed{fd};
+  if (!S_ISREG(found.st_mode)) return read_descriptor(fd, path, limit);
+  if (static_cast<size_t>(found.st_size) > limit)
+    throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
+  // No more than its size: some files of the system's go on for ever.
+  std::string bytes(static_cast<size_t>(found.st_size), '\0');
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::read(fd, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw refuse(unreadable(path, errno));
+    if (count == 0) break;
+    done += static_cast<size_t>(count);
+  }
+  bytes.resize(done);
   return bytes;
 }
 
+}  // namespace
+
+std::string read_file(const Path& path, size_t limit) {
+  return read_path(path, limit, false);
+}
+
 std::string read_stream(const Path& path, size_t limit) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error) || std::filesystem::is_directory(path, error) ||
-      std::filesystem::is_regular_file(path, error))
-    return read_file(path, limit);
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0)
-    throw Error(ErrorKind::bad_input, path.string() + ": cannot be read: " + std::strerror(errno));
-  const Descriptor closed{fd};
-  return read_descriptor(fd, path, limit);
+  return read_path(path, limit, true);
 }
 
 void write_standard_output(const std::string& bytes) {
@@ -154,6 +253,14 @@ void write_standard_output(const std::string& bytes) {
 
 std::string read_standard_input(size_t limit) {
   return read_descriptor(STDIN_FILENO, "standard input", limit);
+}
+
+bool is_stream(const Path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory; name a file");
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
 bool is_read_only(const Path& path) {
@@ -171,35 +278,85 @@ void check_not_read_only(const Path& path) {
                                        "or make it writable");
 }
 
-void write_file(const Path& wanted, const std::string& bytes) {
-  if (is_stream(wanted)) return write_into(wanted, bytes);
-  const Path path = target_of(wanted), folder = folder_of(path);
-  std::string name = (folder / ("." + path.filename().string() + ".XXXXXX")).string();
-  const int fd = ::mkstemp(name.data());
-  if (fd < 0) fail(path, "cannot write here");
-  const bool good = write_all(fd, bytes) && ::fchmod(fd, mode_for(path)) == 0 && ::fsync(fd) == 0;
-  int reason = errno;  // of the first that failed
-  const bool closed = ::close(fd) == 0;
-  if (good) reason = errno;
-  if (good && closed) {
-    if (::rename(name.c_str(), path.c_str()) == 0) return sync_directory(folder);
-    reason = errno;
+NewFile::NewFile(const Path& wanted, Readers readers)
+    : path_(target_of(wanted)), readers_(readers) {
+  const Path folder = folder_of(path_);
+  clean(folder);
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    temporary_ = fresh_temporary(folder);
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (descriptor_ >= 0 && lock_fresh(descriptor_)) return;
+    if (descriptor_ < 0 && errno != EEXIST) fail(path_, "cannot write here");
+    if (descriptor_ >= 0) ::close(descriptor_);
   }
-  ::unlink(name.c_str());
-  errno = reason;
-  fail(path, "cannot be written");
+  fail(path_, "cannot write here");
+}
+
+NewFile::~NewFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void NewFile::write(std::string_view bytes) {
+  if (!write_all(descriptor_, bytes)) fail(path_, "cannot be written");
+}
+
+void NewFile::put_in_place() {
+  if (is_stream(path_)) {
+    if (::lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, "cannot be written");
+    return write_into(path_,
+                      read_descriptor(descriptor_, path_, std::numeric_limits<size_t>::max()));
+  }
+  const mode_t mode = readers_ == Readers::owner ? 0600 : mode_for(path_);
+  if (::fchmod(descriptor_, mode) != 0 || ::fsync(descriptor_) != 0 ||
+      ::rename(temporary_.c_str(), path_.c_str()) != 0)
+    fail(path_, "cannot be written");
+  temporary_.clear();
+  sync_directory(folder_of(path_));
+}
+
+NewFolder::NewFolder(const Path& beside) {
+  const Path folder = folder_of(beside);
+  clean(folder);
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    path_ = fresh_temporary(folder);
+    const bool made = ::mkdir(path_.c_str(), 0700) == 0;
+    if (!made && errno != EEXIST) fail(beside, "cannot write here");
+    if (!made) continue;
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor_ >= 0 && lock_fresh(descriptor_)) return;
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  fail(beside, "cannot write here");
+}
+
+NewFolder::~NewFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+  ::close(descriptor_);
+}
+
+void write_file(const Path& path, const std::string& bytes, NewFile::Readers readers) {
+  if (is_stream(path)) return write_into(path, bytes);
+  NewFile file(path, readers);
+  file.write(bytes);
+  file.put_in_place();
 }
 
 void move_file(const Path& finished, const Path& wanted) {
-  std::error_code error;
-  if (is_stream(wanted) || std::filesystem::is_symlink(wanted, error)) {
-    write_file(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
+  if (is_stream(wanted)) {
+    write_into(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
     ::unlink(finished.c_str());
     return;
   }
-  ::chmod(finished.c_str(), mode_for(wanted));
-  if (::rename(finished.c_str(), wanted.c_str()) != 0) fail(wanted, "cannot be written");
-  sync_directory(folder_of(wanted));
+  const Path path = target_of(wanted);
+  ::chmod(finished.c_str(), mode_for(path));
+  if (::rename(finished.c_str(), path.c_str()) == 0) return sync_directory(folder_of(path));
+  if (errno != EXDEV) fail(path, "cannot be written");
+  write_file(path, read_file(finished, std::numeric_limits<size_t>::max()));
+  ::unlink(finished.c_str());
 }
 
 FileLock::FileLock(const Path& path)

@@ -3,12 +3,18 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/error.h"
 
 namespace holomorph {
 
 using Path = std::filesystem::path;
+
+/// Whether there is a file or folder of this name; false for names that cannot be asked for.
+bool is_there(const Path& path);
+/// Whether there is a regular file of this name.
+bool is_file(const Path& path);
 
 /// The bytes of a regular file. Throws Error{bad_input} when it is missing, a directory, unreadable
 /// or larger than `limit` bytes.
@@ -21,13 +27,60 @@ std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
 /// All bytes of standard input, `limit` at most. Throws Error{bad_input} when there are more.
 std::string read_standard_input(size_t limit = size_t{1} << 30);
 
-/// Replaces the file's content or leaves it as it was: writes next to it, flushes to disk, renames.
-/// A link keeps pointing where it points; pipes and devices are written into. Throws Error{failed}
-/// when that is not possible. Where SIGPIPE is not ignored, a pipe without a reader ends the
-/// program.
-void write_file(const Path& path, const std::string& bytes);
-/// The same with the content of a finished file, which is gone afterwards. Both are in one folder.
+/// A file that comes into being: written beside where it goes, under a short name of its own, and
+/// there as a whole when it is put in place, or never. What a killed program leaves of one is
+/// removed by the next write in that folder, of whatever program of ours.
+class NewFile {
+ public:
+  /// Who may read it: whoever may read what it replaces, or, of new files, whom the user's umask
+  /// lets; or its owner alone.
+  enum class Readers { usual, owner };
+
+  /// Throws Error{failed} when nothing can be written there. A link keeps pointing where it points;
+  /// what is put in place of a pipe or a device is written into it.
+  explicit NewFile(const Path& path, Readers readers = Readers::usual);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  /// Throw Error{failed}.
+  void write(std::string_view bytes);
+  void put_in_place();
+  /// Open for writing, for other programs.
+  int descriptor() const { return descriptor_; }
+
+ private:
+  Path path_, temporary_;
+  Readers readers_;
+  int descriptor_ = -1;
+};
+
+/// A folder for files that are to come into being together: as NewFile, but what is not moved out
+/// of it is removed.
+class NewFolder {
+ public:
+  /// Beside a file. Throws Error{failed}.
+  explicit NewFolder(const Path& beside);
+  ~NewFolder();
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  const Path& path() const { return path_; }
+
+ private:
+  Path path_;
+  int descriptor_ = -1;
+};
+
+/// Replaces the file's content or leaves it as it was: a NewFile, flushed to disk. Pipes and
+/// devices are written into. Throws Error{failed} when that is not possible. Where SIGPIPE is not
+/// ignored, a pipe without a reader ends the program.
+void write_file(const Path& path, const std::string& bytes,
+                NewFile::Readers readers = NewFile::Readers::usual);
+/// The same with the content of a finished file in the same file system, which is gone afterwards.
 void move_file(const Path& finished, const Path& path);
+/// Whether a path names something that is written into and not replaced: a pipe, a device. Throws
+/// Error for a folder.
+bool is_stream(const Path& path);
 /// Throws Error{failed} when standard output does not take all of it.
 void write_standard_output(const std::string& bytes);
 

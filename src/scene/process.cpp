@@ -20,7 +20,8 @@ extern char** environ;
 
 namespace holomorph {
 
-std::optional<Child> start_program(const std::vector<std::string>& words, int messages) {
+std::optional<Child> start_program(const std::vector<std::string>& words, int messages,
+                                   int passed) {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return {};
   std::vector<char*> arguments;
@@ -34,6 +35,8 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
     ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
   else
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  // Nothing that follows may close it again: it comes last, and has a number of its own.
+  if (passed >= 0) ::posix_spawn_file_actions_adddup2(&actions, passed, kPassedDescriptor);
   Child child;
   const int wrong =
       ::posix_spawnp(&child.pid, words[0].c_str(), &actions, nullptr, arguments.data(), environ);

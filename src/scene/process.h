@@ -22,8 +22,11 @@ struct Child {
   int pid = 0, socket = -1;
 };
 /// Starts a program found on the PATH; what it says of errors goes to the descriptor `messages`, or
-/// nowhere. None when it cannot be started; errno says why.
-std::optional<Child> start_program(const std::vector<std::string>& words, int messages = -1);
+/// nowhere. It finds the descriptor `passed` open as kPassedDescriptor. None when it cannot be
+/// started; errno says why.
+std::optional<Child> start_program(const std::vector<std::string>& words, int messages = -1,
+                                   int passed = -1);
+inline constexpr int kPassedDescriptor = 3;
 
 /// Runs a program found on the PATH, gives it `input` and waits. None when it cannot be started, or
 /// when `go_on`, which is asked every few hundredths of a second, has said no: then it is ended.
