@@ -36,8 +36,36 @@ Points parameterized(Net& net) {
   return flat;
 }
 
+/// CGAL's invariants break with triangles that are lines, too.
+template <class Parameterizer>
+Points guarded(Net& net) {
+  static const auto printing =  // the exception says enough
+      CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  static_cast<void>(printing);
+  try {
+    return parameterized<Parameterizer>(net);
+  } catch (const CGAL::Failure_exception&) {
+    throw Error(ErrorKind::bad_input,
+                "the surface could not be flattened: some of its triangles are too thin");
+  }
+}
+
 Eigen::Vector3d side(const Surface& surface, int a, int b) {
   return surface.vertices[static_cast<size_t>(b)] - surface.vertices[static_cast<size_t>(a)];
+}
+
+/// Throws Error for triangles that are lines or points.
+void check_areas(const Surface& surface) {
+  constexpr double kThinnest = 1e-12;
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto& t = surface.triangles[i];
+    const Eigen::Vector3d a = side(surface, t[0], t[1]), b = side(surface, t[0], t[2]);
+    const double longest = std::max(a.squaredNorm(), b.squaredNorm());
+    if (!(a.cross(b).norm() > kThinnest * longest))
+      throw Error(ErrorKind::bad_input, "triangle " + std::to_string(i + 1) +
+                                            " of the surface has no area; remove such triangles "
+                                            "in the program that made it");
+  }
 }
 
 /// The gradient of the surface's y over the plane, summed by area.
@@ -68,14 +96,15 @@ Flattening flattening_named(const std::string& name) {
 
 Points flattened(const Surface& surface, Flattening how) {
   disk_boundary(surface);
+  check_areas(surface);
   Net net;
   for (const Eigen::Vector3d& p : surface.vertices) net.add_vertex({p.x(), p.y(), p.z()});
   for (const auto& t : surface.triangles)
     net.add_face(Vertex(static_cast<unsigned>(t[0])), Vertex(static_cast<unsigned>(t[1])),
                  Vertex(static_cast<unsigned>(t[2])));
   Points flat = how == Flattening::lscm
-                    ? parameterized<SMP::LSCM_parameterizer_3<Net>>(net)
-                    : parameterized<SMP::Discrete_conformal_map_parameterizer_3<
+                    ? guarded<SMP::LSCM_parameterizer_3<Net>>(net)
+                    : guarded<SMP::Discrete_conformal_map_parameterizer_3<
                           Net, SMP::Circular_border_arc_length_parameterizer_3<Net>>>(net);
   double area = 0, flat_area = 0;
   for (const auto& t : surface.triangles) {
