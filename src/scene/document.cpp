@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "scene/budget.h"
+#include "scene/json_reader.h"
 #include "scene/laid_surface.h"
 #include "scene/layers.h"
 #include "scene/ora_image.h"
@@ -33,25 +35,30 @@ Path autosave_path(const Path& folder, const std::string& id) {
 // An autosave remembers the file that its scene was opened from, under a key of its own.
 constexpr const char* kOrigin = "autosave_of";
 
-std::string with_origin(const std::string& json, const Path& origin) {
-  if (origin.empty()) return json;
-  nlohmann::ordered_json value = nlohmann::ordered_json::parse(json);
-  value[kOrigin] = origin.string();
-  return value.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+Scene with_origin(Scene scene, const Path& origin) {
+  if (origin.empty()) return scene;
+  using Text = nlohmann::json;
+  const std::string member =
+      Text(kOrigin).dump() + ":" +
+      Text(origin.string()).dump(-1, ' ', false, Text::error_handler_t::replace);
+  Extra& extra = scene.extra;  // an object's text
+  extra =
+      extra.empty() ? "{" + member + "}" : extra.substr(0, extra.size() - 1) + "," + member + "}";
+  return scene;
 }
 
-Path origin_of(const std::string& json) {
-  const auto value = nlohmann::json::parse(json, nullptr, false);
-  return value.is_object() && value.contains(kOrigin) && value[kOrigin].is_string()
-             ? Path(value[kOrigin].get<std::string>())
+Path origin_of(const Scene& scene) {
+  const auto extra = nlohmann::json::parse(scene.extra, nullptr, false);
+  return extra.is_object() && extra.contains(kOrigin) && extra[kOrigin].is_string()
+             ? Path(extra[kOrigin].get<std::string>())
              : Path();
 }
 
 Extra without_origin(const Extra& extra) {
   if (extra.empty()) return extra;
-  auto value = nlohmann::ordered_json::parse(extra);
-  value.erase(kOrigin);
-  return value.empty() ? "" : value.dump();
+  constexpr int kDeepest = 1000;  // it was read from less
+  const JsonTree tree(extra, kDeepest);
+  return Reader(tree.root(), "", "").others({kOrigin});
 }
 
 /// Beside an autosave: locked while the program that writes it runs.
@@ -86,8 +93,7 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
 /// Lets a reference name the picture's namesake beside the scene when that is the picture and the
 /// file that it names is gone.
 void look_beside(const Path& scene, ImageReference& reference, PictureFiles& files) {
-  std::error_code ignored;
-  if (fs::exists(reference.file, ignored)) return;
+  if (is_there(reference.file)) return;
   ImageReference moved = reference;
   moved.file = beside(scene, Path(reference.file).filename()).string();
   try {
@@ -121,8 +127,21 @@ std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, 
 
 }  // namespace
 
+namespace {
+
+/// Looked at before it is read, because a scene has a budget.
+std::string read_scene_file(const Path& path) {
+  std::error_code missing;
+  const auto size = fs::file_size(path, missing);
+  if (!missing)
+    check_budget(&Budget::scene, static_cast<double>(size), path.string() + ": the scene has");
+  return read_file(path);
+}
+
+}  // namespace
+
 LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
-  return scene_of_text(read_file(path), path, pictures_may_be_missing);
+  return scene_of_text(read_scene_file(path), path, pictures_may_be_missing);
 }
 
 LoadedScene scene_of_text(const std::string& text, const Path& path, bool pictures_may_be_missing) {
@@ -272,7 +291,7 @@ Document Document::copy_of(const Path& scene) {
 
 Document Document::recover(const Path& autosave) {
   Document document(load_scene(autosave, true), Path());
-  document.path_ = origin_of(read_file(autosave));
+  document.path_ = origin_of(document.scene());
   Scene scene = document.scene();
   scene.extra = without_origin(scene.extra);
   document.history_ = History(scene, "Recovered");
@@ -329,7 +348,7 @@ Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& 
     const Path copy =
         target.parent_path() / (target.stem().string() + "-" + file.stem().string() + ".png");
     // What was pasted is known by its contents: a copy that is there is this one.
-    if (!fs::exists(copy)) write_file(copy, encode_png(*picture->image));
+    if (!is_there(copy)) write_file(copy, encode_png(*picture->image));
     Picture copied = *picture;
     std::error_code ignored;
     copied.changed = fs::last_write_time(copy, ignored);
@@ -359,7 +378,8 @@ bool Document::autosave(const Path& folder) {
   fs::create_directories(folder, ignored);
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
-    write_file(path, with_origin(json_of(portable(scene(), Path())), path_));
+    write_file(path, json_of(with_origin(portable(scene(), Path()), path_)),
+               NewFile::Readers::owner);
   } catch (const Error&) {
     return false;
   }
@@ -380,9 +400,8 @@ namespace {
 std::string label_of(const Path& autosave, fs::file_time_type time) {
   std::string name = "a scene";
   try {
-    const std::string text = read_file(autosave);
-    const Scene scene = scene_from_json(text, autosave.string());
-    const Path origin = origin_of(text);
+    const Scene scene = scene_from_json(read_scene_file(autosave), autosave.string());
+    const Path origin = origin_of(scene);
     if (!origin.empty())
       name = origin.filename().string();
     else if (scene.image)

@@ -3,7 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <unordered_map>
+
 #include "core/error.h"
+#include "scene/json_tree.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -15,35 +18,40 @@ inline constexpr double kLargestCoordinate = 1e8;  ///< beyond this they are no 
 /// A JSON value, where it stands, and how to complain about it.
 class Reader {
  public:
-  Reader(const Json& value, std::string name, std::string pointer)
-      : value_(value), name_(std::move(name)), pointer_(std::move(pointer)) {}
+  using Kind = JsonTree::Kind;
+
+  Reader(JsonTree::Value value, const std::string& name, std::string pointer)
+      : value_(value), name_(&name), pointer_(std::move(pointer)) {}
 
   [[noreturn]] void fail(const std::string& reason, std::optional<Complex> where = {}) const {
     throw Error(ErrorKind::bad_input,
-                name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
+                *name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
   }
 
   const Reader& object() const {
-    if (!value_.is_object()) fail("an object is wanted here, not " + kind());
+    if (value_.kind() != Kind::object) fail("an object is wanted here, not " + kind());
     return *this;
   }
   const Reader& array() const {
-    if (!value_.is_array()) fail("a list is wanted here, not " + kind());
+    if (value_.kind() != Kind::list) fail("a list is wanted here, not " + kind());
     return *this;
   }
-  size_t size() const { return value_.size(); }
-  bool has(const char* key) const { return value_.contains(key); }
+  size_t size() const {
+    return value_.kind() == Kind::list || value_.kind() == Kind::object ? value_.size() : 0;
+  }
+  bool has(std::string_view key) const { return found(key) < size(); }
   Reader operator[](const char* key) const {
-    if (!has(key)) fail(std::string("the key '") + key + "' is missing");
-    return {value_.at(key), name_, pointer_ + "/" + key};
+    const size_t i = found(key);
+    if (i >= size()) fail(std::string("the key '") + key + "' is missing");
+    return {value_.member(i), *name_, pointer_ + "/" + key};
   }
   Reader operator[](size_t i) const {
-    return {value_.at(i), name_, pointer_ + "/" + std::to_string(i)};
+    return {value_.item(i), *name_, pointer_ + "/" + std::to_string(i)};
   }
 
   double number() const {
     if (!value_.is_number()) fail("a number is wanted here, not " + kind());
-    const double number = value_.get<double>();
+    const double number = value_.number();
     if (!std::isfinite(number)) fail("the number is not finite");
     return number;
   }
@@ -62,8 +70,8 @@ class Reader {
     return static_cast<int>(n);
   }
   std::string text() const {
-    if (!value_.is_string()) fail("a text is wanted here, not " + kind());
-    return value_.get<std::string>();
+    if (value_.kind() != Kind::text) fail("a text is wanted here, not " + kind());
+    return std::string(value_.text());
   }
   Complex point() const {
     array();
@@ -74,32 +82,62 @@ class Reader {
     return z;
   }
   bool truth() const {
-    if (!value_.is_boolean()) fail("true or false is wanted here, not " + kind());
-    return value_.get<bool>();
+    if (value_.kind() != Kind::boolean) fail("true or false is wanted here, not " + kind());
+    return value_.truth();
   }
   /// A parameter: a number, or a switch as 0 or 1.
-  double value() const { return value_.is_boolean() ? (value_.get<bool>() ? 1.0 : 0.0) : number(); }
-
-  /// The keys other than the known ones, as text; empty when there are none.
-  Extra others(std::initializer_list<const char*> known) const {
-    Json rest = Json::object();
-    for (const auto& [key, value] : value_.items())
-      if (std::find(known.begin(), known.end(), key) == known.end()) rest[key] = value;
-    return rest.empty() ? "" : rest.dump();
+  double value() const {
+    return value_.kind() == Kind::boolean ? (value_.truth() ? 1.0 : 0.0) : number();
   }
-  std::vector<std::string> keys() const {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : value_.items()) keys.push_back(key);
-    return keys;
+
+  /// The keys other than the known ones, with their values, as text; empty when there are none.
+  Extra others(std::initializer_list<const char*> known) const {
+    std::string text;
+    for (const auto& [key, i] : last_of_each()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      text += (text.empty() ? "{" : ",") + Json(key).dump() + ":";
+      value_.member(i).write(text);
+    }
+    return text.empty() ? "" : text + "}";
+  }
+  /// All members of an object, by their keys.
+  std::vector<std::pair<std::string, Reader>> members() const {
+    std::vector<std::pair<std::string, Reader>> all;
+    for (const auto& [key, i] : last_of_each())
+      all.emplace_back(key, Reader(value_.member(i), *name_, pointer_ + "/" + std::string(key)));
+    return all;
   }
 
  private:
+  /// Where a key stands last; size() if nowhere.
+  size_t found(std::string_view key) const {
+    if (value_.kind() != Kind::object) return size();
+    for (size_t i = size(); i-- > 0;)
+      if (value_.key(i) == key) return i;
+    return size();
+  }
+  /// Each key once, in the order in which they come first, with where it stands last.
+  std::vector<std::pair<std::string_view, size_t>> last_of_each() const {
+    std::vector<std::pair<std::string_view, size_t>> all;
+    std::unordered_map<std::string_view, size_t> places;
+    for (size_t i = 0; i < size(); ++i) {
+      const auto [place, first] = places.try_emplace(value_.key(i), all.size());
+      if (first)
+        all.emplace_back(value_.key(i), i);
+      else
+        all[place->second].second = i;
+    }
+    return all;
+  }
   std::string kind() const {
-    return value_.is_null() ? "null" : std::string("a ") + value_.type_name();
+    constexpr const char* kNames[] = {"null",     "a boolean", "a number", "a number",
+                                      "a number", "a string",  "an array", "an object"};
+    return kNames[static_cast<size_t>(value_.kind())];
   }
 
-  const Json& value_;
-  std::string name_, pointer_;
+  JsonTree::Value value_;
+  const std::string* name_;
+  std::string pointer_;
 };
 
 }  // namespace holomorph

@@ -207,10 +207,37 @@ Json animation_json(const AnimationSettings& settings) {
   return json;
 }
 
+namespace {
+
+/// Members are not looked for, so that this is linear.
+Json to_json(const JsonTree::Value& value) {
+  Json json;
+  if (value.kind() == JsonTree::Kind::object) {
+    json = Json::object();
+    auto& members = json.get_ref<Json::object_t&>();
+    for (size_t i = 0; i < value.size(); ++i)
+      members.emplace_back(std::string(value.key(i)), to_json(value.member(i)));
+  } else if (value.kind() == JsonTree::Kind::list) {
+    json = Json::array();
+    for (size_t i = 0; i < value.size(); ++i) json.push_back(to_json(value.item(i)));
+  } else {
+    std::string text;
+    value.write(text);
+    json = Json::parse(text);
+  }
+  return json;
+}
+
+}  // namespace
+
 void add_extra(Json& object, const Extra& extra) {
   if (extra.empty()) return;
-  const Json others = Json::parse(extra);
-  for (const auto& [key, value] : others.items()) object[key] = value;
+  constexpr int kDeepest = 1000;  // it was read from less
+  const JsonTree tree(extra, kDeepest);
+  if (!object.is_object()) object = Json::object();
+  auto& members = object.get_ref<Json::object_t&>();
+  for (size_t i = 0; i < tree.root().size(); ++i)
+    members.emplace_back(std::string(tree.root().key(i)), to_json(tree.root().member(i)));
 }
 
 }  // namespace holomorph

@@ -6,6 +6,7 @@
 #include "core/flatten.h"
 #include "core/outline_match.h"
 #include "core/polyline.h"
+#include "scene/budget.h"
 #include "scene/layers.h"
 #include "scene/pose_json.h"
 
@@ -93,21 +94,21 @@ Background read_background(const Reader& reader) {
 Parameters read_parameters(const Reader& values, const Method& method) {
   values.object();
   Parameters parameters;
-  for (const std::string& key : values.keys()) {
+  for (const auto& [key, reader] : values.members()) {
     const auto spec = std::ranges::find(method.parameters, key, &ParameterSpec::key);
     if (spec == method.parameters.end())
       values.fail("method '" + method.id + "' has no parameter '" + key + "'");
     if (spec->kind == ParameterSpec::Kind::choice) {
-      const std::string id = values[key.c_str()].text();
+      const std::string id = reader.text();
       const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
-      if (option == spec->options.end()) values[key.c_str()].fail("'" + id + "' is no choice here");
+      if (option == spec->options.end()) reader.fail("'" + id + "' is no choice here");
       parameters[key] = static_cast<double>(option - spec->options.begin());
       continue;
     }
-    const double value = values[key.c_str()].value();
+    const double value = reader.value();
     if (value < spec->lowest || value > spec->highest)
-      values[key.c_str()].fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
-                               Json(spec->highest).dump() + "]");
+      reader.fail("the value is outside [" + Json(spec->lowest).dump() + ", " +
+                  Json(spec->highest).dump() + "]");
     parameters[key] = value;
   }
   return parameters;
@@ -127,10 +128,8 @@ void read_method(const Reader& reader, Scene& scene) {
   const Method& method = read_id(reader["id"], scene.method);
   if (reader.has("parameters")) scene.parameters = read_parameters(reader["parameters"], method);
   if (reader.has("others")) {
-    const Reader others = reader["others"].object();
-    for (const std::string& id : others.keys())
-      scene.other_parameters[id] =
-          read_parameters(others[id.c_str()], read_id(others[id.c_str()], id));
+    for (const auto& [id, parameters] : reader["others"].object().members())
+      scene.other_parameters[id] = read_parameters(parameters, read_id(parameters, id));
   }
   scene.method_extra = reader.others({"id", "parameters", "others"});
 }
@@ -287,25 +286,22 @@ Scene read_layers(const Reader& reader) {
 }  // namespace
 
 Scene scene_from_json(const std::string& text, const std::string& name) {
-  Json document;
+  check_budget(&Budget::scene, static_cast<double>(text.size()), name + ": the scene has");
+  std::optional<JsonTree> tree;
   try {
-    document = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-      if (depth > kDeepest)
-        throw Error(ErrorKind::bad_input, "brackets are nested more than 200 deep");
-      return true;
-    });
+    tree.emplace(text, kDeepest);
   } catch (const Error& error) {
-    throw Error(error.kind(), name + ": this is not a scene: " + error.what());
-  } catch (const Json::exception& error) {
     const std::string what = error.what();  // "... at line 3, column 9: ..."
     const size_t at = what.find("line "), end = what.find(':', at);
+    if (what.starts_with("brackets"))
+      throw Error(error.kind(), name + ": this is not a scene: " + what);
     throw Error(ErrorKind::bad_input, name +
                                           ": this is not a scene: it is damaged or ends too early" +
                                           (at != std::string::npos && end != std::string::npos
                                                ? ", at " + what.substr(at, end - at)
                                                : ""));
   }
-  const Reader reader(document, name, "");
+  const Reader reader(tree->root(), name, "");
   reader.object();
   if (!reader.has("format") || reader["format"].text() != "holomorph")
     reader.fail("this is not a Holomorph scene: \"format\": \"holomorph\" is missing");
