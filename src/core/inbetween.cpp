@@ -44,10 +44,20 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
   }
 }
 
+namespace {
+
+Inbetween::Shape turned(Inbetween::Shape shape, int turns) {
+  shape.logarithm.array() += Complex(0, 2 * kPi * turns);
+  shape.turns = turns;
+  return shape;
+}
+
+}  // namespace
+
 Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
                                      const ExpectedTurn& expected) const {
   const Index count = areas_.size();
-  Shape shape{f, VectorXc(count), VectorXc(count)};
+  Shape shape{f, VectorXc(count), VectorXc(count), 0};
   constexpr double kLeast = 1e-9;  // of f_z
   for (const auto& [triangle, from] : order_) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
@@ -69,13 +79,16 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
     shape.nu[triangle] = std::conj(fzbar) / std::polar(size, angle);
   }
   if (!before) return shape;
-  const VectorXd turned = (shape.logarithm - before->logarithm).imag();
+  const VectorXd between = (shape.logarithm - before->logarithm).imag();
   std::optional<Location> at;
   if (expected.at) at = locate(*mesh_, mesh_->vertices, *expected.at);
-  const double now = at ? turned[at->triangle] : turned.dot(areas_) / areas_.sum();
-  const double whole = 2 * kPi * std::round((expected.radians - now) / (2 * kPi));
-  shape.logarithm.array() += Complex(0, whole);
-  return shape;
+  const double now = at ? between[at->triangle] : between.dot(areas_) / areas_.sum();
+  return turned(std::move(shape),
+                static_cast<int>(std::round((expected.radians - now) / (2 * kPi))));
+}
+
+Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {
+  return turned(shape_of(f), turns);
 }
 
 VectorXc Inbetween::slopes(const Shape* before, const Shape& here, const Shape* after,

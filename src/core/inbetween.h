@@ -33,11 +33,14 @@ class Inbetween {
     VectorXc f;
     VectorXc logarithm;  ///< of f_z in each triangle, continuous
     VectorXc nu;
+    int turns = 0;  ///< whole ones, beyond the angle from -pi to pi of the first triangle
   };
   /// `before`, when given, decides about whole turns: the average is the nearest one to what is
   /// expected, and to that map's otherwise. Triangles of no size count as very small ones.
   Shape shape_of(const VectorXc& f, const Shape* before = nullptr,
                  const ExpectedTurn& expected = {}) const;
+  /// The same with whole turns that are known already.
+  Shape shape_of(const VectorXc& f, int turns) const;
 
   /// By how much each quantity of a shape changes with time at a key between its neighbors, which
   /// lie `to_before` and `to_after` away: monotone cubics (Fritsch, Carlson 1980); 0 at ends.

@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/distortion.h"
 #include "core/mesher.h"
+#include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -82,6 +83,14 @@ bool same_rest(const Scene& a, const Scene& b) {
 
 namespace {
 
+/// Before they are computed.
+void check_coordinates(const Rest& rest, Index places) {
+  const Index controls = rest.cage.control_count();
+  check_budget(&Budget::coordinates, static_cast<double>(controls) * static_cast<double>(places),
+               "the cage has " + std::to_string(controls) + " control points and its mesh " +
+                   std::to_string(places) + " vertices:");
+}
+
 /// The same place for every segment, whatever degrees straight ones are written with.
 bool is_same_curve(const Cage& a, const Cage& b) {
   return a == b || (vertices_of(a) == vertices_of(b) && is_straight(a) && is_straight(b));
@@ -97,8 +106,10 @@ std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precisio
   prepared->method = scene.method;
   const bool same_cage =
       previous && previous->mesh && is_same_curve(previous->rest.cage, prepared->rest.cage);
+  check_coordinates(prepared->rest, options.vertices);
   prepared->mesh =
       same_cage ? previous->mesh : std::make_shared<const Mesh>(domain_mesh(scene.rest, options));
+  check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
   prepared->rest.samples = prepared->mesh->vertices;
   prepared->rest.mesh = prepared->mesh;
   prepared->rest.derivative_samples =

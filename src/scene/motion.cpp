@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/distortion.h"
+#include "scene/budget.h"
 #include "scene/keyframes.h"
 #include "scene/live_map.h"
 
@@ -76,6 +77,10 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   }
   std::vector<Key> keys;
   const std::vector<size_t> playing = playing_keys(scene);
+  check_budget(
+      &Budget::operators,
+      static_cast<double>(playing.size() * prepared->mesh->vertices.size() * sizeof(Complex)),
+      "the maps at " + std::to_string(playing.size()) + " keyframes need");
   const auto is_known = [&](size_t i, const Key& key) {
     const Keyframe& frame = scene.keyframes[i];
     return frame.time == key.time && frame.ease == key.ease && frame.turns == key.turns &&
@@ -89,14 +94,14 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   for (const size_t i : playing) {
     const Keyframe& frame = scene.keyframes[i];
     const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
-    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}, {}};
+    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}};
     if (known != keys_.end()) {
-      key.shape.f = known->shape.f;
+      key.f = known->f;
     } else {
       try {
         SampledMap map;
         prepared->deformer->deform(pose_of(posed_as(scene, frame.pose)), map, {});
-        key.shape.f = std::move(map.f);
+        key.f = std::move(map.f);
       } catch (const Error& error) {
         char when[48];
         std::snprintf(when, sizeof when, "the keyframe at %.2f s: ", frame.time);
@@ -115,21 +120,48 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   align(scene);
 }
 
-/// Whole turns from key to key, and how fast each quantity passes them.
+/// Whole turns from key to key.
 void Motion::align(const Scene& scene) {
-  for (size_t i = 0; i < keys_.size(); ++i)
-    keys_[i].shape = between_->shape_of(
-        keys_[i].shape.f, i > 0 ? &keys_[i - 1].shape : nullptr,
-        i > 0 ? expected_turn(scene, keys_[i - 1].pose, keys_[i].pose, keys_[i].turns)
-              : ExpectedTurn{});
+  shapes_.clear();
+  slopes_.reset();
+  Inbetween::Shape before;
   for (size_t i = 0; i < keys_.size(); ++i) {
-    const bool passes = i > 0 && i + 1 < keys_.size() && keys_[i - 1].ease == Ease::smooth &&
-                        keys_[i].ease == Ease::smooth;
-    keys_[i].slopes = between_->slopes(passes ? &keys_[i - 1].shape : nullptr, keys_[i].shape,
-                                       passes ? &keys_[i + 1].shape : nullptr,
-                                       passes ? keys_[i].time - keys_[i - 1].time : 1,
-                                       passes ? keys_[i + 1].time - keys_[i].time : 1);
+    Key& key = keys_[i];
+    Inbetween::Shape shape =
+        i == 0 ? between_->shape_of(key.f)
+               : between_->shape_of(key.f, &before,
+                                    expected_turn(scene, keys_[i - 1].pose, key.pose, key.turns));
+    key.whole_turns = shape.turns;
+    key.turned = shape.logarithm.imag().mean();
+    before = std::move(shape);
   }
+}
+
+const Inbetween::Shape& Motion::shape_at(size_t key) const {
+  constexpr size_t kKept = 12;
+  const auto known = shapes_.find(key);
+  if (known != shapes_.end()) return known->second;
+  if (shapes_.size() >= kKept) {  // the farthest goes
+    const auto first = shapes_.begin(), last = std::prev(shapes_.end());
+    const auto from = [&](size_t k) { return k > key ? k - key : key - k; };
+    shapes_.erase(from(first->first) > from(last->first) ? first : last);
+  }
+  return shapes_.emplace(key, between_->shape_of(keys_[key].f, keys_[key].whole_turns))
+      .first->second;
+}
+
+VectorXc Motion::slopes_at(size_t key) const {
+  const bool passes = key > 0 && key + 1 < keys_.size() && keys_[key - 1].ease == Ease::smooth &&
+                      keys_[key].ease == Ease::smooth;
+  if (!passes) return between_->slopes(nullptr, shape_at(key), nullptr, 1, 1);
+  return between_->slopes(&shape_at(key - 1), shape_at(key), &shape_at(key + 1),
+                          keys_[key].time - keys_[key - 1].time,
+                          keys_[key + 1].time - keys_[key].time);
+}
+
+const Motion::Slopes& Motion::slopes_from(size_t key) const {
+  if (!slopes_ || slopes_->from != key) slopes_ = Slopes{key, slopes_at(key), slopes_at(key + 1)};
+  return *slopes_;
 }
 
 Motion::Place Motion::place_of(double time) const {
@@ -144,8 +176,8 @@ const VectorXc* Motion::key_beside(double time, bool later) const {
   constexpr double kHere = 1e-3;
   const VectorXc* found = nullptr;
   for (const Key& key : keys_) {
-    if (!later && key.time < time - kHere) found = &key.shape.f;
-    if (later && key.time > time + kHere) return &key.shape.f;
+    if (!later && key.time < time - kHere) found = &key.f;
+    if (later && key.time > time + kHere) return &key.f;
   }
   return later ? nullptr : found;
 }
@@ -160,16 +192,16 @@ const Pose* Motion::pose_at(double time) const {
   constexpr double kStill = 1e-9;  // of the size
   const Key &from = keys_[i], &to = keys_[i + 1];
   if (!(from.pose == to.pose) || to.turns != 0) return nullptr;
-  const double moved = (map_at(time) - from.shape.f).cwiseAbs().maxCoeff();
+  const double moved = (map_at(time) - from.f).cwiseAbs().maxCoeff();
   return moved <= kStill * box_of(between_->mesh().vertices).diagonal() ? &from.pose : nullptr;
 }
 
 double Motion::turned_at(double time) const {
   const auto [i, u] = place_of(time);
-  const double from = keys_[i].shape.logarithm.imag().mean();
+  const double from = keys_[i].turned;
   if (u == 0) return from;
   const double s = eased(keys_[i].ease, u);
-  return from + s * (keys_[i + 1].shape.logarithm.imag().mean() - from);
+  return from + s * (keys_[i + 1].turned - from);
 }
 
 void keep_turns(Scene& scene, const Scene& before, const Motion& motion) {
@@ -196,16 +228,17 @@ void keep_turns(Scene& scene, const Scene& before, const Motion& motion) {
 VectorXc Motion::map_at(double time) const {
   const auto [i, u] = place_of(time);
   const Key& from = keys_[i];
-  if (u == 0) return from.shape.f;
+  if (u == 0) return from.f;
   const Key& to = keys_[i + 1];
   const bool smooth = from.ease == Ease::smooth;
   VectorXc f;
   if (straight_) {
     const double share = eased(from.ease, u);
-    f = (1 - share) * from.shape.f + share * to.shape.f;
+    f = (1 - share) * from.f + share * to.f;
   } else {
-    between_->blend({from.shape, to.shape, to.time - from.time, smooth ? &from.slopes : nullptr,
-                     smooth ? &to.slopes : nullptr},
+    const Slopes* slopes = smooth ? &slopes_from(i) : nullptr;
+    between_->blend({shape_at(i), shape_at(i + 1), to.time - from.time,
+                     slopes ? &slopes->at_from : nullptr, slopes ? &slopes->at_to : nullptr},
                     u, f);
   }
   return f;
@@ -232,8 +265,8 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
   // What stays where it is stays there on the way; other handles go with the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
     if (at_a == at_b && b.turns == 0) return at_a;
-    const Frame now = frame_at(rest, map), before = frame_at(rest, a.shape.f),
-                after = frame_at(rest, b.shape.f);
+    const Frame now = frame_at(rest, map), before = frame_at(rest, a.f),
+                after = frame_at(rest, b.f);
     return now.f +
            now.fz * ((1 - s) * (at_a - before.f) / before.fz + s * (at_b - after.f) / after.fz);
   };

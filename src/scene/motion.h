@@ -16,7 +16,8 @@ class Motion {
  public:
   /// Brings the maps at a scene's keyframes up to date: those whose pose has changed are asked of
   /// the deformer. The prepared map must be the scene's. Keyframes that cannot be mapped are left
-  /// out; the first one's reason is error(). Cost: a final pose for each changed keyframe.
+  /// out; the first one's reason is error(). Cost: a final pose for each changed keyframe. Throws
+  /// Error{bad_input} when the maps would need more memory than the budget has.
   void follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
 
@@ -51,8 +52,14 @@ class Motion {
     Ease ease = Ease::smooth;
     int turns = 0;
     Pose pose;
-    Inbetween::Shape shape;
-    VectorXc slopes;
+    VectorXc f;           ///< at the mesh's vertices
+    int whole_turns = 0;  ///< of its shape
+    double turned = 0;    ///< radians, on average
+  };
+  /// How fast each quantity passes the keys of one interval.
+  struct Slopes {
+    size_t from = 0;
+    VectorXc at_from, at_to;
   };
   /// Where a time lies: at key `from`, or on the way to the next one.
   struct Place {
@@ -66,6 +73,9 @@ class Motion {
   Place place_of(double time) const;
   Frame frame_at(Complex rest, const VectorXc& map) const;
   void align(const Scene& scene);
+  const Inbetween::Shape& shape_at(size_t key) const;
+  VectorXc slopes_at(size_t key) const;
+  const Slopes& slopes_from(size_t key) const;
 
   std::vector<Key> keys_;
   std::shared_ptr<PreparedMap> prepared_;
@@ -73,6 +83,10 @@ class Motion {
   bool straight_ = false;
   std::optional<Error> error_;
   mutable std::map<std::pair<double, double>, Location> locations_;
+  // A shape takes eight times the memory of its map: those around the time that is asked for are
+  // kept.
+  mutable std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
+  mutable std::optional<Slopes> slopes_;
 };
 
 /// Sets the whole turns of keys that `before` has not, and of those behind them, so that the

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "scene/budget.h"
 
 namespace holomorph {
 namespace {
@@ -151,21 +152,24 @@ class PathReader {
 };
 
 /// The paths below a node in document order, without those that only serve others.
-void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths) {
+void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths,
+                   const std::string& name, int level = 0) {
+  check_budget(&Budget::groups, level, name + ": its groups have");
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
                                              "marker", "pattern",  "symbol"};
   for (const pugi::xml_node& child : node.children()) {
     std::string tag = child.name();
     if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
     if (tag == "path") paths.push_back(child);
-    if (!kUnseen.contains(tag)) collect_paths(child, paths);
+    if (!kUnseen.contains(tag)) collect_paths(child, paths, name, level + 1);
   }
 }
 
 /// The path with this id, or the first one.
-pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
+pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id,
+                       const std::string& name) {
   std::vector<pugi::xml_node> paths;
-  collect_paths(document, paths);
+  collect_paths(document, paths, name);
   for (const pugi::xml_node& path : paths)
     if (path.attribute("id").as_string() == id) return path;
   return paths.empty() ? pugi::xml_node() : paths.front();
@@ -209,7 +213,7 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
     throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
-  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
+  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)], name);
   if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
   for (pugi::xml_node node = path; node; node = node.parent())
     if (is_transformed(node))
@@ -225,6 +229,10 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
       PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {z.real(), height - z.imag()};
+  constexpr Index kMostSegments = 5000;  // as scenes have
+  if (cage.size() > kMostSegments)
+    throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
+                                          " segments; at most 5000 can be used");
   if (cage.size() < 3 && use != PathUse::outline)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; a cage needs at least three");
