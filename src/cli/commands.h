@@ -31,7 +31,9 @@ struct RenderCommand {
   Path scene, out;
   double scale = 1;
   std::string view = "image";
-  bool crop = false, force = false;
+  bool crop = false;
+  std::optional<Box> rectangle = {};
+  bool force = false;
   Moments moments = {};
 };
 struct InfoCommand {
@@ -54,7 +56,9 @@ struct ExportCommand {
   Path scene, out;
   std::string format;
   std::optional<double> scale = {};
-  bool crop = false, force = false;
+  bool crop = false;
+  std::optional<Box> rectangle = {};
+  bool force = false;
   Moments moments = {};
 };
 struct BenchCommand {

@@ -7,10 +7,17 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "scene/budget.h"
 
 using namespace holomorph;
 
 namespace {
+
+std::string shown_number(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", number);
+  return text;
+}
 
 /// All that the command line can say.
 struct CommandLine {
@@ -23,11 +30,13 @@ struct CommandLine {
   NewCommand fresh;
   ExportCommand exported;
   BenchCommand bench;
+  Budget budget;
   bool done = false;  ///< a command has run
 
   void add_to(CLI::App& app);
 
  private:
+  void add_budget(CLI::App* sub);
   template <class Command>
   CLI::App* add(CLI::App& app, const char* name, const char* what, const Command& command);
   void add_map(CLI::App& app);
@@ -40,12 +49,25 @@ struct CommandLine {
   void add_bench(CLI::App& app);
 };
 
+void CommandLine::add_budget(CLI::App* sub) {
+  for (const BudgetOption& option : budget_options())
+    sub->add_option_function<double>(
+           option.name,
+           [this, &option](double amount) { budget.*option.limit = amount * option.per_unit; },
+           std::string(option.what) + "; " + shown_number(budget.*option.limit / option.per_unit) +
+               " " + option.unit + " if not given")
+        ->check(CLI::PositiveNumber)
+        ->group("Limits");
+}
+
 template <class Command>
 CLI::App* CommandLine::add(CLI::App& app, const char* name, const char* what,
                            const Command& command) {
   CLI::App* sub = app.add_subcommand(name, what);
+  add_budget(sub);
   sub->callback([this, &command] {
     install_signal_handlers();
+    set_budget(budget);
     run(command);
     stop_if_interrupted();
     done = true;
@@ -66,6 +88,26 @@ void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
                    });
   sub->add_option("--frames", moments.frames, "Frames of the keyframes, A..B or all" + frames)
       ->excludes(time);
+}
+
+/// The part of the plane that pictures show.
+void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* crop) {
+  sub->add_option_function<std::string>(
+         "--rect",
+         [&rectangle](const std::string& text) {
+           double x = 0, y = 0, width = 0, height = 0;
+           int end = 0;
+           if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &x, &y, &width, &height, &end) != 4 ||
+               end != static_cast<int>(text.size()) || !(width > 0 && width < 1e6) ||
+               !(height > 0 && height < 1e6) || !(std::abs(x) < 1e8 && std::abs(y) < 1e8))
+             throw CLI::ValidationError(
+                 "--rect", "'" + text + "' is not a rectangle; write X,Y,WIDTH,HEIGHT");
+           constexpr double kRounding = 1e-6;  // no pixel more
+           rectangle =
+               Box{x + kRounding, y + kRounding, x + width - kRounding, y + height - kRounding};
+         },
+         "Show exactly X,Y,WIDTH,HEIGHT: lower left corner and size, in the picture's pixels")
+      ->excludes(crop);
 }
 
 void add_force(CLI::App* sub, bool& force, const char* what = "Replace read-only files, too") {
@@ -109,11 +151,12 @@ void CommandLine::add_render(CLI::App& app) {
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
       ->capture_default_str();
-  sub->add_flag("--crop", render.crop,
-                "Keep the picture's rectangle; otherwise nothing is cut off");
+  add_rectangle(sub, render.rectangle,
+                sub->add_flag("--crop", render.crop,
+                              "Keep the picture's rectangle; otherwise nothing is cut off"));
   add_moments(sub, render.moments,
               ", each to a file with its number: walk.png to walk-0007.png. All have the rectangle "
-              "that the whole film needs");
+              "that the whole motion needs, or --rect");
   add_force(sub, render.force);
 }
 
@@ -161,7 +204,9 @@ void CommandLine::add_export(CLI::App& app) {
   sub->add_option("--scale", exported.scale,
                   "Output pixels per image pixel (1), for png, stmap, unwarp, textured and films");
   sub->add_option("--out", exported.out, "File to write")->required();
-  sub->add_flag("--crop", exported.crop, "Keep the picture's rectangle, for png and films");
+  add_rectangle(
+      sub, exported.rectangle,
+      sub->add_flag("--crop", exported.crop, "Keep the picture's rectangle, for png and films"));
   add_moments(sub, exported.moments, ", for png and films");
   add_force(sub, exported.force);
 }
@@ -177,6 +222,7 @@ void CommandLine::add_to(CLI::App& app) {
   app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
   app.add_option("--state", editor.state_file,
                  "Write what the editor shows to this file whenever it changes (for scripts)");
+  add_budget(&app);
   app.footer("For scenes, points and results - stands for standard input and output.");
   app.require_subcommand(0, 1);
   app.fallthrough(false);
@@ -231,6 +277,7 @@ int run_program(int argc, char** argv) {
     return refuse(app, error);
   }
   if (line.done) return 0;
+  set_budget(line.budget);
   if (!line.editor.file.empty()) check_is_file(line.editor.file);
   return run_editor(line.editor);
 }

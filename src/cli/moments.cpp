@@ -5,17 +5,19 @@
 
 #include "cli/streams.h"
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
 
 FrameRange frames_named(const std::string& text, const Scene& scene) {
   const int last = last_frame_of(scene);
-  if (text == "all") return {0, last};
-  FrameRange range;
+
+  FrameRange range{0, last};
   int end = 0;
-  if (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
-      end != static_cast<int>(text.size()))
+  if (text != "all" &&
+      (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
+       end != static_cast<int>(text.size())))
     throw Error(ErrorKind::bad_input,
                 "--frames: '" + text + "' is not a range of frames; write 0..47, or all");
   if (range.last < range.first)
@@ -25,6 +27,7 @@ FrameRange frames_named(const std::string& text, const Scene& scene) {
     throw Error(ErrorKind::bad_input,
                 "--frames: the scene has frames 0.." + std::to_string(last) + " at " +
                     csv_line("%g", scene.animation.frames_per_second) + " frames a second");
+  check_budget(&Budget::frames, range.last - range.first + 1.0, "--frames: the range has");
   return range;
 }
 

@@ -25,6 +25,12 @@ std::string rectangle_text(int width, int height, Complex corner) {
          point_text(corner);
 }
 
+/// How other frames get the same rectangle: " (--rect 0,0,640,480)".
+std::string rectangle_option(int width, int height, Complex corner, double scale) {
+  return csv_line(" (--rect %.10g,%.10g,%.10g,%.10g)", corner.real(), corner.imag(), width / scale,
+                  height / scale);
+}
+
 void render_frames(const RenderCommand& command, const LoadedScene& loaded,
                    PictureOptions options) {
   const Scene& scene = loaded.scene;
@@ -32,13 +38,13 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
   for (int i = range.first; i <= range.last; ++i)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
   const TidyStop tidy;
-  std::string said;
+  std::string said, shared;
   {
     Progress progress("render", "frame");
     const size_t count = static_cast<size_t>(range.last - range.first + 1);
     PictureMaker maker(scene, loaded.image(), loaded.pictures);
-    if (!command.crop)
-      options.shows = maker.shown_at(frame_times(scene), [] { return !is_interrupted(); });
+    if (!command.crop && !options.shows)
+      options.shows = maker.shown([] { return !is_interrupted(); });
     OrderedTasks<Path> files([](const Path&) {});
     for (size_t k = 0; k < count; ++k) {
       progress.step(k, count);
@@ -46,6 +52,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
       options.time = i / scene.animation.frames_per_second;
       RasterResult frame = maker.picture(options);
       said = rectangle_text(frame.image.width, frame.image.height, frame.corner);
+      shared = rectangle_option(frame.image.width, frame.image.height, frame.corner, options.scale);
       files.add([out = numbered(command.out, i), image = std::move(frame.image)] {
         write_file(out, picture_format_of(out).encode(image));
         return out;
@@ -53,9 +60,9 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
     }
     files.finish();
   }
-  std::fprintf(stderr, "%d frames of %s: %s to %s\n", range.last - range.first + 1, said.c_str(),
+  std::fprintf(stderr, "%d frames of %s: %s to %s%s\n", range.last - range.first + 1, said.c_str(),
                numbered(command.out, range.first).c_str(),
-               numbered(command.out, range.last).c_str());
+               numbered(command.out, range.last).c_str(), shared.c_str());
 }
 
 bool is_film(const std::string& format) {
@@ -92,6 +99,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   FilmOptions options;
   options.picture.scale = command.scale.value_or(1);
   options.picture.crop = command.crop;
+  options.picture.shows = command.rectangle;
   if (command.moments.frames) {
     const FrameRange range = frames_named(*command.moments.frames, loaded.scene);
     options.first = range.first;
@@ -113,8 +121,10 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
         loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
-  std::fprintf(stderr, "%s: %d frames of %s\n", shown_output(command.out).c_str(), film->frames,
-               rectangle_text(film->width, film->height, film->corner).c_str());
+  std::fprintf(
+      stderr, "%s: %d frames of %s%s\n", shown_output(command.out).c_str(), film->frames,
+      rectangle_text(film->width, film->height, film->corner).c_str(),
+      rectangle_option(film->width, film->height, film->corner, options.picture.scale).c_str());
 }
 
 void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
@@ -189,6 +199,7 @@ void check_options(const ExportCommand& command) {
   };
   if (command.scale && !format.scale) refuse("--scale", "it has no pixels");
   if (command.crop && !format.crop) refuse("--crop", "only png and films have a rectangle to keep");
+  if (command.rectangle && !format.crop) refuse("--rect", "only png and films have a rectangle");
   if (command.moments.frames && !format.frames)
     refuse("--frames",
            format.time ? "it holds one moment; use --time" : "it holds the scene as it stands");
@@ -213,6 +224,7 @@ void run(const RenderCommand& command) {
   options.view = view_named(command.view);
   options.scale = command.scale;
   options.crop = command.crop;
+  options.shows = command.rectangle;
   options.time = moments.time;
   if (moments.frames) return render_frames(command, loaded, options);
   RasterResult result;
@@ -232,7 +244,7 @@ void run(const ExportCommand& command) {
   const std::string& format = command.format;
   if (format == "png")
     return run(RenderCommand{command.scene, command.out, command.scale.value_or(1), "image",
-                             command.crop, command.force, command.moments});
+                             command.crop, command.rectangle, command.force, command.moments});
   const LoadedScene loaded = read_scene(command.scene);
   if (command.moments.time) require_keyframes(loaded.scene, command.scene);
   check_out(command.out, command.force, command.scene, loaded);

@@ -2,6 +2,7 @@
 #include "film/film.h"
 
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -19,11 +20,12 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
     throw Error(ErrorKind::bad_input,
                 "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", and not " +
                     std::to_string(options.first) + " to " + std::to_string(last));
+  check_budget(&Budget::frames, frames, "the film has");
   const double rate = scene.animation.frames_per_second;
   PictureMaker maker(scene, source, others);
   PictureOptions picture = options.picture;
   if (!picture.crop && !picture.shows) {
-    picture.shows = maker.shown_at(frame_times(scene), [&] { return progress(0, frames); });
+    picture.shows = maker.shown([&] { return progress(0, frames); });
     if (!picture.shows) return {};
   }
   WrittenFilm film{frames, 0, 0, 0};

@@ -22,7 +22,7 @@ struct WrittenFilm {
 };
 
 /// Draws frames of a scene, as picture_of does, into a file whose extension says the kind. Without
-/// `shows` or `crop` each frame has the rectangle that all of the scene's frames need, so that
+/// `shows` or `crop` each frame has the rectangle that the whole motion needs, so that
 /// parts fit together. `progress` is told how many frames are done and how many there are; when it
 /// returns false nothing is written. Throws Error for a scene without keyframes and for what cannot
 /// be drawn or written. Returns none when nothing is written. Cost: a picture for each frame, on

@@ -49,9 +49,28 @@ class PictureMaker::LayerMaker {
     return rasterized(job_of(options, top));
   }
 
-  void include_shown(double time, Box& box) {
-    if (!layer_.has_cage()) return;
-    for (const Complex& z : map_at(time, false).f) box.include(z);
+  /// Wherever the motion takes the mesh. Returns false when `go_on` says so.
+  bool include_motion(Box& box, const std::function<bool()>& go_on) {
+    if (!layer_.has_cage()) return true;
+    const auto map = [&](double time) { return map_at(time, false).f; };
+    VectorXc before = map(0);
+    for (const Complex& z : before) box.include(z);
+    for (const auto& [from, to, held] : motion_.stretches()) {
+      // A turn of half a right angle is short enough to see how the motion bends.
+      const double turn = motion_.turned_at(to) - motion_.turned_at(from);
+      const int pieces = held ? 0 : 2 + static_cast<int>(std::abs(turn) / (kPi / 4));
+      for (int i = 0; i < pieces; ++i) {
+        const double start = from + (to - from) * i / pieces,
+                     end = from + (to - from) * (i + 1) / pieces;
+        VectorXc after = map(end);
+        if (!include_between(start, end, before, after, box, go_on, kMostHalves)) return false;
+        before = std::move(after);
+      }
+      if (!held) continue;
+      before = map(to);
+      for (const Complex& z : before) box.include(z);
+    }
+    return true;
   }
   void include_picture(Box& box) const {
     if (!source_) return;
@@ -60,6 +79,30 @@ class PictureMaker::LayerMaker {
   }
 
  private:
+  static constexpr int kMostHalves = 10;
+
+  /// From one time to another: halved until the way of each vertex hardly bends, so that what it
+  /// does between can be told from its ends and its middle.
+  bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
+                       Box& box, const std::function<bool()>& go_on, int halves) {
+    constexpr double kBend = 1;  // of the plane
+    if (!go_on()) return false;
+    const double middle = 0.5 * (from + to);
+    const VectorXc at_middle = map_at(middle, false).f;
+    // A parabola leaves the chords of its halves by an eighth of this; twice that is allowed for.
+    const double bend = (at_from - 2 * at_middle + at_to).cwiseAbs().maxCoeff();
+    if (bend > kBend && halves > 0)
+      return include_between(from, middle, at_from, at_middle, box, go_on, halves - 1) &&
+             include_between(middle, to, at_middle, at_to, box, go_on, halves - 1);
+    Box here;
+    for (const VectorXc* f : {&at_middle, &at_to})
+      for (const Complex& z : *f) here.include(z);
+    const Complex margin(bend / 4, bend / 4);
+    box.include(Complex(here.left, here.bottom) - (bend > 1e-3 ? margin : 0));
+    box.include(Complex(here.right, here.top) + (bend > 1e-3 ? margin : 0));
+    return true;
+  }
+
   RasterJob job_of(const PictureOptions& options, double top) const {
     RasterJob job;
     job.source = source_;
@@ -146,16 +189,12 @@ RasterResult PictureMaker::picture(const PictureOptions& wanted) {
   return std::move(*result);
 }
 
-std::optional<Box> PictureMaker::shown_at(std::span<const double> times,
-                                          const std::function<bool()>& go_on) {
+std::optional<Box> PictureMaker::shown(const std::function<bool()>& go_on) {
   Box box;
   for (const auto& layer : layers_)
     if (layer->visible()) layer->include_picture(box);
-  for (const double time : times) {
-    if (!go_on()) return {};
-    for (const auto& layer : layers_)
-      if (layer->visible() || !has_layers(scene_)) layer->include_shown(time, box);
-  }
+  for (const auto& layer : layers_)
+    if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, go_on)) return {};
   // Operators in single precision are no reason for another row of pixels.
   constexpr double kRounding = 1e-3;
   return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,

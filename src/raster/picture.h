@@ -32,10 +32,10 @@ class PictureMaker {
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
-  /// The part of the plane that all of these times need, with the pictures' own rectangles: the
-  /// same for whoever draws some of them. `go_on` is asked before each; none when it says no.
-  std::optional<Box> shown_at(
-      std::span<const double> times, const std::function<bool()>& go_on = [] { return true; });
+  /// The part of the plane that the whole motion needs, with the pictures' own rectangles: the same
+  /// for whoever draws some of its frames, however many there are. `go_on` is asked now and then;
+  /// none when it says no. Cost: maps at the keyframes and at some ten times between two of them.
+  std::optional<Box> shown(const std::function<bool()>& go_on = [] { return true; });
   /// The lowest visible picture's rectangle, which crop keeps; empty without one.
   Box rectangle() const;
 

@@ -12,11 +12,9 @@ Budget& current() {
   return budget;
 }
 
-/// With three digits at least, so that what is just above a limit looks above it.
 std::string shown(double amount) {
   char text[40];
-  const double step = amount < 1000 ? 1 : std::pow(10, std::floor(std::log10(amount)) - 3);
-  std::snprintf(text, sizeof text, "%.0f", std::ceil(amount / step - 1e-9) * step);
+  std::snprintf(text, sizeof text, "%.0f", std::ceil(amount - 1e-9));
   return text;
 }
 

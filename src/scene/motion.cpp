@@ -196,6 +196,13 @@ const Pose* Motion::pose_at(double time) const {
   return moved <= kStill * box_of(between_->mesh().vertices).diagonal() ? &from.pose : nullptr;
 }
 
+std::vector<Motion::Stretch> Motion::stretches() const {
+  std::vector<Stretch> all;
+  for (size_t i = 0; i + 1 < keys_.size(); ++i)
+    all.push_back({keys_[i].time, keys_[i + 1].time, keys_[i].ease == Ease::hold});
+  return all;
+}
+
 double Motion::turned_at(double time) const {
   const auto [i, u] = place_of(time);
   const double from = keys_[i].turned;

@@ -40,6 +40,13 @@ class Motion {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
   }
 
+  /// From one key that plays to the next.
+  struct Stretch {
+    double from = 0, to = 0;
+    bool held = false;  ///< nothing moves until the end
+  };
+  std::vector<Stretch> stretches() const;
+
   /// f at the mesh's vertices; before the first key and behind the last one as there.
   VectorXc map_at(double time) const;
   /// The scene with its handles as they are in that map, which is map_at: on the way from one

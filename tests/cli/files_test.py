@@ -4,6 +4,7 @@ import json
 import os
 import pty
 import random
+import resource
 import shutil
 import signal
 import stat
@@ -239,6 +240,27 @@ class Files(Case):
         self.assertEqual(Image.open(self.path("a.gif")).size, (60, 40))
         self.assertIn("60 x 40", self.good("export", self.scene, "--format", "png", "--time", 1, "--crop", "--out",
                                            self.path("a.png")).stderr)
+
+    def test_one_frame_of_a_long_film_costs_one_frame(self):
+        scene = self.keyed_scene()
+        scene["animation"] = {"frames_per_second": 240}
+        scene["keyframes"][-1]["time"] = 3600
+        path = self.write("long.json", scene)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        said = self.good("render", path, "--frames", "7..7", "--out", self.path("a.png")).stderr
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 10)
+        # Others get the same rectangle, or any.
+        shared = said.split("(--rect ")[1].split(")")[0]
+        again = self.good("render", path, "--frames", "9..9", "--rect", shared, "--out", self.path("a.png")).stderr
+        self.assertEqual(again.split(" frames of ")[1].split(":")[0], said.split(" frames of ")[1].split(":")[0])
+        for words in (["render", path], ["export", path, "--format", "png"]):
+            self.good(*words, "--rect", "-5,3,20,10", "--scale", 2, "--out", self.path("b.png"))
+            self.assertEqual(Image.open(self.path("b.png")).size, (40, 20))
+        for wrong in ("1,2,3", "0,0,0,5", "nan,0,1,1", "0,0,1,1x"):
+            self.bad("render", path, "--rect", wrong, "--out", self.path("b.png"), says="X,Y,WIDTH,HEIGHT")
+        # All of it is more than one is allowed to ask for by accident.
+        self.bad("render", path, "--frames", "all", "--out", self.path("a.png"), says="--max-frames")
+        self.bad("export", path, "--format", "gif", "--out", self.path("a.gif"), says="--max-frames")
 
     def test_progress_is_shown_on_terminals_and_only_after_a_second(self):
         one_core = {"preexec_fn": lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})}

@@ -7,6 +7,7 @@
 #include "scene/job.h"
 #include "scene/keyframes.h"
 #include "support/folder.h"
+#include "support/seeds.h"
 
 using namespace holomorph;
 
@@ -36,9 +37,17 @@ TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
     const Path out = folder.path / ("film" + std::string(kind));
     const Path before = files_of_film(out, 1)[0];
     write_file(before, "what was there");
-    // While the rectangle is measured (0), at the first frame (13 are asked about before), and
-    // behind the last one.
-    for (const int calls : {0, 5, 13, 20, 26}) {
+    int calls_of_all = 0;
+    write_film(folder.path / ("other" + std::string(kind)), film_scene(), &image, {},
+               [&](int, int) {
+                 ++calls_of_all;
+                 return true;
+               });
+    for (const Path& file : files_of_film(folder.path / ("other" + std::string(kind)), 13))
+      std::filesystem::remove(file);
+    // While the rectangle is measured, at the first frames, in the middle, and behind the last one.
+    for (const int calls :
+         {0, 2, calls_of_all - 14, calls_of_all - 12, calls_of_all - 7, calls_of_all - 1}) {
       int left = calls;
       const auto there = write_film(out, film_scene(), &image, {}, [&](int done, int all) {
         CHECK(all == 13);
@@ -127,4 +136,60 @@ TEST_CASE("A part of the frames is that part of the film") {
   options.last = 13;
   CHECK_THROWS_WITH(write_film(folder.path / "no.png", film_scene(), &image, options, go_on),
                     Catch::Contains("0 to 12"));
+}
+
+TEST_CASE("The rectangle of a film holds the whole motion, tightly, whatever its rate") {
+  const Image image = grey();
+  for (const unsigned seed : seeds_of("rectangles of films", {1, 2, 3})) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const auto number = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    Scene scene = with_cage(Scene{}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
+    const Cage rest = scene.rest;
+    for (int key = 0; key < 4; ++key) {
+      const Complex turn = std::polar(number(0.5, 3), number(-3, 3)),
+                    by(number(-200, 200), number(-200, 200));
+      for (size_t i = 0; i < rest.segments.size(); ++i)
+        scene.pose.segments[i][0] =
+            turn * rest.segments[i][0] + by + Complex(number(-5, 5), number(-5, 5));
+      scene =
+          with_key(scene, key == 0 ? number(0, 1) : scene.keyframes.back().time + number(0.1, 3));
+      scene.keyframes.back().ease = static_cast<Ease>(random() % 3);
+      if (key > 0) scene.keyframes.back().turns = static_cast<int>(random() % 5) - 2;
+    }
+    scene.pose = rest;
+    std::optional<Box> box;
+    int asked = 0;
+    for (const double rate : {1.0, 240.0}) {
+      scene.animation.frames_per_second = rate;
+      const int before = asked;
+      const auto found = PictureMaker(scene, &image).shown([&] { return ++asked > 0; });
+      REQUIRE(found.has_value());
+      CHECK(asked - before < 4000);
+      if (box) {
+        CHECK(found->left == box->left);
+        CHECK(found->top == box->top);
+      }
+      box = found;
+    }
+    const std::shared_ptr<PreparedMap> prepared = prepared_map(scene, Precision::single, {});
+    Motion motion;
+    motion.follow(scene, prepared);
+    Box exact;
+    exact.include(0);
+    exact.include({40, 30});
+    for (int i = 0; i < 3000; ++i)
+      for (const Complex& z : motion.map_at(scene.keyframes.back().time * i / 2999))
+        exact.include(z);
+    CHECK(box->left <= exact.left + 2e-3);
+    CHECK(box->bottom <= exact.bottom + 2e-3);
+    CHECK(box->right >= exact.right - 2e-3);
+    CHECK(box->top >= exact.top - 2e-3);
+    CHECK(exact.left - box->left < 0.6);
+    CHECK(box->right - exact.right < 0.6);
+    CHECK(exact.bottom - box->bottom < 0.6);
+    CHECK(box->top - exact.top < 0.6);
+  }
 }
