@@ -206,9 +206,11 @@ void Files::ask_export_surface() {
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
-    workspace_.complain(
-        Error(ErrorKind::failed,
-              "Autosave does not work: nothing can be written to " + autosave_folder().string()));
+    workspace_.complain(Error(
+        ErrorKind::failed,
+        autosave_folder().empty()
+            ? "Autosave is off: this user has no home folder"
+            : "Autosave does not work: nothing can be written to " + autosave_folder().string()));
 }
 
 void Files::keep_recent(const Path& path) {

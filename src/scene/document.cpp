@@ -231,6 +231,10 @@ LoadedScene scene_of_image(const Path& path) {
 
 LoadedScene scene_of_pasted(const std::string& png) {
   decode_image(png, "the clipboard");
+  if (pasted_folder().empty())
+    throw Error(ErrorKind::failed,
+                "Pasted pictures cannot be kept: this user has no home folder. Save the picture "
+                "as a file and open that");
   std::error_code ignored;
   fs::create_directories(pasted_folder(), ignored);
   const Path file = pasted_folder() / (sha256_hex(png).substr(0, 16) + ".png");
@@ -373,9 +377,13 @@ void Document::save(const Path& path) {
 bool Document::autosave(const Path& folder) {
   if (!modified() && autosaved_) remove_autosave(folder);
   if (!modified() || autosaved_ == scene()) return true;
+  if (folder.empty()) return false;
   const Path path = autosave_path(folder, id_);
   std::error_code ignored;
-  fs::create_directories(folder, ignored);
+  if (!lock_) {
+    fs::create_directories(folder, ignored);
+    fs::permissions(folder, fs::perms::owner_all, ignored);  // it is nobody else's business
+  }
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
     write_file(path, json_of(with_origin(portable(scene(), Path()), path_)),
@@ -389,6 +397,7 @@ bool Document::autosave(const Path& folder) {
 
 void Document::remove_autosave(const Path& folder) {
   autosaved_.reset();
+  if (folder.empty()) return;
   std::error_code ignored;
   fs::remove(autosave_path(folder, id_), ignored);
   lock_.reset();

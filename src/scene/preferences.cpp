@@ -1,6 +1,10 @@
 // Preferences are never worth an error on start: what cannot be read is left at its default.
 #include "scene/preferences.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -12,47 +16,90 @@ namespace {
 
 constexpr std::array<const char*, 3> kThemes{"dark", "light", "contrast"};
 
+/// The user's, as the environment or the system has it; empty without one.
+Path home() {
+  const char* set = std::getenv("HOME");
+  if (set && *set) return set;
+  const passwd* entry = ::getpwuid(::getuid());
+  return entry && entry->pw_dir ? Path(entry->pw_dir) : Path();
+}
+
 Path folder(const char* variable, const char* fallback) {
   const char* set = std::getenv(variable);
   if (set && *set) return Path(set) / "holomorph";
-  const char* home = std::getenv("HOME");
-  return Path(home && *home ? home : "/tmp") / fallback / "holomorph";
+  const Path at = home();
+  return at.empty() ? at : at / fallback / "holomorph";
+}
+
+Path in_folder(const char* variable, const char* fallback, const char* name) {
+  const Path at = folder(variable, fallback);
+  return at.empty() ? at : std::filesystem::absolute(at / name).lexically_normal();
 }
 
 Path preferences_path() {
-  return folder("XDG_CONFIG_HOME", ".config") / "preferences.json";
+  return in_folder("XDG_CONFIG_HOME", ".config", "preferences.json");
 }
+
+/// A member of the wanted kind, or what stands for it.
+template <class T>
+T member(const nlohmann::json& json, const char* key, T otherwise) {
+  try {
+    return json.value(key, otherwise);
+  } catch (const nlohmann::json::exception&) {
+    return otherwise;
+  }
+}
+
+/// Names that files can have: those of others are left out.
+std::vector<Path> paths_in(const nlohmann::json& json, const char* key, size_t most) {
+  std::vector<Path> paths;
+  for (const std::string& text : member(json, key, std::vector<std::string>{})) {
+    constexpr size_t kLongest = 4096;
+    if (text.empty() || text.size() > kLongest || text.find('\0') != std::string::npos) continue;
+    if (!Path(text).is_absolute() || paths.size() == most) continue;
+    if (std::ranges::find(paths, Path(text)) == paths.end()) paths.emplace_back(text);
+  }
+  return paths;
+}
+
+constexpr size_t kMostRecent = 10, kMostTrusted = 200;
 
 }  // namespace
 
 Path pasted_folder() {
-  return std::filesystem::absolute(folder("XDG_DATA_HOME", ".local/share") / "pasted")
-      .lexically_normal();
+  return in_folder("XDG_DATA_HOME", ".local/share", "pasted");
 }
 
 Path autosave_folder() {
-  return folder("XDG_STATE_HOME", ".local/state") / "autosave";
+  return in_folder("XDG_STATE_HOME", ".local/state", "autosave");
+}
+
+Preferences preferences_of_json(const std::string& text) {
+  Preferences preferences;
+  constexpr size_t kLargest = 1 << 20;
+  if (text.size() > kLargest) return preferences;
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return preferences;
+  const std::string theme =
+      member(json, "theme", std::string(member(json, "light_theme", false) ? "light" : ""));
+  for (size_t i = 0; i < kThemes.size(); ++i)
+    if (theme == kThemes[i]) preferences.theme = static_cast<Theme>(i);
+  preferences.native_dialogs = member(json, "native_dialogs", true);
+  preferences.hints = member(json, "hints", true);
+  const double scale = member(json, "ui_scale", 0.0);
+  preferences.ui_scale = scale > 0 ? std::clamp(scale, 0.75, 4.0) : 0.0;
+  preferences.recent = paths_in(json, "recent", kMostRecent);
+  preferences.trusted = paths_in(json, "trusted", kMostTrusted);
+  preferences.keys = member(json, "keys", KeyNames{});
+  return preferences;
 }
 
 Preferences load_preferences() {
-  Preferences preferences;
   try {
-    const auto json = nlohmann::json::parse(read_file(preferences_path()));
-    const std::string theme = json.value("theme", json.value("light_theme", false) ? "light" : "");
-    for (size_t i = 0; i < kThemes.size(); ++i)
-      if (theme == kThemes[i]) preferences.theme = static_cast<Theme>(i);
-    preferences.native_dialogs = json.value("native_dialogs", true);
-    preferences.hints = json.value("hints", true);
-    const double scale = json.value("ui_scale", 0.0);
-    preferences.ui_scale = scale > 0 ? std::clamp(scale, 0.75, 4.0) : 0.0;
-    for (const auto& path : json.value("recent", std::vector<std::string>{}))
-      preferences.recent.push_back(path);
-    // Last, so that nothing else is lost with it.
-    preferences.keys = json.value("keys", KeyNames{});
-  } catch (const std::exception&) {
-    // What was read so far is good.
+    return preferences_of_json(read_file(preferences_path()));
+  } catch (const Error&) {
+    return {};  // there is none yet
   }
-  return preferences;
 }
 
 void save_preferences(const Preferences& preferences) {
@@ -64,6 +111,10 @@ void save_preferences(const Preferences& preferences) {
   json["ui_scale"] = preferences.ui_scale;
   json["recent"] = nlohmann::ordered_json::array();
   for (const Path& path : preferences.recent) json["recent"].push_back(path.string());
+  if (!preferences.trusted.empty()) json["trusted"] = nlohmann::ordered_json::array();
+  for (const Path& path : preferences.trusted) json["trusted"].push_back(path.string());
+  if (preferences_path().empty())
+    throw Error(ErrorKind::failed, "Preferences are not kept: this user has no home folder");
   std::error_code error;
   std::filesystem::create_directories(preferences_path().parent_path(), error);
   write_file(preferences_path(),
@@ -91,7 +142,7 @@ KeyNames keys_of_json(const std::string& text, const std::string& name) {
 void remember(Preferences& preferences, const Path& path) {
   std::erase(preferences.recent, path);
   preferences.recent.insert(preferences.recent.begin(), path);
-  if (preferences.recent.size() > 10) preferences.recent.resize(10);
+  if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
 }
 
 }  // namespace holomorph

@@ -21,11 +21,14 @@ struct Preferences {
   bool hints = true;           ///< the first steps are shown
   KeyNames keys;               ///< that differ from the program's own
   std::vector<Path> recent;
+  std::vector<Path> trusted = {};  ///< folders whose scenes may name pictures elsewhere
   bool operator==(const Preferences&) const = default;
 };
 
 /// $XDG_CONFIG_HOME/holomorph/preferences.json. A missing or damaged file gives the defaults.
 Preferences load_preferences();
+/// The same of a text; whatever it is, what comes of it can be used.
+Preferences preferences_of_json(const std::string& text);
 /// Throws Error{failed} when they cannot be written.
 void save_preferences(const Preferences& preferences);
 /// Puts a path first among the recent ones, which stay at most ten.
@@ -35,7 +38,7 @@ void remember(Preferences& preferences, const Path& path);
 std::string json_of_keys(const KeyNames& keys);
 KeyNames keys_of_json(const std::string& text, const std::string& name);
 
-/// $XDG_STATE_HOME/holomorph/autosave.
+/// $XDG_STATE_HOME/holomorph/autosave. Like the next one empty where the user has no home folder.
 Path autosave_folder();
 /// $XDG_DATA_HOME/holomorph/pasted: pictures that came from no file.
 Path pasted_folder();

@@ -1,0 +1,21 @@
+// Any bytes as an SVG file: an error, or a loop that is written and read again the same.
+#include "core/error.h"
+#include "scene/scene_json.h"
+#include "scene/svg_path.h"
+
+using namespace holomorph;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  for (const PathUse use : {PathUse::rest, PathUse::pose, PathUse::outline}) try {
+      const Cage cage = cage_of_svg(text, "fuzz", 100, use);
+      check(cage.size() <= 5000, "a loop has no more segments than scenes take");
+      if (use != PathUse::rest) continue;
+      check_rest_cage(cage);
+      const Scene scene = with_cage(Scene{}, cage);
+      check(scene_from_json(json_of(scene), "again").rest == cage, "a cage survives writing");
+      cage_of_svg(svg_of(scene), "again", 100, use);
+    } catch (const Error&) {
+    }
+  return 0;
+}

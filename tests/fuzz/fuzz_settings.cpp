@@ -1,0 +1,26 @@
+// Any bytes as preferences, as keys to import, and as what an interrupted session left.
+#include <filesystem>
+
+#include "core/error.h"
+#include "edit/keymap.h"
+#include "scene/document.h"
+#include "scene/preferences.h"
+#include "scene/scene_json.h"
+
+using namespace holomorph;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const Preferences preferences = preferences_of_json(text);
+  check(preferences.ui_scale == 0 || (preferences.ui_scale >= 0.75 && preferences.ui_scale <= 4),
+        "a scale can be shown");
+  for (const Path& path : preferences.recent) check(path.is_absolute(), "recent files have names");
+  use_keys(preferences.keys);
+  use_keys({});
+  try {
+    use_keys(keys_of_json(text, "fuzz"));
+    use_keys({});
+  } catch (const Error&) {
+  }
+  return 0;
+}
