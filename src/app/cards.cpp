@@ -16,10 +16,18 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
              {0.5f, 1.0f}, scale);
   const std::string others =
       missing.size() > 1 ? ", and " + std::to_string(missing.size() - 1) + " more" : "";
-  ImGui::Text("\uf071  %s could not be read%s", file.filename().c_str(), others.c_str());
+  const bool withheld = workspace.document.pictures().withheld().contains(file.string());
+  ImGui::Text("\uf071  %s %s%s", file.filename().c_str(),
+              withheld ? "is not in the scene's folder" : "could not be read", others.c_str());
   ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
-  ImGui::TextDisabled("The scene looks for it in %s.", file.parent_path().c_str());
+  ImGui::TextDisabled(
+      withheld ? "It is left out until you agree: %s" : "The scene looks for it in %s.",
+      withheld ? file.c_str() : file.parent_path().c_str());
   ImGui::PopTextWrapPos();
+  if (withheld) {
+    if (ImGui::Button("Show it...")) workspace.request = Request::show_withheld;
+    ImGui::SameLine();
+  }
   if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
   end_card();
 }

@@ -31,7 +31,9 @@ class Editor {
         canvas_([this] { window_.wake(); }),
         comparison_([this] { window_.wake(); }),
         files_(
-            workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); }),
+            workspace_, preferences_,
+            [this](Files::Replaced how) { document_replaced(how == Files::Replaced::other); },
+            [this] { window_.wake(); }, options.allow_outside),
         keys_(workspace_, files_.chooser(), [this] {
           preferences_.keys = changed_keys();
           files_.keep_preferences();
@@ -54,7 +56,6 @@ class Editor {
     if (!options.file.empty()) files_.ask_open(options.file);
     if (!options.file.empty() && !files_.recoverable().empty())
       workspace_.say("There is unsaved work from an earlier session: File > New shows it.");
-    if (workspace_.document.empty()) samples_ = load_samples();
   }
 
   int run() {
@@ -70,7 +71,7 @@ class Editor {
       slowest_ms_ = std::max(slowest_ms_, now_ms() - start);
       if (now_ms() - watched_ms_ > 500) {
         watched_ms_ = now_ms();
-        files_.watch_pictures();
+        files_.watch();
         if (!workspace_.toasts.empty()) window_.wake();
       }
       if (!happened && (playing || toasts_.expire())) window_.wake();
@@ -120,6 +121,7 @@ class Editor {
     parts.pending = window_.has_events();
     parts.taken = window_.taken();
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
+    parts.question = files_.question();
     parts.in_panel = panel_focus_.held();
     parts.theme = window_.theme();
     parts.scale = window_.scale();
@@ -351,13 +353,13 @@ class Editor {
     }
   }
 
-  void document_replaced() {
+  void document_replaced(bool other) {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.forget();
     panel_focus_.leave();
     layers_.forget();
-    fit_ = opened_ = true;
-    if (workspace_.document.empty() && samples_.empty()) samples_ = load_samples();
+    if (other) fit_ = opened_ = true;
+    if (!workspace_.document.empty()) samples_.pause();
   }
 
   void update_title() {
@@ -385,7 +387,7 @@ class Editor {
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. " + key_of("help.keys") +
                     " shows keys and mouse.";
-      answer(draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), scale));
+      answer(draw_welcome(workspace_, preferences_, samples_.shown(), files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
       if (canvas_.edited().heat_values().size() > 0)
@@ -433,7 +435,7 @@ class Editor {
   Workspace workspace_;
   std::vector<std::unique_ptr<Tool>> tools_;
   ToolId last_tool_ = ToolId::select;
-  std::vector<Sample> samples_;
+  Samples samples_{[this] { window_.wake(); }};
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_;
@@ -442,7 +444,7 @@ class Editor {
   double watched_ms_ = 0, slowest_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;
-  SurfacePane surface_pane_;
+  SurfacePane surface_pane_{[this] { window_.wake(); }};
   TimelinePanel timeline_;
   LayerPanel layers_;
   Files files_;

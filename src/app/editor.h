@@ -8,6 +8,7 @@ namespace holomorph {
 struct EditorOptions {
   Path file;        ///< a scene or picture to open; empty: the welcome page
   Path state_file;  ///< when set, what the editor shows is written here whenever it changes
+  bool allow_outside = false;  ///< scenes may show pictures that are not in their folder
 };
 
 /// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there

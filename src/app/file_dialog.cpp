@@ -152,11 +152,11 @@ void FileDialog::draw(double scale) {
                                    ImGui::GetStyle().ItemSpacing.y);
   std::optional<Path> chosen;
   begin_part("files", {0, -below}, true);
-  for (const Item& item : items_) {
-    const std::string name = item.path.filename().string() + (item.folder ? "/" : "");
-    if (ImGui::Selectable(
-            name.c_str(), item.path.filename() == name_,
-            ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+  for (size_t i = 0; i < items_.size(); ++i) {
+    const Item& item = items_[i];
+    if (text_row(static_cast<int>(i), item.path.filename().string() + (item.folder ? "/" : ""),
+                 item.path.filename() == name_, {0, 0},
+                 ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
       confirming_ = false;
       if (!item.folder) name_ = item.path.filename().string();
       const bool by_key = !ImGui::IsMouseClicked(0) && !ImGui::IsMouseReleased(0);

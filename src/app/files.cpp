@@ -17,47 +17,171 @@
 #include "scene/svg_path.h"
 
 namespace holomorph {
-Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
-             const std::function<void()>& wake)
+Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(Replaced)> replaced,
+             const std::function<void()>& wake, bool everywhere)
     : workspace_(workspace),
       preferences_(preferences),
       replaced_(std::move(replaced)),
+      everywhere_(everywhere),
       jobs_(workspace, wake),
       dialog_(wake),
       export_(workspace, jobs_, dialog_),
       imports_(
-          workspace, jobs_, dialog_, [this](const Path& path) { keep_recent(path); }, replaced_),
+          workspace, jobs_, dialog_, [this] { return reach(); },
+          [this](const Path& path) { keep_recent(path); }, [this] { replaced_(Replaced::other); }),
       watch_(workspace),
-      recoverable_(holomorph::recoverable(autosave_folder())) {}
+      recoverable_(holomorph::recoverable(autosave_folder())) {
+  dialog_.on_chosen([this](const Path& path) { trust_folder_of(path); });
+}
+
+void Files::trust_folder_of(const Path& path) {
+  constexpr size_t kMost = 200;
+  const Path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+  std::vector<Path>& trusted = preferences_.trusted;
+  if (std::ranges::find(trusted, folder) != trusted.end()) return;
+  trusted.insert(trusted.begin(), folder);
+  if (trusted.size() > kMost) trusted.resize(kMost);
+  keep_preferences();
+}
 
 void Files::ask_then(Then then) {
   if (!workspace_.document.modified()) return then();
-  after_question_ = std::move(then);
-  question_ = true;
+  questions_.ask(
+      {"Unsaved changes",
+       "There are changes that are not saved.",
+       {{"Save", [this, then] { save(false, then); }}, {"Do not save", then}, {"Cancel", {}}}});
 }
 
-void Files::adopt(Document document) {
+void Files::adopt(Document document, Replaced how) {
   workspace_.document.remove_autosave(autosave_folder());
+  const Viewport view = workspace_.viewport;
+  const Timeline timeline = workspace_.timeline;
   workspace_.open(std::move(document));
+  if (how == Replaced::same) {
+    workspace_.viewport = view;
+    workspace_.timeline.time = timeline.time;
+    workspace_.timeline.visible = timeline.visible;
+    workspace_.timeline.shows = timeline.shows && has_keyframes(workspace_.document.scene());
+  }
   export_.forget();
-  dropped_.reset();
+  questions_.withdraw();
   watch_.forget();
-  replaced_();
+  changing_.reset();
+  left_alone_.reset();
+  replaced_(how);
 }
 
 std::string Files::open(const Path& path) {
   const auto opened = std::make_shared<std::optional<Document>>();
-  const std::string problem = jobs_.run(
-      "Opening " + path.filename().string(),
-      [opened, path](Job::Progress&) { *opened = Document::open(path); },
-      [this, opened, path] {
+  const auto left = std::make_shared<std::vector<Recovery>>();
+  const auto read = [opened, left, path, reach = reach()](Job::Progress&) {
+    *opened = Document::open(path, reach);
+    if ((*opened)->path().empty()) return;
+    *left = holomorph::recoverable(autosave_folder());
+    std::erase_if(*left, [&](const Recovery& each) { return each.origin != (*opened)->path(); });
+  };
+  const std::string problem =
+      jobs_.run("Opening " + path.filename().string(), read, [this, opened, left, path] {
         adopt(std::move(**opened));
         dialog_.start_in(std::filesystem::absolute(path).parent_path());
         keep_recent(path);
+        ask_about_unsaved(*left);
       });
   if (!problem.empty() && !is_there(path) && std::erase(preferences_.recent, path) > 0)
     keep_preferences();
   return problem;
+}
+
+void Files::ask_about_unsaved(const std::vector<Recovery>& left) {
+  if (left.empty()) return ask_about_withheld();
+  const Path autosave = left.front().path;
+  questions_.ask(
+      {"Unsaved work",
+       "There is unsaved work on this scene from an earlier session:\n" + left.front().label,
+       {{"Recover it", [this, autosave] { ask_recover(autosave); }},
+        {"Discard it",
+         [this, autosave] {
+           discard(autosave);
+           ask_about_withheld();
+         }},
+        {"Leave it for later", [this] { ask_about_withheld(); }}}});
+}
+
+void Files::ask_about_withheld() {
+  constexpr size_t kShown = 6;
+  const std::vector<Path> withheld = workspace_.document.withheld();
+  if (withheld.empty()) return;
+  std::string text = "This scene shows files that are not in its folder:\n";
+  for (size_t i = 0; i < std::min(kShown, withheld.size()); ++i)
+    text += "    " + withheld[i].string() + "\n";
+  if (withheld.size() > kShown)
+    text += "    and " + std::to_string(withheld.size() - kShown) + " more\n";
+  text += "Show them if you know where the scene comes from.";
+  questions_.ask({"Files from elsewhere",
+                  text,
+                  {{"Show them", [this] { show_withheld(); }}, {"Leave them out", {}}},
+                  false});
+}
+
+void Files::show_withheld() {
+  Document& document = workspace_.document;
+  for (const Path& file : document.withheld()) trust_folder_of(file);
+  std::vector<ImageReference> wanted;
+  for (const size_t i : document.without_picture())
+    wanted.push_back(*layer_at(document.scene(), i).image);
+  document.release_pictures();
+  const auto found = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
+  const auto read = [found, wanted, open = document.pictures().pixels()](Job::Progress&) {
+    PictureFiles files(open);
+    std::optional<Error> wrong;
+    for (const ImageReference& each : wanted) try {
+        found->emplace_back(each, files.picture(each));
+      } catch (const Error& error) {
+        wrong = error;
+      }
+    if (found->empty() && wrong) throw Error(*wrong);
+  };
+  workspace_.complain(jobs_.run("Reading pictures", read, [this, found] {
+    for (auto& [reference, picture] : *found)
+      workspace_.document.put_picture(reference, std::move(picture));
+  }));
+}
+
+/// The scene as its file is now, seen as it was.
+void Files::reload() {
+  const auto opened = std::make_shared<std::optional<Document>>();
+  const Path path = workspace_.document.path();
+  const std::string problem = jobs_.run(
+      "Reading " + path.filename().string() + " again",
+      [opened, path, reach = reach()](Job::Progress&) { *opened = Document::open(path, reach); },
+      [this, opened] {
+        adopt(std::move(**opened), Replaced::same);
+        workspace_.say(workspace_.document.title() +
+                       " was changed by another program and is read again.");
+        ask_about_withheld();
+      });
+  workspace_.complain(problem);
+}
+
+void Files::watch() {
+  watch_.look();
+  watch_scene();
+}
+
+void Files::watch_scene() {
+  Document& document = workspace_.document;
+  if (asking() || workspace_.preview || !document.changed_on_disk()) return;
+  std::error_code error;
+  const auto now = std::filesystem::last_write_time(document.path(), error);
+  if (error || left_alone_ == now) return;
+  if (changing_ != now) {
+    changing_ = now;
+    return;
+  }
+  left_alone_ = now;
+  if (!document.modified()) return reload();
+  workspace_.say(document.title() +
+                 " was changed by another program. Saving asks which one is to stay.");
 }
 
 void Files::ask_open(const Path& path) {
@@ -65,6 +189,7 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
+  trust_folder_of(path);
   const std::string kind = lower_case(path.extension().string());
   const Document& document = workspace_.document;
   if ((kind == ".obj" || kind == ".svg") && document.scene().has_cage())
@@ -79,7 +204,21 @@ void Files::drop(const Path& path) {
   else if (document.empty() || document.path() == path)
     ask_open(path);
   else
-    dropped_ = path;
+    ask_where(path);
+}
+
+/// A dropped picture or scene may go to several places.
+void Files::ask_where(const Path& path) {
+  Question question{"A dropped picture", path.filename().string(), {}, false};
+  question.answers.push_back(
+      {"Add it as a layer", [this, path] { workspace_.complain(imports_.add_layer(path)); }});
+  if (!is_scene_name(path))
+    question.answers.push_back({"Put it in place of this layer's picture", [this, path] {
+                                  workspace_.complain(imports_.replace_picture(path));
+                                }});
+  question.answers.push_back({"Open it instead", [this, path] { ask_open(path); }});
+  question.answers.push_back({"Cancel", {}});
+  questions_.ask(std::move(question));
 }
 
 void Files::copy_picture() {
@@ -133,17 +272,36 @@ void Files::discard(const Path& autosave) {
   std::erase_if(recoverable_, [&](const Recovery& r) { return r.path == autosave; });
 }
 
-std::string Files::save_to(const Path& path, const Then& then) {
+std::string Files::save_to(const Path& path, const Then& then, Conflict conflict) {
+  Document& document = workspace_.document;
+  const Path target = std::filesystem::absolute(path).lexically_normal();
+  if (conflict == Conflict::ask && target == document.path() && document.changed_on_disk()) {
+    ask_about_change(path, then);
+    return "";
+  }
   try {
-    workspace_.document.save(path);
-    workspace_.document.remove_autosave(autosave_folder());
-    keep_recent(workspace_.document.path());
+    document.save(path);
+    document.remove_autosave(autosave_folder());
+    keep_recent(document.path());
     workspace_.say("Saved " + path.filename().string() + ".");
   } catch (const Error& error) {
     return error.what();
   }
   if (then) then();
   return "";
+}
+
+void Files::ask_about_change(const Path& path, const Then& then) {
+  questions_.ask(
+      {"Changed by another program",
+       path.filename().string() +
+           " was changed by another program, or in another window, since it was opened here.",
+       {{"Save a copy under another name", [this, then] { save(true, then); }},
+        {"Overwrite it with mine",
+         [this, path, then] { workspace_.complain(save_to(path, then, Conflict::overwrite)); }},
+        {"Reload it and drop my changes", [this] { reload(); }},
+        {"Cancel", {}}},
+       false});
 }
 
 void Files::save(bool as, const Then& then) {
@@ -271,6 +429,9 @@ void Files::answer(Request request) {
         quit_ = true;
       });
       break;
+    case Request::show_withheld:
+      ask_about_withheld();
+      break;
     case Request::import_cage:
     case Request::import_pose:
     case Request::import_outline:
@@ -294,73 +455,9 @@ void Files::answer(Request request) {
 
 void Files::draw(double scale) {
   dialog_.draw(scale);
-  draw_question(scale);
-  draw_drop_question(scale);
+  questions_.draw(scale);
   export_.draw(scale);
   jobs_.draw(scale);
-}
-
-void Files::draw_drop_question(double scale) {
-  if (!dropped_) return;
-  ImGui::OpenPopup("A dropped picture");
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal("A dropped picture", nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
-  const Path path = *dropped_;
-  ImGui::TextUnformatted(path.filename().c_str());
-  ImGui::Dummy({0, 6});
-  const ImVec2 size(330 * static_cast<float>(scale), 0);
-  bool decided = false;
-  const auto choice = [&](const char* label, auto act) {
-    if (!ImGui::Button(label, size)) return;
-    decided = true;
-    act();
-  };
-  choice("Add it as a layer", [&] { workspace_.complain(imports_.add_layer(path)); });
-  if (!is_scene_name(path))
-    choice("Put it in place of this layer's picture",
-           [&] { workspace_.complain(imports_.replace_picture(path)); });
-  choice("Open it instead", [&] { ask_open(path); });
-  choice("Cancel", [] {});
-  if (decided || escape_pressed()) {
-    dropped_.reset();
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
-}
-
-void Files::draw_question(double scale) {
-  if (question_) ImGui::OpenPopup("Unsaved changes");
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal("Unsaved changes", nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
-  ImGui::TextUnformatted("There are changes that are not saved.");
-  ImGui::Dummy({0, 6});
-  const float width = 130 * static_cast<float>(scale);
-  const auto close = [&] {
-    question_ = false;
-    ImGui::CloseCurrentPopup();
-  };
-  if (ImGui::Button("Save", {width, 0}) ||
-      (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) && !ImGui::IsAnyItemFocused())) {
-    close();
-    save(false, std::exchange(after_question_, {}));
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Do not save", {width, 0})) {
-    close();
-    if (const auto then = std::exchange(after_question_, {})) then();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel", {width, 0}) || escape_pressed()) {
-    close();
-    after_question_ = {};
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace holomorph

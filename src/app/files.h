@@ -5,6 +5,7 @@
 #include "app/export_dialog.h"
 #include "app/imports.h"
 #include "app/picture_watch.h"
+#include "app/question.h"
 #include "scene/preferences.h"
 
 namespace holomorph {
@@ -13,10 +14,12 @@ namespace holomorph {
 /// work is lost.
 class Files {
  public:
+  /// What replaces a document: another one, or the same as it is on disk now.
+  enum class Replaced { other, same };
   /// `replaced` is called whenever the workspace has got another document, `wake` on other threads
-  /// when something has ended there.
-  Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
-        const std::function<void()>& wake);
+  /// when something has ended there. With `everywhere`, scenes show pictures of any folder.
+  Files(Workspace& workspace, Preferences& preferences, std::function<void(Replaced)> replaced,
+        const std::function<void()>& wake, bool everywhere);
 
   /// Opens a scene or a picture at once, or after the user has decided about unsaved work. Returns
   /// what is wrong, or "".
@@ -34,16 +37,18 @@ class Files {
   void discard(const Path& autosave);
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
-  /// Reads pictures again that another program has changed; called now and then.
-  void watch_pictures() { watch_.look(); }
+  /// Reads pictures and the scene again that another program has changed; called now and then.
+  void watch();
   /// Keeps the autosave true; called once a frame.
   void autosave();
   void keep_preferences();
   /// Draws the dialog or question that is open.
   void draw(double scale);
   bool asking() const {
-    return dialog_.open() || export_.open() || question_ || dropped_ || jobs_.running();
+    return dialog_.open() || export_.open() || questions_.open() || jobs_.running();
   }
+  /// The title of the question that is open, or "".
+  std::string question() const { return questions_.title(); }
   /// Whether something goes on that is to be seen though nothing happens.
   bool busy() const { return jobs_.running(); }
   Jobs& jobs() { return jobs_; }
@@ -57,34 +62,45 @@ class Files {
 
  private:
   using Then = std::function<void()>;
+  Reach reach() const { return {everywhere_, preferences_.trusted}; }
+  void trust_folder_of(const Path& path);
   void ask_then(Then then);
   void keep_recent(const Path& path);
-  void adopt(Document document);
+  void adopt(Document document, Replaced how = Replaced::other);
   void recover(const Path& autosave);
-  std::string save_to(const Path& path, const Then& then);
+  void ask_about_unsaved(const std::vector<Recovery>& left);
+  void ask_about_withheld();
+  void show_withheld();
+  void reload();
+  void watch_scene();
+  void ask_about_change(const Path& path, const Then& then);
+  enum class Conflict { ask, overwrite };
+  std::string save_to(const Path& path, const Then& then, Conflict conflict = Conflict::ask);
   void save(bool as, const Then& then = {});
   /// A name in the folder of the document, or where files were chosen last.
   Path beside_document(const std::string& name) const;
   Path folder() const { return beside_document("").parent_path(); }
-  void draw_drop_question(double scale);
+  void ask_where(const Path& dropped);
   void copy_picture();
   void ask_export_svg();
   void ask_export_surface();
   std::string export_surface(const Path& path, double scale);
-  void draw_question(double scale);
 
   Workspace& workspace_;
   Preferences& preferences_;
-  std::function<void()> replaced_;
+  std::function<void(Replaced)> replaced_;
+  bool everywhere_;
   Jobs jobs_;
+  Questions questions_;
   FileChooser dialog_;
   ExportDialog export_;
   Imports imports_;
   PictureWatch watch_;
   std::vector<Recovery> recoverable_;
-  Then after_question_;
-  std::optional<Path> dropped_;  ///< a picture of which it is not decided yet where it goes
-  bool question_ = false, quit_ = false, autosave_failed_ = false;
+  /// When the scene's file was changed last, as two looks find it the same: it may still be being
+  /// written. And when it was as it could not be read, or is not to be.
+  std::optional<std::filesystem::file_time_type> changing_, left_alone_;
+  bool quit_ = false, autosave_failed_ = false;
 };
 
 }  // namespace holomorph

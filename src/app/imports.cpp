@@ -23,21 +23,23 @@ std::string Imports::add_layer(const Path& path) {
   const auto added = std::make_shared<LoadedScene>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [added, path](Job::Progress&) {
-        *added = is_scene_name(path) ? load_scene(path, true) : scene_of_image(path);
+      [added, path, reach = reach_(), open = open_pixels()](Job::Progress&) {
+        *added = is_scene_name(path) ? load_scene(path, {true, reach, open})
+                                     : scene_of_image(path, open);
       },
       [this, added, path] {
         if (add_layers_of(*added, "Add " + path.stem().string())) remember_(path);
       });
 }
 
+double Imports::open_pixels() const {
+  return workspace_.document.pictures().pixels();
+}
+
 bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) {
   Document& document = workspace_.document;
   const bool first = document.empty();
-  for (size_t i = 0; i < layer_count(added.scene); ++i)
-    if (const auto& image = layer_at(added.scene, i).image)
-      if (const Picture* picture = added.pictures.find(*image))
-        document.put_picture(*image, *picture);
+  document.add_pictures(added.pictures);
   Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
   if (!workspace_.commit_layers(label, std::move(scene))) return false;
   workspace_.complain(added.warning);
@@ -66,7 +68,9 @@ std::string Imports::replace_picture(const Path& path) {
   const auto picture = std::make_shared<Picture>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [picture, path](Job::Progress&) { *picture = read_picture(reference_in(path)); },
+      [picture, path, open = open_pixels()](Job::Progress&) {
+        *picture = read_picture(reference_in(path), open);
+      },
       [this, picture, path] {
         Scene scene = workspace_.document.scene();
         const std::optional<ImageReference> before = scene.image;
@@ -139,40 +143,45 @@ void Imports::ask_svg(bool pose) {
 }
 
 std::string Imports::svg(const Path& path, bool pose) {
-  try {
-    const Image* image = workspace_.document.image();
-    Cage cage = cage_of_svg(read_file(path), path.string(), image ? image->height : 0,
+  const Image* image = workspace_.document.image();
+  const auto cage = std::make_shared<Cage>();
+  return jobs_.run(
+      "Reading " + path.filename().string(),
+      [cage, path, pose, height = image ? image->height : 0](Job::Progress&) {
+        *cage = cage_of_svg(read_file(path), path.string(), height,
                             pose ? PathUse::pose : PathUse::rest);
-    Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
-    if (pose && cage.size() != scene.rest.size())
-      return "The path has " + std::to_string(cage.size()) + " segments and the cage " +
-             std::to_string(scene.rest.size()) + "; they must agree.";
-    if (pose)
-      scene.pose = std::move(cage);
-    else
-      scene = with_cage(std::move(scene), std::move(cage));
-    if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
-                           pose ? From::shown : From::document))
-      return "";
-    workspace_.posture = Posture::pose;
-    workspace_.tool = ToolId::select;
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+      },
+      [this, cage, pose] { take_cage(std::move(*cage), pose); });
+}
+
+void Imports::take_cage(Cage cage, bool pose) {
+  Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
+  if (pose && cage.size() != scene.rest.size())
+    throw Error(ErrorKind::bad_input, "The path has " + std::to_string(cage.size()) +
+                                          " segments and the cage " +
+                                          std::to_string(scene.rest.size()) + "; they must agree.");
+  if (pose)
+    scene.pose = std::move(cage);
+  else
+    scene = with_cage(std::move(scene), std::move(cage));
+  if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
+                         pose ? From::shown : From::document))
+    return;
+  workspace_.posture = Posture::pose;
+  workspace_.tool = ToolId::select;
 }
 
 std::string Imports::outline(const Path& path) {
-  try {
-    const Image* image = workspace_.document.image();
-    const Scene& scene = workspace_.document.scene();
-    take_outline(workspace_, "Outline from file",
-                 outline_of_file(path, image ? image->height : 0, box_of(outline_of(scene.rest))),
+  const Image* image = workspace_.document.image();
+  const auto outline = std::make_shared<Points>();
+  const auto read = [outline, path, height = image ? image->height : 0,
+                     onto = box_of(outline_of(workspace_.document.scene().rest))](Job::Progress&) {
+    *outline = outline_of_file(path, height, onto);
+  };
+  return jobs_.run("Reading " + path.filename().string(), read, [this, outline, path] {
+    take_outline(workspace_, "Outline from file", std::move(*outline),
                  surface_of_file(path, Flattening::lscm));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 void Imports::answer(Request request) {

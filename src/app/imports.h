@@ -11,13 +11,14 @@ std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 
 class Imports {
  public:
-  /// `remember` is called with files that became layers, `first` when the document was empty
-  /// before.
-  Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser,
+  /// `reach` is what scenes may have read, `remember` is called with files that became layers,
+  /// `first` when the document was empty before.
+  Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<Reach()> reach,
           std::function<void(const Path&)> remember, std::function<void()> first)
       : workspace_(workspace),
         jobs_(jobs),
         chooser_(chooser),
+        reach_(std::move(reach)),
         remember_(std::move(remember)),
         first_(std::move(first)) {}
 
@@ -31,15 +32,18 @@ class Imports {
   std::string outline(const Path& path);
 
  private:
+  double open_pixels() const;
   bool add_layers_of(const LoadedScene& added, const std::string& label);
   void paste_picture();
   void ask_find_picture();
   std::string find_picture(const Path& path, const std::string& asked);
   void ask_svg(bool pose);
+  void take_cage(Cage cage, bool pose);
 
   Workspace& workspace_;
   Jobs& jobs_;
   FileChooser& chooser_;
+  std::function<Reach()> reach_;
   std::function<void(const Path&)> remember_;
   std::function<void()> first_;
 };

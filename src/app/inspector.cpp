@@ -340,9 +340,7 @@ void history_section(Workspace& workspace) {
     const bool current = i == history.index();
     if (i > history.index())
       ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::PushID(static_cast<int>(i));
-    const bool go = ImGui::Selectable(history.entries()[i].label.c_str(), current);
-    ImGui::PopID();
+    const bool go = text_row(static_cast<int>(i), history.entries()[i].label, current);
     if (current && moved) ImGui::SetScrollHereY();
     if (i > history.index()) ImGui::PopStyleColor();
     if (go) {

@@ -100,8 +100,8 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
   } else {
     const std::string title = title_of_layer(workspace.document.scene(), layer);
     const bool edited = layer == edited_layer(workspace.document.scene());
-    if (ImGui::Selectable((title + "###row").c_str(), edited, ImGuiSelectableFlags_AllowDoubleClick,
-                          {0, ImGui::GetTextLineHeight()})) {
+    if (text_row(0, title, edited, {0, ImGui::GetTextLineHeight()},
+                 ImGuiSelectableFlags_AllowDoubleClick)) {
       workspace.choose_layer(layer);
       if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
     }

@@ -49,6 +49,17 @@ void end_card() {
   ImGui::PopStyleVar(2);
 }
 
+bool text_row(int number, const std::string& text, bool selected, ImVec2 size,
+              ImGuiSelectableFlags flags) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::CalcTextSize(text.c_str());
+  if (size.x <= 0 && ImGui::GetContentRegionAvail().x < room.x) size.x = room.x;  // as in menus
+  ImGui::PushID(number);
+  const bool chosen = ImGui::Selectable("##row", selected, flags, size);
+  ImGui::PopID();
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  return chosen;
+}
+
 bool escape_pressed() {
   bool& covered = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("covered"));
   const bool was = std::exchange(covered, ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
@@ -99,8 +110,9 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelF
     if (!ImGui::BeginMenu(name)) continue;
     if (std::string_view(name) == "File" &&
         ImGui::BeginMenu("Open recent", !preferences.recent.empty())) {
-      for (const Path& path : preferences.recent)
-        if (ImGui::MenuItem(path.c_str())) answer.open = path;
+      for (size_t i = 0; i < preferences.recent.size(); ++i)
+        if (text_row(static_cast<int>(i), preferences.recent[i].string(), false))
+          answer.open = preferences.recent[i];
       ImGui::EndMenu();
     }
     menu_of(name, workspace);

@@ -83,6 +83,11 @@ void end_card();
 /// asked once a frame, after its items.
 bool escape_pressed();
 
+/// A row to click whose text comes from a file: whatever it says, the row has an identity of its
+/// own, a number that is its own in the window.
+bool text_row(int number, const std::string& text, bool selected, ImVec2 size = {0, 0},
+              ImGuiSelectableFlags flags = 0);
+
 /// ImGui's combo, which Escape closes.
 bool begin_combo(const char* label, const char* preview);
 

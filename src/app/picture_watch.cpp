@@ -31,6 +31,7 @@ PictureWatch::Changed PictureWatch::changed() {
     all.emplace_back(reference, std::filesystem::last_write_time(reference.file, error));
   for (const size_t i : document.without_picture()) {
     const ImageReference& image = *layer_at(document.scene(), i).image;
+    if (document.pictures().withheld().contains(image.file)) continue;
     const Time time = std::filesystem::last_write_time(image.file, error);
     const Time now = error ? Time::min() : time;
     const auto [tried, first] = tried_.try_emplace(image.file, now);

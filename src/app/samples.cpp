@@ -2,6 +2,7 @@
 #include "app/samples.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "raster/picture.h"
@@ -36,24 +37,62 @@ Path assets() {
 
 }  // namespace
 
-std::vector<Sample> load_samples() {
-  const Path folder = assets();
-  std::vector<Sample> samples;
-  for (const Row& row : kRows) {
-    Sample sample{folder / (std::string(row.name) + ".json"), row.title, row.text, {}};
-    if (!is_there(sample.scene)) continue;
-    try {
-      const LoadedScene loaded = load_scene(sample.scene);
-      PictureOptions options;
-      options.scale = kThumbnail / std::max({loaded.image()->width, loaded.image()->height, 1});
-      const Image image = picture_of(loaded.scene, loaded.image(), options, loaded.pictures).image;
-      sample.thumbnail = Texture(image.width, image.height, image.pixels.data());
-    } catch (const Error&) {
-      // The tile stays without a picture.
-    }
-    samples.push_back(std::move(sample));
+namespace {
+
+Image thumbnail_of(const Path& scene) {
+  const LoadedScene loaded = load_scene(scene);
+  PictureOptions options;
+  options.scale = kThumbnail / std::max({loaded.image()->width, loaded.image()->height, 1});
+  return picture_of(loaded.scene, loaded.image(), options, loaded.pictures).image;
+}
+
+}  // namespace
+
+const std::vector<Sample>& Samples::shown() {
+  if (!std::exchange(listed_, true)) {
+    const Path folder = assets();
+    for (const Row& row : kRows)
+      if (const Path scene = folder / (std::string(row.name) + ".json"); is_there(scene))
+        samples_.push_back({scene, row.title, row.text});
+    done_.resize(samples_.size());
+    drawn_ = std::make_shared<Drawn>();
   }
-  return samples;
+  std::vector<std::pair<size_t, Image>> ready;
+  {
+    const std::lock_guard lock(drawn_->mutex);
+    ready.swap(drawn_->images);
+  }
+  for (const auto& [i, image] : ready) {
+    done_[i] = true;
+    if (image.width > 0)
+      samples_[i].thumbnail = Texture(image.width, image.height, image.pixels.data());
+  }
+  if (drawing_ && drawing_->ended()) drawing_.reset();
+  if (!drawing_ && std::ranges::find(done_, 0) != done_.end()) start();
+  return samples_;
+}
+
+void Samples::start() {
+  std::vector<std::pair<size_t, Path>> wanted;
+  for (size_t i = 0; i < samples_.size(); ++i)
+    if (!done_[i]) wanted.emplace_back(i, samples_[i].scene);
+  drawing_ = std::make_unique<Job>("Drawing the samples",
+                                   [wanted, drawn = drawn_, wake = wake_](Job::Progress& progress) {
+                                     for (const auto& [i, scene] : wanted) {
+                                       if (progress.cancelled()) return;
+                                       Image image;
+                                       try {
+                                         image = thumbnail_of(scene);
+                                       } catch (const std::exception&) {
+                                         // The tile stays without a picture.
+                                       }
+                                       {
+                                         const std::lock_guard lock(drawn->mutex);
+                                         drawn->images.emplace_back(i, std::move(image));
+                                       }
+                                       wake();
+                                     }
+                                   });
 }
 
 }  // namespace holomorph

@@ -1,21 +1,52 @@
 // The sample scenes of the welcome page.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "render/texture.h"
-#include "scene/file.h"
+#include "scene/image.h"
+#include "scene/job.h"
 
 namespace holomorph {
 
 struct Sample {
   Path scene;
   std::string title, text;
-  Texture thumbnail;  ///< empty when the scene cannot be drawn; opening it says why
+  Texture thumbnail =
+      {};  ///< empty until it is drawn, and when the scene cannot be: opening says why
 };
 
-/// The samples that are installed or lie in the source tree, drawn as they are posed.
-std::vector<Sample> load_samples();
+/// The samples that are installed or lie in the source tree, drawn one by one as they are posed,
+/// beside the window.
+class Samples {
+ public:
+  /// `wake` is called on another thread when one has been drawn.
+  explicit Samples(std::function<void()> wake) : wake_(std::move(wake)) {}
+  /// Starts, when nobody has yet, and takes over what has been drawn. Needs a current OpenGL
+  /// context.
+  const std::vector<Sample>& shown();
+  /// Draws no more for now: nobody looks at them.
+  void pause() {
+    if (drawing_) drawing_->cancel();
+  }
+
+ private:
+  struct Drawn {
+    std::mutex mutex;
+    std::vector<std::pair<size_t, Image>> images;
+  };
+  void start();
+
+  std::function<void()> wake_;
+  bool listed_ = false;
+  std::vector<Sample> samples_;
+  std::vector<char> done_;  ///< for each: whether it has been drawn, or cannot be
+  std::shared_ptr<Drawn> drawn_;
+  std::unique_ptr<Job> drawing_;
+};
 
 }  // namespace holomorph

@@ -66,6 +66,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"gesture", parts.gesture},
       {"exporting", parts.exporting},
       {"asking", parts.asking},
+      {"question", parts.question},
       {"in_panel", parts.in_panel},
       {"pending", parts.pending},
       {"taken", parts.taken},
@@ -76,7 +77,9 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
 }  // namespace
 
 void StateFile::write(const Workspace& workspace, const PartsState& parts) {
-  const std::string text = state_of(workspace, parts).dump(1) + "\n";
+  const std::string text =
+      state_of(workspace, parts).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+      "\n";
   if (text == last_) return;
   last_ = text;
   try {

@@ -17,6 +17,7 @@ struct PartsState {
   bool pending = false;          ///< keys and clicks wait for the next frames
   int taken = 0;                 ///< keys and buttons that have gone down or up
   bool asking = false;           ///< a dialog takes the keys
+  std::string question = {};     ///< its title, where it asks about files
   bool in_panel = false;         ///< a panel does
   Theme theme = Theme::dark;
   double scale = 1;        ///< of the interface

@@ -17,14 +17,17 @@ constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 /// The surface again from its file, its boundary where the outline is.
 void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
   const Scene& scene = workspace.document.scene();
-  try {
-    SurfaceReference surface = *scene.surface;
-    surface.flattening = how;
-    take_outline(workspace, label, outline_of_file(surface.file, 0, box_of(scene.outline), how),
-                 surface);
-  } catch (const Error& error) {
-    workspace.complain(error);
-  }
+  SurfaceReference surface = *scene.surface;
+  surface.flattening = how;
+  const auto outline = std::make_shared<Points>();
+  workspace.beside(
+      "Flattening " + Path(surface.file).filename().string(),
+      [outline, surface, how, onto = box_of(scene.outline)](Job::Progress&) {
+        *outline = outline_of_file(surface.file, 0, onto, how);
+      },
+      [&workspace, label, outline, surface] {
+        take_outline(workspace, label, std::move(*outline), surface);
+      });
 }
 
 /// When a file was last changed; the same for all that are missing.
@@ -36,8 +39,11 @@ std::filesystem::file_time_type time_of(const Path& file) {
 
 }  // namespace
 
-void SurfacePane::follow(const Scene& scene) {
-  if (const auto time = time_of(scene.surface->file); shown_ != scene.surface || time != read_) {
+/// The file is read beside the window; what it says replaces what was there when it has ended.
+void SurfacePane::read(const Workspace& workspace) {
+  const Scene& scene = workspace.scene();
+  const auto time = time_of(scene.surface->file);
+  if (shown_ != scene.surface || time != read_) {
     shown_ = scene.surface;
     read_ = time;
     flat_.reset();
@@ -45,16 +51,33 @@ void SurfacePane::follow(const Scene& scene) {
     problem_.clear();
     fitted_ = 0;
     outline_.clear();
-    try {
-      Surface surface = surface_of_obj(read_file(shown_->file), shown_->file).surface;
-      Points plane = flattened(surface, shown_->flattening);
-      flat_ = {std::move(surface), std::move(plane)};
-      drawing_->renderer.set_surface(flat_->surface);
-    } catch (const Error& error) {
-      problem_ = about(shown_->file, error).what();
-      problem_ += ". The picture still goes onto its outline.";
+    reading_.reset();
+    found_ = std::make_shared<LaidSurface>();
+    if (workspace.document.pictures().withheld().contains(shown_->file)) {
+      problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
+      return;
     }
+    reading_ = std::make_unique<Job>(
+        "Reading a surface",
+        [found = found_, reference = *shown_](Job::Progress&) {
+          found->surface = surface_of_obj(read_file(reference.file), reference.file).surface;
+          found->plane = flattened(found->surface, reference.flattening);
+        },
+        wake_);
   }
+  if (!reading_ || !reading_->ended()) return;
+  if (const auto error = reading_->error())
+    problem_ = std::string(about(shown_->file, *error).what()) +
+               ". The picture still goes onto its outline.";
+  else
+    flat_ = std::move(*found_);
+  reading_.reset();
+  if (flat_) drawing_->renderer.set_surface(flat_->surface);
+}
+
+void SurfacePane::follow(const Workspace& workspace) {
+  read(workspace);
+  const Scene& scene = workspace.scene();
   if (!flat_ || outline_ == scene.outline) return;
   outline_ = scene.outline;
   laid_.reset();
@@ -85,7 +108,7 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
   hovered_ = false;
   try {
     if (!drawing_) drawing_ = std::make_unique<Drawing>();
-    follow(workspace.scene());
+    follow(workspace);
     draw_header(workspace, s);
     if (flat_) draw_surface(workspace, canvas, style);
   } catch (const Error& error) {  // of the driver: the rest of the window does without
@@ -114,6 +137,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::PopStyleVar();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
+  if (reading_) ImGui::TextDisabled("Reading the surface...");
   if (problem_.empty()) return;
   ImGui::TextWrapped("%s", problem_.c_str());
   if (flat_ && ImGui::Button("Lay it out again"))

@@ -13,6 +13,8 @@ namespace holomorph {
 /// context once it is drawn.
 class SurfacePane {
  public:
+  /// `wake` is called on another thread when a surface has been read.
+  explicit SurfacePane(std::function<void()> wake) : wake_(std::move(wake)) {}
   /// Draws the pane between the canvas and the inspector. The scene must have a surface.
   void draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
   bool hovered() const { return hovered_; }
@@ -29,13 +31,17 @@ class SurfacePane {
     Framebuffer flat, space;
   };
 
-  void follow(const Scene& scene);
+  void read(const Workspace& workspace);
+  void follow(const Workspace& workspace);
   void draw_header(Workspace& workspace, float scale);
   void choose_flattening(Workspace& workspace, float width);
   void draw_surface(const Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
   void navigate(float height);
 
+  std::function<void()> wake_;
   std::unique_ptr<Drawing> drawing_;
+  std::shared_ptr<LaidSurface> found_;  ///< what is being read
+  std::unique_ptr<Job> reading_;
   std::optional<SurfaceReference> shown_;
   std::filesystem::file_time_type read_;  ///< its file's time when it was read
   Points outline_;                        ///< that `laid_` was laid along

@@ -31,7 +31,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
     ImGui::PushStyleColor(ImGuiCol_Text, canvas_colors(preferences.theme).warning);
     ImGui::TextUnformatted("Work that was not saved:");
     ImGui::PopStyleColor();
-    for (const auto& [path, label] : recoverable) {
+    for (const auto& [path, label, origin] : recoverable) {
       ImGui::PushID(path.c_str());
       ImGui::AlignTextToFramePadding();
       ImGui::TextUnformatted(label.c_str());
@@ -82,8 +82,8 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
     ImGui::Dummy({0, 10 * s});
     ImGui::TextUnformatted("Recent");
     for (size_t i = 0; i < std::min<size_t>(preferences.recent.size(), 6); ++i)
-      if (ImGui::Selectable(preferences.recent[i].c_str(), false, 0,
-                            {std::min(display.x - 100 * s, 640 * s), 0}))
+      if (text_row(static_cast<int>(i), preferences.recent[i].string(), false,
+                   {std::min(display.x - 100 * s, 640 * s), 0}))
         answer.open = preferences.recent[i];
   }
   ImGui::End();

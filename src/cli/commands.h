@@ -9,26 +9,31 @@
 namespace holomorph {
 
 // Paths that are "-" stand for standard input and output. `force` replaces read-only files.
-struct MapCommand {
-  Path scene, points;
+/// What all commands that read a scene share.
+struct OfScene {
+  Path scene;
+  bool outside = false;  ///< pictures may lie outside of the scene's folder
+};
+struct MapCommand : OfScene {
+  Path points;
   Path out = "-";
   bool force = false;
   Moments moments = {};
 };
-struct CoordinatesCommand {
-  Path scene, points, out;
+struct CoordinatesCommand : OfScene {
+  Path points, out;
   int order = 0;
   bool force = false;
 };
-struct InverseCommand {
-  Path scene, points;
+struct InverseCommand : OfScene {
+  Path points;
   Path out = "-";
   bool force = false;
   Moments moments = {};
   bool all = false;
 };
-struct RenderCommand {
-  Path scene, out;
+struct RenderCommand : OfScene {
+  Path out;
   double scale = 1;
   std::string view = "image";
   bool crop = false;
@@ -36,8 +41,7 @@ struct RenderCommand {
   bool force = false;
   Moments moments = {};
 };
-struct InfoCommand {
-  Path scene;
+struct InfoCommand : OfScene {
   bool json = false;
   Moments moments = {};
 };
@@ -52,8 +56,8 @@ struct NewCommand {
   std::optional<Path> outline;  ///< SVG file, picture or surface
   std::string flattening = "lscm";
 };
-struct ExportCommand {
-  Path scene, out;
+struct ExportCommand : OfScene {
+  Path out;
   std::string format;
   std::optional<double> scale = {};
   bool crop = false;

@@ -110,13 +110,19 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
       ->excludes(crop);
 }
 
+void add_scene(CLI::App* sub, OfScene& command) {
+  sub->add_option("SCENE", command.scene)->required();
+  sub->add_flag("--allow-outside", command.outside,
+                "Read pictures that are not in the scene's folder, too");
+}
+
 void add_force(CLI::App* sub, bool& force, const char* what = "Replace read-only files, too") {
   sub->add_flag("--force", force, what);
 }
 
 void CommandLine::add_map(CLI::App& app) {
   auto* sub = add(app, "map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im", map);
-  sub->add_option("SCENE", map.scene)->required();
+  add_scene(sub, map);
   sub->add_option("--points", map.points, "CSV file of points")->required();
   sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
   add_moments(sub, map.moments, ": rows start with the frame's number");
@@ -126,7 +132,7 @@ void CommandLine::add_map(CLI::App& app) {
 void CommandLine::add_inverse(CLI::App& app) {
   auto* sub =
       add(app, "inverse", "Where posed points come from: rows x,y to x,y,residual,count", inverse);
-  sub->add_option("SCENE", inverse.scene)->required();
+  add_scene(sub, inverse);
   sub->add_option("--points", inverse.points, "CSV file of points")->required();
   sub->add_option("--out", inverse.out, "CSV file to write; standard output when missing");
   add_moments(sub, inverse.moments, ": rows start with the frame's number");
@@ -137,7 +143,7 @@ void CommandLine::add_inverse(CLI::App& app) {
 
 void CommandLine::add_coordinates(CLI::App& app) {
   auto* sub = add(app, "coordinates", "The basis matrix at points as a NumPy file", coordinates);
-  sub->add_option("SCENE", coordinates.scene)->required();
+  add_scene(sub, coordinates);
   sub->add_option("--points", coordinates.points, "CSV file of points")->required();
   sub->add_option("--order", coordinates.order, "Order of the derivative")->capture_default_str();
   sub->add_option("--out", coordinates.out, "File to write")->required();
@@ -146,7 +152,7 @@ void CommandLine::add_coordinates(CLI::App& app) {
 
 void CommandLine::add_render(CLI::App& app) {
   auto* sub = add(app, "render", "Draw the posed scene to a PNG, JPEG or WebP file", render);
-  sub->add_option("SCENE", render.scene)->required();
+  add_scene(sub, render);
   sub->add_option("--out", render.out, "File to write; its extension says the format")->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
@@ -162,7 +168,7 @@ void CommandLine::add_render(CLI::App& app) {
 
 void CommandLine::add_info(CLI::App& app) {
   auto* sub = add(app, "info", "Measure the scene's map", info);
-  sub->add_option("SCENE", info.scene)->required();
+  add_scene(sub, info);
   sub->add_flag("--json", info.json, "Print JSON");
   add_moments(sub, info.moments, ": one report for each");
 }
@@ -196,7 +202,7 @@ void CommandLine::add_new(CLI::App& app) {
 
 void CommandLine::add_export(CLI::App& app) {
   auto* sub = add(app, "export", "Write the posed scene in another format", exported);
-  sub->add_option("SCENE", exported.scene)->required();
+  add_scene(sub, exported);
   sub->add_option(
          "--format", exported.format,
          "obj, svg, npy, png, stmap, unwarp or textured; of keyframes webp, gif, apng, mp4 or webm")
@@ -222,6 +228,8 @@ void CommandLine::add_to(CLI::App& app) {
   app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
   app.add_option("--state", editor.state_file,
                  "Write what the editor shows to this file whenever it changes (for scripts)");
+  app.add_flag("--allow-outside", editor.allow_outside,
+               "Show pictures that are not in a scene's folder without asking");
   add_budget(&app);
   app.footer("For scenes, points and results - stands for standard input and output.");
   app.require_subcommand(0, 1);

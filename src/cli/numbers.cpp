@@ -38,7 +38,7 @@ class Lost {
 
 void run(const MapCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
-  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  const auto [scene, points] = read_scene_and_points(command, command.points);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("map", "frame");
   std::vector<char> inside;
@@ -66,7 +66,7 @@ void run(const MapCommand& command) {
 
 void run(const InverseCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
-  const auto [scene, points] = read_scene_and_points(command.scene, command.points, true);
+  const auto [scene, points] = read_scene_and_points(command, command.points, true);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("inverse", "point");
   std::string out = std::string(moments[0].frame ? "frame," : "") +
@@ -94,7 +94,7 @@ void run(const InverseCommand& command) {
 
 void run(const CoordinatesCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
-  const auto [scene, points] = read_scene_and_points(command.scene, command.points);
+  const auto [scene, points] = read_scene_and_points(command, command.points);
   if (command.order > 12)
     throw Error(ErrorKind::bad_input, "--order: the order of a derivative is at most 12");
   const Progress progress("coordinates");
@@ -109,7 +109,7 @@ void run(const CoordinatesCommand& command) {
 }
 
 void run(const InfoCommand& command) {
-  const Scene scene = read_scene(command.scene).scene;
+  const Scene scene = read_scene(command).scene;
   require_cage(scene, command.scene);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   std::vector<SceneReport> reports;

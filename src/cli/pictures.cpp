@@ -211,7 +211,7 @@ void check_options(const ExportCommand& command) {
 }  // namespace
 
 void run(const RenderCommand& command) {
-  const LoadedScene loaded = read_scene(command.scene);
+  const LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
   if (moments.any()) require_keyframes(loaded.scene, command.scene);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
@@ -243,9 +243,15 @@ void run(const ExportCommand& command) {
   check_options(command);
   const std::string& format = command.format;
   if (format == "png")
-    return run(RenderCommand{command.scene, command.out, command.scale.value_or(1), "image",
-                             command.crop, command.rectangle, command.force, command.moments});
-  const LoadedScene loaded = read_scene(command.scene);
+    return run(RenderCommand{{command},
+                             command.out,
+                             command.scale.value_or(1),
+                             "image",
+                             command.crop,
+                             command.rectangle,
+                             command.force,
+                             command.moments});
+  const LoadedScene loaded = read_scene(command);
   if (command.moments.time) require_keyframes(loaded.scene, command.scene);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);

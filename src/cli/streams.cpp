@@ -30,7 +30,9 @@ void say_warning(const LoadedScene& loaded) {
   if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
 }
 
-LoadedScene read_scene(const Path& input) {
+LoadedScene read_scene(const OfScene& command) {
+  const Path& input = command.scene;
+  const LoadOptions options{false, {command.outside}};
   const bool regular = is_file(input);
   if (regular && !is_scene_name(input) && !read_file(input).starts_with("{"))
     throw Error(ErrorKind::bad_input, input.string() +
@@ -38,8 +40,8 @@ LoadedScene read_scene(const Path& input) {
                                           "'holomorph new PICTURE --out SCENE'");
   const bool streamed = !regular && is_there(input);
   LoadedScene loaded = is_standard(input) || streamed
-                           ? scene_of_text(read_input(input), shown_name(input))
-                           : load_scene(input);
+                           ? scene_of_text(read_input(input), shown_name(input), options)
+                           : load_scene(input, options);
   say_warning(loaded);
   return loaded;
 }
@@ -51,12 +53,12 @@ void require_cage(const Scene& scene, const Path& input) {
                                           "the editor or make one with 'holomorph new'");
 }
 
-SceneAndPoints read_scene_and_points(const Path& scene, const Path& points, bool takes_nan) {
-  if (is_standard(points) && is_standard(scene))
+SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points, bool takes_nan) {
+  if (is_standard(points) && is_standard(command.scene))
     throw Error(ErrorKind::bad_input,
                 "standard input is the scene or the points, not both: name a file for one of them");
-  SceneAndPoints read{read_scene(scene).scene, {}};
-  require_cage(read.scene, scene);
+  SceneAndPoints read{read_scene(command).scene, {}};
+  require_cage(read.scene, command.scene);
   read.points = points_of_csv(read_input(points), shown_name(points), takes_nan);
   return read;
 }

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "cli/commands.h"
 #include "scene/document.h"
 
 namespace holomorph {
@@ -15,7 +16,7 @@ std::string shown_output(const Path& out);
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
 /// A scene; its warning is printed. Throws Error.
-LoadedScene read_scene(const Path& input);
+LoadedScene read_scene(const OfScene& command);
 /// Throws Error for a scene without a cage.
 void require_cage(const Scene& scene, const Path& input);
 
@@ -25,7 +26,8 @@ struct SceneAndPoints {
   Points points;
 };
 /// `takes_nan`: rows that are nan, as `map` writes them, are points, too.
-SceneAndPoints read_scene_and_points(const Path& scene, const Path& points, bool takes_nan = false);
+SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points,
+                                     bool takes_nan = false);
 
 /// Throws Error where `out` is one of a command's own inputs or, unless forced, read-only.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);

@@ -34,6 +34,7 @@ enum class Request {
   replace_picture,
   rename_layer,
   find_picture,
+  show_withheld,
   copy_picture,
   paste_picture,
   quit,

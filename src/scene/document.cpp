@@ -93,7 +93,6 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
 /// Lets a reference name the picture's namesake beside the scene when that is the picture and the
 /// file that it names is gone.
 void look_beside(const Path& scene, ImageReference& reference, PictureFiles& files) {
-  if (is_there(reference.file)) return;
   ImageReference moved = reference;
   moved.file = beside(scene, Path(reference.file).filename()).string();
   try {
@@ -109,7 +108,9 @@ std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, 
                          const std::string& pointer, bool may_be_missing) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
-  look_beside(scene, reference, files);
+  if (pictures.withheld().contains(reference.file))
+    return "/image/file: " + reference.file + " is not in the scene's folder.";
+  if (!is_there(reference.file)) look_beside(scene, reference, files);
   try {
     if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
   } catch (const Error& error) {
@@ -140,21 +141,53 @@ std::string read_scene_file(const Path& path) {
 
 }  // namespace
 
-LoadedScene load_scene(const Path& path, bool pictures_may_be_missing) {
-  return scene_of_text(read_scene_file(path), path, pictures_may_be_missing);
+LoadedScene load_scene(const Path& path, const LoadOptions& options) {
+  return scene_of_text(read_scene_file(path), path, options);
 }
 
-LoadedScene scene_of_text(const std::string& text, const Path& path, bool pictures_may_be_missing) {
+namespace {
+
+/// Withholds what is out of a scene's reach, before anything is looked at; throws Error where it
+/// must be there. A picture that lies beside the scene, too, is taken from there.
+void keep_in_reach(std::vector<Scene>& layers, const Path& scene, const LoadOptions& options,
+                   PictureFiles& files, Pictures& pictures) {
+  const Path folder = scene.parent_path();
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string pointer =
+        scene.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
+    const auto withhold = [&](const std::string& file, const char* what) {
+      if (!options.pictures_may_be_missing)
+        throw Error(ErrorKind::bad_input,
+                    pointer + what + ": " + file +
+                        " is not in the scene's folder; --allow-outside reads "
+                        "it all the same");
+      pictures.withhold(file);
+    };
+    if (auto& image = layers[i].image; image && !options.reach.covers(image->file, folder)) {
+      look_beside(scene, *image, files);
+      if (!options.reach.covers(image->file, folder)) withhold(image->file, "/image/file");
+    }
+    if (const auto& surface = layers[i].surface;
+        surface && !options.reach.covers(surface->file, folder))
+      withhold(surface->file, "/surface/file");
+  }
+}
+
+}  // namespace
+
+LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadOptions& options) {
   LoadedScene loaded;
+  loaded.sha256 = sha256_hex(text);
   const Scene scene = scene_from_json(text, path.string());
-  PictureFiles files;
+  PictureFiles files(options.open_pixels);
   std::vector<Scene> layers = layers_of(scene);
   for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
+  keep_in_reach(layers, path, options, files, loaded.pictures);
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning =
-        load_picture(layers[i], loaded.pictures, files, path, pointer, pictures_may_be_missing);
+    const std::string warning = load_picture(layers[i], loaded.pictures, files, path, pointer,
+                                             options.pictures_may_be_missing);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene = scene_of_layers(std::move(layers), edited_layer(scene), scene);
@@ -203,9 +236,9 @@ Scene layer_of_picture(const Path& file, const std::string& entry, PictureFiles&
 
 }  // namespace
 
-LoadedScene scene_of_image(const Path& path) {
+LoadedScene scene_of_image(const Path& path, double open_pixels) {
   LoadedScene loaded;
-  PictureFiles files;
+  PictureFiles files(open_pixels);
   if (lower_case(path.extension().string()) != ".ora") {
     loaded.scene = layer_of_picture(path, "", files, loaded.pictures);
     return loaded;
@@ -244,18 +277,23 @@ LoadedScene scene_of_pasted(const std::string& png) {
   return pasted;
 }
 
-LoadedScene scene_of_surface(const Path& obj) {
+LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
   const SurfaceFile file = surface_of_obj(read_file(obj), obj.string());
+  const auto in_reach = [&](const Path& named) {
+    if (reach.covers(named, obj.parent_path())) return named;
+    throw Error(ErrorKind::bad_input, obj.string() + ": it names " + named.string() +
+                                          ", which is not in its folder; put it there");
+  };
   const auto texture = [&]() -> std::string {
     if (file.materials.empty()) return "";
-    return texture_of_materials(read_file(beside(obj, file.materials)));
+    return texture_of_materials(read_file(in_reach(beside(obj, file.materials))));
   }();
   if (texture.empty())
     throw Error(ErrorKind::bad_input,
                 obj.string() +
                     ": this surface has no picture on it. Open a picture, give it a cage and drop "
                     "the surface onto it");
-  LoadedScene loaded = scene_of_image(beside(beside(obj, file.materials), texture));
+  LoadedScene loaded = scene_of_image(in_reach(beside(beside(obj, file.materials), texture)));
   try {
     const Image& texture_image = *loaded.image();
     loaded.scene = with_cage(std::move(loaded.scene),
@@ -280,27 +318,57 @@ Document::Document(LoadedScene loaded, Path path)
       pictures_(std::move(loaded.pictures)),
       path_(std::move(path)),
       saved_(loaded.scene),
-      warning_(std::move(loaded.warning)) {}
+      warning_(std::move(loaded.warning)) {
+  stamp(loaded.sha256);
+}
 
-Document Document::open(const Path& path) {
+Document Document::open(const Path& path, const Reach& reach) {
   const std::string kind = lower_case(path.extension().string());
-  if (is_scene_name(path)) return {load_scene(path, true), fs::absolute(path).lexically_normal()};
-  if (kind == ".obj") return {scene_of_surface(path), Path()};
+  if (is_scene_name(path))
+    return {load_scene(path, {true, reach}), fs::absolute(path).lexically_normal()};
+  if (kind == ".obj") return {scene_of_surface(path, reach), Path()};
   return {scene_of_image(path), Path()};
 }
 
 Document Document::copy_of(const Path& scene) {
-  return {load_scene(scene), Path()};
+  return {load_scene(scene, {false, {true}}), Path()};
 }
 
 Document Document::recover(const Path& autosave) {
-  Document document(load_scene(autosave, true), Path());
+  Document document(load_scene(autosave, {true, {true}}), Path());
   document.path_ = origin_of(document.scene());
   Scene scene = document.scene();
   scene.extra = without_origin(scene.extra);
   document.history_ = History(scene, "Recovered");
   document.saved_ = Scene{};
   return document;
+}
+
+void Document::stamp(const std::string& sha256) {
+  std::error_code size_error, time_error;
+  const auto size = fs::file_size(path_, size_error);
+  const auto time = fs::last_write_time(path_, time_error);
+  stamp_.reset();
+  if (!path_.empty() && !size_error && !time_error) stamp_ = {size, time, sha256};
+}
+
+bool Document::changed_on_disk() {
+  std::error_code size_error, time_error;
+  const auto size = fs::file_size(path_, size_error);
+  const auto time = fs::last_write_time(path_, time_error);
+  if (!stamp_ || size_error || time_error || (size == stamp_->size && time == stamp_->time))
+    return false;
+  try {
+    if (size != stamp_->size || sha256_hex(read_scene_file(path_)) != stamp_->sha256) return true;
+  } catch (const Error&) {
+    return true;
+  }
+  stamp_->time = time;  // touched, and the same
+  return false;
+}
+
+std::vector<Path> Document::withheld() const {
+  return {pictures_.withheld().begin(), pictures_.withheld().end()};
 }
 
 std::string Document::title() const {
@@ -368,9 +436,11 @@ void Document::save(const Path& path) {
   const Path target = fs::absolute(path).lexically_normal();
   check_not_read_only(target);
   Scene present = with_present_pictures(scene(), pictures_, target);
-  write_file(target, json_of(portable(present, target.parent_path())));
+  const std::string text = json_of(portable(present, target.parent_path()));
+  write_file(target, text);
   history_.replace(std::move(present));
   path_ = target;
+  stamp(sha256_hex(text));
   saved_ = history_.current();
 }
 
@@ -406,11 +476,12 @@ void Document::remove_autosave(const Path& folder) {
 namespace {
 
 /// "hero.json, 30 cage points, 4 pins, 5 minutes ago".
-std::string label_of(const Path& autosave, fs::file_time_type time) {
-  std::string name = "a scene";
+Recovery recovery_of(const Path& autosave, fs::file_time_type time) {
+  Recovery recovery{autosave, "a scene", {}};
+  std::string& name = recovery.label;
   try {
     const Scene scene = scene_from_json(read_scene_file(autosave), autosave.string());
-    const Path origin = origin_of(scene);
+    const Path& origin = recovery.origin = origin_of(scene);
     if (!origin.empty())
       name = origin.filename().string();
     else if (scene.image)
@@ -429,10 +500,11 @@ std::string label_of(const Path& autosave, fs::file_time_type time) {
   const auto age =
       std::chrono::duration_cast<std::chrono::minutes>(fs::file_time_type::clock::now() - time)
           .count();
-  if (age < 2) return name + ", just now";
-  if (age < 120) return name + ", " + std::to_string(age) + " minutes ago";
-  if (age < 2880) return name + ", " + std::to_string(age / 60) + " hours ago";
-  return name + ", " + std::to_string(age / 1440) + " days ago";
+  name += age < 2      ? ", just now"
+          : age < 120  ? ", " + std::to_string(age) + " minutes ago"
+          : age < 2880 ? ", " + std::to_string(age / 60) + " hours ago"
+                       : ", " + std::to_string(age / 1440) + " days ago";
+  return recovery;
 }
 
 }  // namespace
@@ -448,7 +520,7 @@ std::vector<Recovery> recoverable(const Path& folder) {
   }
   std::sort(found.rbegin(), found.rend());
   std::vector<Recovery> recoveries;
-  for (const auto& [time, path] : found) recoveries.push_back({path, label_of(path, time)});
+  for (const auto& [time, path] : found) recoveries.push_back(recovery_of(path, time));
   return recoveries;
 }
 

@@ -7,6 +7,7 @@
 #include "scene/history.h"
 #include "scene/layers.h"
 #include "scene/pictures.h"
+#include "scene/reach.h"
 
 namespace holomorph {
 
@@ -15,16 +16,23 @@ struct LoadedScene {
   Scene scene;  ///< with absolute paths
   Pictures pictures;
   std::string warning;  ///< such as: the picture is not the one that the scene was made with
+  std::string sha256;   ///< of the scene's text
 
   const Image* image() const { return pictures.of(scene); }  ///< the edited layer's
 };
+/// How a scene is read.
+struct LoadOptions {
+  /// A picture that cannot be read is a warning, and one out of reach is withheld; else an error.
+  bool pictures_may_be_missing = false;
+  Reach reach = {};
+  double open_pixels = 0;  ///< of pictures that are there already
+};
 /// Reads a scene file and the pictures that it names, relative to the file's folder; one that is
-/// not where it was is looked for beside the scene. One that cannot be read is a warning, if it may
-/// be missing. Throws Error.
-LoadedScene load_scene(const Path& path, bool pictures_may_be_missing = false);
+/// not where it was is looked for beside the scene. Throws Error.
+LoadedScene load_scene(const Path& path, const LoadOptions& options = {});
 /// The same from a text that stands for the file.
 LoadedScene scene_of_text(const std::string& text, const Path& path,
-                          bool pictures_may_be_missing = false);
+                          const LoadOptions& options = {});
 /// Whether a name is a scene's: .json, or .holomorph, which desktops know.
 bool is_scene_name(const Path& path);
 
@@ -49,11 +57,11 @@ void check_not_a_source(const Path& out, const Sources& sources);
 void check_may_write(const Path& out, const Sources& sources);
 
 /// The scene of a picture alone, without a cage; of an OpenRaster file with all of its layers.
-LoadedScene scene_of_image(const Path& image);
+LoadedScene scene_of_image(const Path& image, double open_pixels = 0);
 
 /// A surface that another program or this one textured: its picture, with the boundary of its
-/// texture coordinates as the cage. Throws Error.
-LoadedScene scene_of_surface(const Path& obj);
+/// texture coordinates as the cage. Throws Error, also when the picture is out of reach.
+LoadedScene scene_of_surface(const Path& obj, const Reach& reach = {});
 
 /// A scene being edited. Scenes read or recovered count as saved or not; commits make it modified.
 class Document {
@@ -61,7 +69,7 @@ class Document {
   Document();  ///< empty, nothing to lose
   /// Opens a scene (by its name), a textured surface (.obj) or a picture (anything else).
   /// Throws Error and leaves nothing behind.
-  static Document open(const Path& path);
+  static Document open(const Path& path, const Reach& reach = {});
   /// A scene to start from: as if drawn just now, it counts as saved but has no file. Throws Error.
   static Document copy_of(const Path& scene);
   /// What an interrupted session left in an autosave file. Throws Error.
@@ -79,7 +87,11 @@ class Document {
   Sources sources() const;
   /// The layers that name a picture that could not be read, from the bottom to the top.
   std::vector<size_t> without_picture() const;
+  /// The files that it names and that are out of its reach: nobody has looked at them.
+  std::vector<Path> withheld() const;
   const std::string& warning() const { return warning_; }
+  /// Whether another program has changed the file since it was read or saved; not when it is gone.
+  bool changed_on_disk();
   std::string title() const;
   bool modified() const { return scene() != saved_; }
   bool empty() const {
@@ -91,6 +103,10 @@ class Document {
   void put_picture(const ImageReference& reference, Picture picture) {
     pictures_.put(reference, std::move(picture));
   }
+  /// The same for all of another scene's.
+  void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
+  /// What is out of reach may be read from now on.
+  void release_pictures() { pictures_.release(); }
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.
   bool commit(const std::string& label, Scene scene, std::optional<double> at = {});
@@ -111,6 +127,14 @@ class Document {
  private:
   Document(LoadedScene loaded, Path path);
 
+  /// What a file was like.
+  struct Stamp {
+    std::uintmax_t size = 0;
+    std::filesystem::file_time_type time = {};
+    std::string sha256;
+  };
+  void stamp(const std::string& sha256);
+
   std::string id_;  ///< names the autosave file, whatever the document's path is
   History history_;
   Pictures pictures_;
@@ -119,12 +143,14 @@ class Document {
   std::optional<Scene> autosaved_;
   std::shared_ptr<FileLock> lock_;  ///< says that the autosave has a running owner
   std::string warning_;
+  std::optional<Stamp> stamp_;  ///< of the scene's file
 };
 
 /// An autosave that no running program owns, and how to name it to the user.
 struct Recovery {
   Path path;
   std::string label;
+  Path origin = {};  ///< the scene's own file; empty for one never saved
 };
 /// What can be recovered, newest first.
 std::vector<Recovery> recoverable(const Path& folder);

@@ -16,6 +16,8 @@ namespace holomorph {
 
 void PixelBudget::take(size_t width, size_t height, const std::string& name) {
   constexpr size_t kLargest = 16384;
+  if (width == 0 || height == 0)
+    throw Error(ErrorKind::bad_input, name + ": the picture has no pixels");
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at most " +

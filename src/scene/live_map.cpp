@@ -52,6 +52,14 @@ std::shared_ptr<const Mesh> ordered(std::shared_ptr<const Mesh> mesh,
 
 }  // namespace
 
+std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared) {
+  std::shared_ptr<const Inbetween> between = prepared.between.load();
+  if (between) return between;
+  between = std::make_shared<const Inbetween>(prepared.mesh);
+  prepared.between.store(between);
+  return between;
+}
+
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh, const Scene& scene) {
   return ordered(std::move(mesh), depths_of(scene));
 }
@@ -112,6 +120,7 @@ std::unique_ptr<PreparedMap> prepared_map(const Scene& scene, Precision precisio
   check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
   prepared->rest.samples = prepared->mesh->vertices;
   prepared->rest.mesh = prepared->mesh;
+  if (same_cage) prepared->between.store(previous->between.load());
   prepared->rest.derivative_samples =
       same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
   const bool same_method = previous && previous->method == scene.method;
@@ -137,8 +146,19 @@ LiveMap::~LiveMap() {
 
 void LiveMap::work() {
   std::unique_lock lock(mutex_);
+  constexpr auto kIdle = std::chrono::milliseconds(300);
   while (true) {
-    changed_.wait(lock, [this] { return stop_ || waiting_; });
+    const auto wanted_now = [this] { return stop_ || waiting_; };
+    if (!base_ || base_->between.load()) {
+      changed_.wait(lock, wanted_now);
+    } else if (!changed_.wait_for(lock, kIdle, wanted_now)) {
+      // Nobody waits: what playing will need is made before.
+      const std::shared_ptr<PreparedMap> base = base_;
+      lock.unlock();
+      inbetween_of(*base);
+      lock.lock();
+      continue;
+    }
     if (stop_) return;
     const Scene scene = *std::exchange(waiting_, std::nullopt);
     const bool with_keys = waiting_keys_;
@@ -290,11 +310,12 @@ void LiveMap::clear() {
 /// Whether the maps at keyframes are wanted and would hold up whoever asks. Keys that were asked
 /// for and have none cannot be mapped.
 bool LiveMap::needs_worker(const Scene& scene) const {
-  constexpr double kNoticed = 50;  // ms
+  constexpr double kNoticed = 50, kShape = 4;  // ms; a key's logarithms
   if (!time_ || !shown_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == scene.keyframes) return false;
   if (posed_time_ && posed_ && posed_->keyframes == scene.keyframes) return false;
-  return static_cast<double>(motion_.unknown(scene, shown_)) * solve_milliseconds_ > kNoticed;
+  return static_cast<double>(motion_.unknown(scene, shown_)) * (solve_milliseconds_ + kShape) >
+         kNoticed;
 }
 
 bool LiveMap::update(const Scene& scene, Wanted wanted, std::optional<double> time) {

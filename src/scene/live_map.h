@@ -1,6 +1,7 @@
 // The map of a scene that is being edited: prepared on a worker thread, posed on the caller's.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -24,7 +25,11 @@ struct PreparedMap {
   std::unique_ptr<Deformer> deformer;
   std::vector<std::optional<Location>> pins;  ///< of the rest's pins; none outside the mesh
   double milliseconds = 0;                    ///< what preparing took
+  /// For what lies between maps on the mesh; null until somebody needs it, or has time for it.
+  std::atomic<std::shared_ptr<const Inbetween>> between = {};
 };
+/// That of a prepared map; made, if there is none yet.
+std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
 /// The mesh as it is to be drawn: its triangles from the lowest to the highest, by the depths of
 /// the scene's pins; the same one where these do not differ.

@@ -68,7 +68,7 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   straight_ = scene.animation.straight;
   if (prepared != prepared_) {
     if (!between_ || &between_->mesh() != prepared->mesh.get()) {
-      between_.emplace(prepared->mesh);
+      between_ = inbetween_of(*prepared);
       locations_.clear();
     }
     prepared_ = prepared;

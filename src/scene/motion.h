@@ -86,7 +86,7 @@ class Motion {
 
   std::vector<Key> keys_;
   std::shared_ptr<PreparedMap> prepared_;
-  std::optional<Inbetween> between_;
+  std::shared_ptr<const Inbetween> between_;
   bool straight_ = false;
   std::optional<Error> error_;
   mutable std::map<std::pair<double, double>, Location> locations_;

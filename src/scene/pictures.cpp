@@ -56,6 +56,11 @@ void Pictures::put(const ImageReference& reference, Picture picture) {
   all_[{reference.file, reference.entry}] = std::move(picture);
 }
 
+void Pictures::add(const Pictures& others) {
+  all_.insert(others.all_.begin(), others.all_.end());
+  withheld_.insert(others.withheld_.begin(), others.withheld_.end());
+}
+
 double Pictures::pixels() const {
   double count = 0;
   for (const auto& [name, picture] : all_)

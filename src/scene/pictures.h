@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "scene/image.h"
 #include "scene/scene.h"
@@ -51,6 +52,12 @@ class Pictures {
   std::shared_ptr<const Image> shared(const Scene& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
+  /// Files that a scene names and that are not to be looked at before the user agrees.
+  void withhold(const std::string& file) { withheld_.insert(file); }
+  const std::set<std::string>& withheld() const { return withheld_; }
+  void release() { withheld_.clear(); }
+  /// What another collection has.
+  void add(const Pictures& others);
   /// How many pixels all of them have.
   double pixels() const;
   /// What lies in files that have changed since they were read, and are still there.
@@ -58,6 +65,7 @@ class Pictures {
 
  private:
   std::map<std::pair<std::string, std::string>, Picture> all_;  ///< by file and entry
+  std::set<std::string> withheld_;
 };
 
 }  // namespace holomorph

@@ -200,14 +200,14 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   const std::string text = read_file(folder.path / "pictures" / "s.json");
   CHECK(text.find("\"a.png\"") != std::string::npos);
   CHECK(text.find("\"../b.png\"") != std::string::npos);
-  const Document again = Document::open(folder.path / "pictures" / "s.json");
+  const Document again = Document::open(folder.path / "pictures" / "s.json", {true});
   CHECK(again.image()->width == 5);
   CHECK(again.pictures().of(layer_at(again.scene(), 0))->width == 8);
   for (const char* name : {"pictures/a.png", "b.png", "pictures/s.json"})
     CHECK_THROWS_AS(check_not_a_source(folder.path / name, again.sources()), Error);
   std::filesystem::remove(folder.path / "b.png");
   // One picture that is missing does not take the others away, and the scene still names it.
-  const Document rest = Document::open(folder.path / "pictures" / "s.json");
+  const Document rest = Document::open(folder.path / "pictures" / "s.json", {true});
   CHECK_THAT(rest.warning(), Catch::Matchers::Contains("/layers/1/image/file"));
   CHECK_FALSE(rest.image());
   CHECK(rest.scene().image->file == (folder.path / "b.png").string());

@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fstream>
 
 #include "core/error.h"
 #include "scene/document.h"
 #include "scene/export.h"
 #include "scene/live_map.h"
+#include "scene/preferences.h"
 #include "scene/scene_json.h"
 #include "support/complaint.h"
 #include "support/folder.h"
@@ -176,7 +178,7 @@ TEST_CASE("A document saves a picture's path relative to the scene, wherever tha
   fs::create_directories(folder.path / "scenes");
   document.save(folder.path / "scenes" / "s.json");
   CHECK_FALSE(document.modified());
-  const Document again = Document::open(folder.path / "scenes" / "s.json");
+  const Document again = Document::open(folder.path / "scenes" / "s.json", {true});
   CHECK(read_file(folder.path / "scenes" / "s.json").find("\"../pictures/dot.png\"") !=
         std::string::npos);
   CHECK(again.image_path() == folder.path / "pictures" / "dot.png");
@@ -185,12 +187,13 @@ TEST_CASE("A document saves a picture's path relative to the scene, wherever tha
   Image other(8, 6);
   other.pixels[3] = 200;
   write_file(folder.path / "pictures" / "dot.png", encode_png(other));
-  CHECK_THAT(Document::open(folder.path / "scenes" / "s.json").warning(),
+  CHECK_THAT(Document::open(folder.path / "scenes" / "s.json", {true}).warning(),
              Catch::Contains("has changed"));
   fs::remove(folder.path / "pictures" / "dot.png");
-  CHECK_THAT(Document::open(folder.path / "scenes" / "s.json").warning(),
+  CHECK_THAT(Document::open(folder.path / "scenes" / "s.json", {true}).warning(),
              Catch::Contains("/image/file"));
-  CHECK_THROWS_WITH(load_scene(folder.path / "scenes" / "s.json"), Catch::Contains("/image/file"));
+  CHECK_THROWS_WITH(load_scene(folder.path / "scenes" / "s.json", {false, {true}}),
+                    Catch::Contains("/image/file"));
 }
 
 TEST_CASE("Neither saving nor exporting replaces a read-only file or a source of the scene") {
@@ -384,4 +387,207 @@ TEST_CASE("Pictures that are none are refused") {
   const std::string png = encode_png(Image(20, 20));
   CHECK_THROWS_AS(decode_image(png.substr(0, png.size() / 2), "x"), Error);
   CHECK(decode_image(png, "x") == Image(20, 20));
+}
+
+TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
+  const Folder folder;
+  const Path home = folder.path / "scenes", away = folder.path / "away";
+  fs::create_directories(home / "deep");
+  fs::create_directories(away);
+  const std::string png = encode_png(Image(8, 6));
+  for (const Path& file : {home / "a.png", home / "deep" / "a.png", away / "b.png"})
+    write_file(file, png);
+  fs::create_symlink(away / "b.png", home / "link.png");
+  fs::create_symlink(away, home / "door");
+  fs::create_symlink(home / "a.png", home / "near.png");
+  const auto names = [&](const std::string& file) {
+    write_file(home / "s.json", R"({"format":"holomorph","version":1,"image":{"file":")" + file +
+                                    R"("},"cage":{"rest":[]}})");
+  };
+  for (const std::string& inside :
+       {std::string("a.png"), std::string("deep/../deep/a.png"), std::string("near.png"),
+        (home / "a.png").string(), std::string("../scenes/a.png")}) {
+    CAPTURE(inside);
+    names(inside);
+    CHECK(load_scene(home / "s.json").image());
+    CHECK(Document::open(home / "s.json").withheld().empty());
+  }
+  for (const std::string& outside :
+       {std::string("../away/b.png"), (away / "b.png").string(), std::string("link.png"),
+        std::string("door/b.png"), std::string("../away/none.png"), std::string("/dev/zero"),
+        std::string("/etc/shadow/x")}) {
+    CAPTURE(outside);
+    names(outside);
+    // Whether there is such a file makes no difference to what is said.
+    const std::string said = complaint_of([&] { load_scene(home / "s.json"); });
+    CHECK_THAT(said, Catch::Contains("--allow-outside") && Catch::Contains("/image/file"));
+    const Document document = Document::open(home / "s.json");
+    CHECK(document.withheld().size() == 1);
+    CHECK_FALSE(document.image());
+    CHECK(document.without_picture().size() == 1);
+  }
+  names("../away/b.png");
+  CHECK(Document::open(home / "s.json", {true}).image());
+  CHECK(Document::open(home / "s.json", {false, {away}}).image());
+  names("link.png");
+  CHECK(Document::open(home / "s.json", {false, {fs::canonical(away)}}).image());
+  fs::create_directories(away / "deep");
+  write_file(away / "deep" / "c.png", png);
+  names("../away/deep/c.png");
+  CHECK_FALSE(Document::open(home / "s.json", {false, {away}}).image());
+  // One that lies beside the scene, too, is taken from there.
+  Document saved = Document::open(away / "b.png");
+  saved.commit("Cage", with_cage(saved.scene(), shapes::rectangle(8, 6)));
+  saved.save(home / "s.json");
+  write_file(home / "b.png", png);
+  const LoadedScene beside = load_scene(home / "s.json");
+  CHECK(beside.scene.image->file == home / "b.png");
+}
+
+TEST_CASE("A scene that another program has changed is known") {
+  const Folder folder;
+  const Path path = folder.path / "s.json";
+  write_file(folder.path / "dot.png", encode_png(Image(20, 20)));
+  Document document = Document::open(folder.path / "dot.png");
+  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(20, 20)));
+  CHECK_FALSE(document.changed_on_disk());
+  document.save(path);
+  CHECK_FALSE(document.changed_on_disk());
+  Document second = Document::open(path);
+  Scene moved = second.scene();
+  moved.pose.segments[0][0] += 1;
+  second.commit("Move", moved);
+  second.save(path);
+  CHECK(document.changed_on_disk());
+  CHECK_FALSE(second.changed_on_disk());
+  document.save(path);
+  CHECK_FALSE(document.changed_on_disk());
+  CHECK(second.changed_on_disk());
+  // Touched, or written again the same: nothing has changed.
+  Document third = Document::open(path);
+  write_file(path, read_file(path));
+  fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
+  CHECK_FALSE(third.changed_on_disk());
+  fs::remove(path);
+  CHECK_FALSE(third.changed_on_disk());
+}
+
+TEST_CASE("What a killed write leaves is removed by the next one, and nothing that is in use") {
+  const Folder folder;
+  const auto leftovers = [&] {
+    const std::vector<std::string> names = folder.names();
+    return std::ranges::count_if(names, [](const std::string& name) { return name[0] == '.'; });
+  };
+  for (int kill = 0; kill < 3; ++kill) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      auto* file = new NewFile(folder.path / "a.json");  // never put in place
+      file->write("half");
+      if (kill == 2) new NewFolder(folder.path / "b.png");
+      ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+  }
+  CHECK(leftovers() == 2);  // of the last one: each has cleaned after the one before
+  fs::create_symlink(folder.path / "precious", folder.path / ".holomorph-00000000");
+  write_file(folder.path / "precious", "x");  // cleans
+  CHECK(leftovers() == 1);                    // a planted link is not followed, nor removed
+  CHECK(read_file(folder.path / "precious") == "x");
+  {
+    NewFile busy(folder.path / "b.json");
+    const NewFolder full(folder.path / "c.png");
+    busy.write("b");
+    const pid_t child = ::fork();
+    if (child == 0) {  // another program: it has not cleaned here yet
+      ::setenv("HOLOMORPH_TEST_FOLDER", folder.path.c_str(), 1);
+      ::execl("/proc/self/exe", "test_scene", "[cleaner]", nullptr);
+      ::_exit(1);
+    }
+    ::waitpid(child, nullptr, 0);
+    CHECK(read_file(folder.path / "written.json") == "x");
+    CHECK(leftovers() == 3);
+    busy.put_in_place();
+  }
+  CHECK(leftovers() == 1);
+  CHECK(read_file(folder.path / "b.json") == "b");
+}
+
+TEST_CASE("Names of 255 bytes are written, and longer ones are an error") {
+  const Folder folder;
+  const Path longest = folder.path / std::string(255, 'n');
+  write_file(longest, "x");
+  write_file(longest, "y");
+  CHECK(read_file(longest) == "y");
+  CHECK_THROWS_WITH(write_file(folder.path / std::string(256, 'n'), "x"),
+                    Catch::Contains("too long"));
+  CHECK_THROWS_WITH(read_file(folder.path / std::string(256, 'n')), Catch::Contains("too long"));
+  fs::create_symlink("nowhere", folder.path / "dangling");
+  CHECK_THROWS_WITH(read_file(folder.path / "dangling"), Catch::Contains("link to nowhere"));
+  fs::create_symlink("round", folder.path / "round");
+  CHECK_THROWS_WITH(read_file(folder.path / "round"), Catch::Contains("leads to itself"));
+}
+
+TEST_CASE("Autosaves are for their owner alone") {
+  const Folder folder;
+  Document document;
+  document.commit("Cage", with_cage(Scene{}, shapes::rectangle(20, 20)));
+  const Path autosave = folder.path / "state" / "autosave";
+  fs::create_directories(autosave);
+  fs::permissions(autosave, fs::perms::all);
+  CHECK(document.autosave(autosave));
+  CHECK((fs::status(autosave).permissions() & fs::perms::mask) == fs::perms::owner_all);
+  for (const auto& entry : fs::directory_iterator(autosave))
+    CHECK((entry.status().permissions() & fs::perms::all) ==
+          (fs::perms::owner_read | fs::perms::owner_write));
+  Document homeless;
+  homeless.commit("Cage", with_cage(Scene{}, shapes::rectangle(20, 20)));
+  CHECK_FALSE(homeless.autosave(""));
+}
+
+TEST_CASE("Preferences can be anything") {
+  for (const char* text :
+       {"", "[]", "3", "{", R"({"recent":[""]})", R"({"recent":["relative",5]})",
+        R"({"recent":7,"keys":[1],"theme":{},"ui_scale":"x","hints":0})",
+        R"({"keys":{"file.open":5}})", R"({"ui_scale":1e308})", R"({"ui_scale":-1})"}) {
+    CAPTURE(text);
+    const Preferences preferences = preferences_of_json(text);
+    CHECK(preferences.recent.empty());
+    CHECK((preferences.ui_scale == 0 || preferences.ui_scale == 4));
+  }
+  // What is right beside what is wrong is kept.
+  const Preferences some = preferences_of_json(
+      R"({"theme":"light","hints":"yes","recent":["/a","","/a","/b\u0000c","/d"],"keys":{"x":["F3"]}})");
+  CHECK(some.theme == Theme::light);
+  CHECK(some.hints);
+  CHECK(some.recent == std::vector<Path>{"/a", "/d"});
+  CHECK(some.keys.at("x") == std::vector<std::string>{"F3"});
+}
+
+TEST_CASE("JSON is read in linear time and little memory, and kept as it was") {
+  const auto seconds = [](const std::string& text) {
+    const auto start = std::chrono::steady_clock::now();
+    const Scene scene = scene_from_json(text, "s.json");
+    CHECK(scene_from_json(json_of(scene), "again") == scene);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const auto with_keys = [](int count) {
+    std::string text = R"({"format":"holomorph","version":1,"cage":{"rest":[]})";
+    for (int i = 0; i < count; ++i) text += ",\"k" + std::to_string(i) + "\":0";
+    return text + "}";
+  };
+  // In linear time ten times as many keys take some ten times as long: in the square of it, 100.
+  const double few = seconds(with_keys(10000)), many = seconds(with_keys(100000));
+  CHECK(many < 40 * std::max(few, 0.01));
+  const Scene odd = scene_from_json(
+      R"({"format":"holomorph","version":1,"cage":{"rest":[]},"a":1,"n":18446744073709551615,
+          "m":-9223372036854775808,"f":0.1,"g":1e300,"s":"\u00e9\"\\\n","a":{"b":[[],{},null,true]}})",
+      "s.json");
+  CHECK(odd.extra ==
+        "{\"a\":{\"b\":[[],{},null,true]},\"n\":18446744073709551615,"
+        "\"m\":-9223372036854775808,\"f\":0.1,\"g\":1e+300,\"s\":\"\u00e9\\\"\\\\\\n\"}");
+}
+
+TEST_CASE("Another program writes here", "[.][cleaner]") {
+  if (const char* folder = std::getenv("HOLOMORPH_TEST_FOLDER"))
+    write_file(Path(folder) / "written.json", "x");
 }
