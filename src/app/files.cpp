@@ -337,6 +337,9 @@ std::string Files::export_surface(const Path& path, double scale) {
   try {
     const Document& document = workspace_.document;
     const Scene& scene = document.scene();
+    if (document.pictures().withheld().contains(scene.surface->file))
+      return Path(scene.surface->file).filename().string() +
+             " is not in the scene's folder, and was left out.";
     const LaidSurface surface = laid_surface_of(scene);
     for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
     write_textured(path, surface, textured(surface, scene, document.image(), scale));

@@ -42,7 +42,9 @@ std::filesystem::file_time_type time_of(const Path& file) {
 /// The file is read beside the window; what it says replaces what was there when it has ended.
 void SurfacePane::read(const Workspace& workspace) {
   const Scene& scene = workspace.scene();
-  const auto time = time_of(scene.surface->file);
+  const bool withheld = workspace.document.pictures().withheld().contains(scene.surface->file);
+  const auto time =
+      withheld ? std::filesystem::file_time_type::max() : time_of(scene.surface->file);
   if (shown_ != scene.surface || time != read_) {
     shown_ = scene.surface;
     read_ = time;
@@ -53,7 +55,7 @@ void SurfacePane::read(const Workspace& workspace) {
     outline_.clear();
     reading_.reset();
     found_ = std::make_shared<LaidSurface>();
-    if (workspace.document.pictures().withheld().contains(shown_->file)) {
+    if (withheld) {
       problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
       return;
     }

@@ -7,6 +7,7 @@
 #include "cli/streams.h"
 #include "core/cauchy.h"
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/export.h"
 #include "scene/report.h"
 
@@ -34,33 +35,46 @@ class Lost {
   size_t count_ = 0, first_ = 0;
 };
 
+/// Of how many points the coordinates take a part of the memory that they may take.
+size_t points_at_once(const TimedMap& map) {
+  constexpr double kShare = 0.1;
+  const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
+  return static_cast<size_t>(std::max(1.0, kShare * budget().coordinates / controls));
+}
+
 }  // namespace
 
 void run(const MapCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
   const auto [scene, points] = read_scene_and_points(command, command.points);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
-  Progress progress("map", "frame");
-  std::vector<char> inside;
-  for (const Complex& z : points) inside.push_back(contains(scene.rest, z));
-  std::string out =
-      std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n";
+  Progress progress("map");
+  ResultWriter out(command.out);
+  out.write(std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n");
   TimedMap timed(scene);
   Lost lost;
+  const size_t block = points_at_once(timed), blocks = (points.size() + block - 1) / block;
   for (size_t k = 0; k < moments.size(); ++k) {
-    progress.step(k, moments.size());
-    SampledMap map = timed.at(timed.frame(moments[k].time), points);
-    for (Index i = 0; i < map.f.size(); ++i) {
-      if (!inside[static_cast<size_t>(i)])
-        map.f[i] = map.fz[i] = map.fzbar[i] = Complex(NAN, NAN);
-      else if (!is_finite(map.f[i]) || !is_finite(map.fz[i]) || !is_finite(map.fzbar[i]))
-        lost.add(static_cast<size_t>(i));
-      out += frame_column(moments[k]) +
-             csv_line("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", map.f[i].real(), map.f[i].imag(),
-                      map.fz[i].real(), map.fz[i].imag(), map.fzbar[i].real(), map.fzbar[i].imag());
+    const TimedMap::Frame frame = timed.frame(moments[k].time);
+    for (size_t b = 0; b < blocks; ++b) {
+      progress.step(k * blocks + b, moments.size() * blocks);
+      const size_t from = b * block, to = std::min(points.size(), from + block);
+      const Points some(points.begin() + static_cast<long>(from),
+                        points.begin() + static_cast<long>(to));
+      SampledMap map = timed.at(frame, some);
+      for (Index i = 0; i < map.f.size(); ++i) {
+        if (!contains(scene.rest, some[static_cast<size_t>(i)]))
+          map.f[i] = map.fz[i] = map.fzbar[i] = Complex(NAN, NAN);
+        else if (!is_finite(map.f[i]) || !is_finite(map.fz[i]) || !is_finite(map.fzbar[i]))
+          lost.add(from + static_cast<size_t>(i));
+        out.write(frame_column(moments[k]) + csv_line("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                                                      map.f[i].real(), map.f[i].imag(),
+                                                      map.fz[i].real(), map.fz[i].imag(),
+                                                      map.fzbar[i].real(), map.fzbar[i].imag()));
+      }
     }
   }
-  write_result(command.out, out);
+  out.finish();
   lost.say();
 }
 
@@ -69,8 +83,9 @@ void run(const InverseCommand& command) {
   const auto [scene, points] = read_scene_and_points(command, command.points, true);
   const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("inverse", "point");
-  std::string out = std::string(moments[0].frame ? "frame," : "") +
-                    (command.all ? "point,x,y,residual,count\n" : "x,y,residual,count\n");
+  ResultWriter out(command.out);
+  out.write(std::string(moments[0].frame ? "frame," : "") +
+            (command.all ? "point,x,y,residual,count\n" : "x,y,residual,count\n"));
   TimedMap timed(scene);
   for (size_t k = 0; k < moments.size(); ++k) {
     const auto inverse = timed.inverse(timed.frame(moments[k].time));
@@ -81,15 +96,14 @@ void run(const InverseCommand& command) {
       const size_t count = found.size();
       if (found.empty()) found.push_back({Complex(NAN, NAN), NAN});
       for (const Preimage& preimage : found) {
-        out += frame_column(moments[k]);
-        if (command.all) out += std::to_string(i) + ",";
-        out += csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
-                        preimage.residual, count);
+        out.write(frame_column(moments[k]) + (command.all ? std::to_string(i) + "," : "") +
+                  csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
+                           preimage.residual, count));
         if (!command.all) break;  // the one on top
       }
     }
   }
-  write_result(command.out, out);
+  out.finish();
 }
 
 void run(const CoordinatesCommand& command) {
@@ -97,6 +111,10 @@ void run(const CoordinatesCommand& command) {
   const auto [scene, points] = read_scene_and_points(command, command.points);
   if (command.order > 12)
     throw Error(ErrorKind::bad_input, "--order: the order of a derivative is at most 12");
+  check_budget(&Budget::coordinates,
+               static_cast<double>(points.size()) *
+                   static_cast<double>(elevated_to(scene.rest, scene.pose).control_count()),
+               "the points have");
   const Progress progress("coordinates");
   // Columns are the pose's control points: the rest cage at the pose's degrees.
   for (Index i = 0; i < scene.rest.size(); ++i)

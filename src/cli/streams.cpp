@@ -3,7 +3,6 @@
 
 #include <iostream>
 
-#include "cli/progress.h"
 #include "core/error.h"
 #include "scene/export.h"
 #include "scene/scene_json.h"
@@ -80,13 +79,36 @@ void check_out(const Path& out, bool force, const Path& scene, const LoadedScene
   check_out(out, force, {});
 }
 
+void ResultWriter::flush() {
+  if (is_standard(out_)) {
+    write_standard_output(waiting_);
+  } else {
+    if (!file_) {
+      if (!is_stream(out_)) tidy_.emplace();
+      file_ = std::make_unique<NewFile>(out_);
+    }
+    file_->write(waiting_);
+  }
+  waiting_.clear();
+}
+
+void ResultWriter::write(std::string_view bytes) {
+  constexpr size_t kMost = 16 << 20;  // that are kept in memory
+  waiting_ += bytes;
+  if (waiting_.size() > kMost) flush();
+}
+
+void ResultWriter::finish() {
+  flush();
+  if (file_) file_->put_in_place();
+  file_.reset();
+  tidy_.reset();
+}
+
 void write_result(const Path& out, const std::string& bytes) {
-  if (is_standard(out)) return write_standard_output(bytes);
-  // Replacing a file writes a temporary one next to it, which an interrupt must not leave behind.
-  std::error_code ignored;
-  std::optional<TidyStop> tidy;
-  if (!is_there(out) || is_file(out)) tidy.emplace();
-  write_file(out, bytes);
+  ResultWriter result(out);
+  result.write(bytes);
+  result.finish();
 }
 
 }  // namespace holomorph

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "scene/document.h"
 
 namespace holomorph {
@@ -34,7 +35,23 @@ void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
 /// The same for a command that reads a scene, whose pictures and surfaces are inputs, too.
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded);
 
-/// Into a file, a pipe or standard output. Throws Error.
+/// What a command writes piece by piece into a file, a pipe or standard output; a file is there as
+/// a whole when it is finished, or not at all.
+class ResultWriter {
+ public:
+  explicit ResultWriter(Path out) : out_(std::move(out)) {}
+  /// Throw Error.
+  void write(std::string_view bytes);
+  void finish();
+
+ private:
+  void flush();
+
+  Path out_;
+  std::string waiting_;
+  std::optional<TidyStop> tidy_;  ///< an interrupt leaves nothing behind
+  std::unique_ptr<NewFile> file_;
+};
 void write_result(const Path& out, const std::string& bytes);
 
 void say_warning(const LoadedScene& loaded);

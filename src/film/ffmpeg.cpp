@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/error.h"
@@ -26,7 +27,9 @@ struct Close {
 class FfmpegWriter final : public FilmWriter {
  public:
   FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
-      : out_(out), film_(out), opaque_(opaque) {
+      : out_(out),
+        film_(is_stream(out) ? std::filesystem::temp_directory_path() / "film" : out),
+        opaque_(opaque) {
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
     std::vector<std::string> words{"ffmpeg",
@@ -68,7 +71,9 @@ class FfmpegWriter final : public FilmWriter {
 
   void finish() override {
     if (end() != 0) fail();
-    film_.put_in_place();
+    if (!is_stream(out_)) return film_.put_in_place();
+    const Path film = "/dev/fd/" + std::to_string(film_.descriptor());
+    write_file(out_, read_stream(film, std::numeric_limits<size_t>::max()));
   }
 
  private:
@@ -108,7 +113,7 @@ class FfmpegWriter final : public FilmWriter {
   }
 
   Path out_;
-  NewFile film_;
+  NewFile film_;  ///< elsewhere for a pipe: the encoder goes back and forth in it
   bool opaque_;
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
   Child child_;

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <random>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace holomorph {
@@ -51,18 +52,6 @@ bool write_all(int descriptor, std::string_view bytes) {
     done += static_cast<size_t>(wrote);
   }
   return true;
-}
-
-/// Into a pipe or a device, which cannot be replaced.
-void write_into(const Path& path, const std::string& bytes) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (fd < 0) fail(path, "cannot be opened for writing");
-  const bool good = write_all(fd, bytes);
-  const int reason = errno;
-  const bool closed = ::close(fd) == 0;
-  if (good && closed) return;
-  if (!good) errno = reason;
-  fail(path, "cannot be written");
 }
 
 /// What a path leads to through links. Throws Error where links lead in a circle.
@@ -280,6 +269,11 @@ void check_not_read_only(const Path& path) {
 
 NewFile::NewFile(const Path& wanted, Readers readers)
     : path_(target_of(wanted)), readers_(readers) {
+  if (is_stream(path_)) {  // it cannot be replaced
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(path_, "cannot be opened for writing");
+    return;
+  }
   const Path folder = folder_of(path_);
   clean(folder);
   constexpr int kAttempts = 100;
@@ -303,10 +297,9 @@ void NewFile::write(std::string_view bytes) {
 }
 
 void NewFile::put_in_place() {
-  if (is_stream(path_)) {
-    if (::lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, "cannot be written");
-    return write_into(path_,
-                      read_descriptor(descriptor_, path_, std::numeric_limits<size_t>::max()));
+  if (temporary_.empty()) {
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot be written");
+    return;
   }
   const mode_t mode = readers_ == Readers::owner ? 0600 : mode_for(path_);
   if (::fchmod(descriptor_, mode) != 0 || ::fsync(descriptor_) != 0 ||
@@ -339,7 +332,6 @@ NewFolder::~NewFolder() {
 }
 
 void write_file(const Path& path, const std::string& bytes, NewFile::Readers readers) {
-  if (is_stream(path)) return write_into(path, bytes);
   NewFile file(path, readers);
   file.write(bytes);
   file.put_in_place();
@@ -347,7 +339,7 @@ void write_file(const Path& path, const std::string& bytes, NewFile::Readers rea
 
 void move_file(const Path& finished, const Path& wanted) {
   if (is_stream(wanted)) {
-    write_into(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
+    write_file(wanted, read_file(finished, std::numeric_limits<size_t>::max()));
     ::unlink(finished.c_str());
     return;
   }

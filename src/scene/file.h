@@ -29,15 +29,15 @@ std::string read_standard_input(size_t limit = size_t{1} << 30);
 
 /// A file that comes into being: written beside where it goes, under a short name of its own, and
 /// there as a whole when it is put in place, or never. What a killed program leaves of one is
-/// removed by the next write in that folder, of whatever program of ours.
+/// removed by the next write in that folder, of whatever program of ours. A pipe or a device is
+/// written into at once.
 class NewFile {
  public:
   /// Who may read it: whoever may read what it replaces, or, of new files, whom the user's umask
   /// lets; or its owner alone.
   enum class Readers { usual, owner };
 
-  /// Throws Error{failed} when nothing can be written there. A link keeps pointing where it points;
-  /// what is put in place of a pipe or a device is written into it.
+  /// Throws Error{failed} when nothing can be written there. A link keeps pointing where it points.
   explicit NewFile(const Path& path, Readers readers = Readers::usual);
   ~NewFile();
   NewFile(const NewFile&) = delete;
@@ -71,9 +71,9 @@ class NewFolder {
   int descriptor_ = -1;
 };
 
-/// Replaces the file's content or leaves it as it was: a NewFile, flushed to disk. Pipes and
-/// devices are written into. Throws Error{failed} when that is not possible. Where SIGPIPE is not
-/// ignored, a pipe without a reader ends the program.
+/// Replaces the file's content or leaves it as it was: a NewFile with all of it, flushed to disk.
+/// Throws Error{failed} when that is not possible. Where SIGPIPE is not ignored, a pipe without a
+/// reader ends the program.
 void write_file(const Path& path, const std::string& bytes,
                 NewFile::Readers readers = NewFile::Readers::usual);
 /// The same with the content of a finished file in the same file system, which is gone afterwards.

@@ -128,7 +128,7 @@ class Files(Case):
         scene["image"]["file"] = self.path("red.png")
         text = json.dumps(scene)
         wanted = self.good("map", self.scene, "--points", self.points).stdout
-        self.assertEqual(self.good("map", "-", "--points", self.points, "--out", "-", input=text).stdout, wanted)
+        self.assertEqual(self.good("map", "-", "--allow-outside", "--points", self.points, "--out", "-", input=text).stdout, wanted)
         self.assertEqual(self.good("map", self.scene, "--points", "-", input="20,20\n30,25\n").stdout, wanted)
         self.bad("map", "-", "--points", "-", says="not both")
         for words, name, content in ((("map", self.scene, "--points"), "points", "20,20\n30,25\n"),
@@ -261,6 +261,21 @@ class Files(Case):
         # All of it is more than one is allowed to ask for by accident.
         self.bad("render", path, "--frames", "all", "--out", self.path("a.png"), says="--max-frames")
         self.bad("export", path, "--format", "gif", "--out", self.path("a.gif"), says="--max-frames")
+
+    def test_pictures_outside_of_the_folder_are_read_only_when_allowed(self):
+        os.mkdir(self.path("in"))
+        scene = self.keyed_scene()
+        said = {}
+        for file in ("../red.png", self.path("red.png"), "../none.png", "/etc/hostname", "/dev/zero"):
+            scene["image"] = {"file": file}
+            path = self.write("in/s.json", scene)
+            for words in (["info"], ["render", "--out", self.path("o.png")], ["map", "--points", self.points],
+                          ["export", "--format", "svg", "--out", self.path("o.svg")]):
+                self.bad(words[0], path, *words[1:], says="--allow-outside")
+            said[file] = run("info", path).stderr.replace(file, "X").replace(os.path.normpath(self.path("in/" + file)), "X")
+        self.assertEqual(len(set(said.values())), 1, "nothing tells which of these files exist")
+        scene["image"] = {"file": "../red.png"}
+        self.good("info", self.write("in/s.json", scene), "--allow-outside")
 
     def test_progress_is_shown_on_terminals_and_only_after_a_second(self):
         one_core = {"preexec_fn": lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})}
