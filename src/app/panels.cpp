@@ -56,7 +56,9 @@ bool text_row(int number, const std::string& text, bool selected, ImVec2 size,
   ImGui::PushID(number);
   const bool chosen = ImGui::Selectable("##row", selected, flags, size);
   ImGui::PopID();
-  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  const float middle = (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y) / 2;
+  ImGui::GetWindowDrawList()->AddText({at.x, middle - room.y / 2},
+                                      ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   return chosen;
 }
 

@@ -19,7 +19,7 @@ void Questions::draw(double scale) {
   if (!ImGui::BeginPopupModal((open_->title + kId).c_str(), nullptr,
                               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
     return;
-  ImGui::PushTextWrapPos(std::min(520 * s, display.x - 60 * s));
+  ImGui::PushTextWrapPos(std::min(430 * s, display.x - 60 * s));
   ImGui::TextUnformatted(open_->text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, 6});

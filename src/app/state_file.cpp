@@ -17,6 +17,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
   const Document& document = workspace.document;
   const Scene &scene = workspace.scene(), &kept = document.scene();
   const LiveMap& map = workspace.map();
+  const Complex first = scene.has_cage() ? scene.rest.vertex(0) : 0;
   return {
       {"left", view.left},
       {"top", view.top},
@@ -24,6 +25,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"height", view.height},
       {"center", {view.center.real(), view.center.imag()}},
       {"zoom", view.zoom},
+      {"first_point", {first.real(), first.imag()}},  // of the cage at rest
       {"tool", kTools[static_cast<int>(workspace.tool)]},
       {"posture", workspace.posture == Posture::rest ? "rest" : "pose"},
       {"view", kViewNames[static_cast<size_t>(workspace.view)]},

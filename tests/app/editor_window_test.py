@@ -457,6 +457,135 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             editor.wait(lambda s: s["pictured"], "the picture of a locked layer")
 
+    def home_of_tests(self):
+        """One that several sessions share, without the first steps over what is clicked on."""
+        home = os.path.join(self.work, "home")
+        os.makedirs(os.path.join(home, "config/holomorph"))
+        with open(os.path.join(home, "config/holomorph/preferences.json"), "w") as file:
+            json.dump({"hints": False}, file)
+        return home
+
+    def square_scene(self, folder, picture):
+        path = os.path.join(folder, "scene.json")
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "image": {"file": picture},
+                       "cage": {"rest": [[[100, 100]], [[1000, 100]], [[1000, 600]], [[100, 600]]]}}, file)
+        return path
+
+    def change(self, path, x):
+        """As git or another window does: the file is another one."""
+        scene = load(path)
+        scene["cage"]["rest"][0][0][0] = x
+        scene["cage"].pop("pose", None)
+        with open(path + ".new", "w") as file:
+            json.dump(scene, file)
+        os.replace(path + ".new", path)
+
+    def test_pictures_from_elsewhere_are_shown_when_the_user_agrees(self):
+        folder = os.path.join(self.work, "in")
+        os.mkdir(folder)
+        scene = self.square_scene(folder, "../gecko.png")
+        home = self.home_of_tests()
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["question"] == "Files from elsewhere", "the question")
+            self.screenshot(editor, "elsewhere")
+            editor.key("Return")  # is no answer
+            self.assertTrue(editor.state()["asking"])
+            editor.key("Escape")
+            editor.wait(lambda s: not s["asking"] and not s["pictured"], "the scene without it")
+            self.screenshot(editor, "withheld")
+            editor.key("ctrl+q")
+            editor.process.wait(timeout=10)
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["question"] == "Files from elsewhere", "the question again")
+            time.sleep(0.3)
+            self.press_in_dialog(editor, 30)  # Show them
+            editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
+            editor.key("ctrl+q")
+            editor.process.wait(timeout=10)
+        with Editor(PROGRAM, [scene], home=home) as editor:  # for good
+            editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture")
+        with Editor(PROGRAM, ["--allow-outside", scene]) as editor:
+            editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture without a question")
+
+    def test_a_scene_that_another_program_changes_is_read_again(self):
+        scene = self.square_scene(self.work, "gecko.png")
+        with Editor(PROGRAM, [scene]) as editor:
+            before = editor.wait(lambda s: s["pictured"] and not s["busy"], "the scene")
+            editor.key("plus")
+            zoomed = editor.wait(lambda s: s["zoom"] > before["zoom"], "another view")
+            self.change(scene, 180)
+            again = editor.wait(lambda s: s["first_point"] == [180, 100], "what the file has now")
+            self.assertEqual(again["zoom"], zoomed["zoom"], "the view stays")
+            # With unsaved work it is asked for, and neither is lost.
+            editor.key("ctrl+a")
+            editor.key("Right")
+            editor.wait(lambda s: s["modified"], "an edit")
+            self.change(scene, 250)
+            time.sleep(1.5)
+            self.assertTrue(editor.state()["modified"])
+            editor.key("ctrl+s")
+            editor.wait(lambda s: s["question"] == "Changed by another program", "the question")
+            self.screenshot(editor, "changed")
+            self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 250, "it is not overwritten")
+            editor.key("Return")
+            editor.key("Escape")
+            editor.wait(lambda s: not s["asking"] and s["modified"], "no answer")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: s["asking"], "the question")
+            time.sleep(0.3)
+            self.press_in_dialog(editor, 22)  # Overwrite it
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+            self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 180)
+            editor.key("Right")
+            editor.wait(lambda s: s["modified"], "an edit")
+            self.change(scene, 300)
+            editor.key("ctrl+s")
+            editor.wait(lambda s: s["asking"], "the question")
+            time.sleep(0.3)
+            self.press_in_dialog(editor, 55)  # Reload it
+            editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "what the file has")
+
+    def test_unsaved_work_is_offered_where_its_scene_is_opened(self):
+        scene = self.square_scene(self.work, "gecko.png")
+        home = self.home_of_tests()
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["pictured"] and not s["busy"], "the scene")
+            editor.key("ctrl+a")
+            for _ in range(3):
+                editor.key("Right")
+            editor.wait(lambda s: s["history"] == 2 or s["modified"], "an edit")
+            time.sleep(0.3)
+            editor.process.kill()
+            editor.process.wait()
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["question"] == "Unsaved work", "the offer")
+            self.screenshot(editor, "offered")
+            editor.key("Return")
+            editor.wait(lambda s: s["modified"] and not s["asking"] and s["cage_points"] == 4, "the recovered scene")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+            pose = load(scene)["cage"]["pose"]
+            self.assertEqual(pose[0][0][0], 103)
+            editor.key("ctrl+q")
+            editor.process.wait(timeout=10)
+        with Editor(PROGRAM, [scene], home=home) as editor:
+            editor.wait(lambda s: s["pictured"] and not s["asking"], "no offer")
+
+    def test_no_preferences_end_the_window(self):
+        for text in ('{"recent":[""]}', '{"recent":["/a##b","/a##b","' + "x" * 5000 + '","/' + "y" * 3000 + '"]}', "[", '{"keys":{"file.open":["A B C"]}}',
+                     '{"recent":["/%s%n%d"],"ui_scale":1e300,"theme":"none"}'):
+            home = os.path.join(self.work, "home")
+            os.makedirs(os.path.join(home, "config/holomorph"), exist_ok=True)
+            with open(os.path.join(home, "config/holomorph/preferences.json"), "w") as file:
+                file.write(text)
+            with Editor(PROGRAM, [], home=home) as editor:
+                editor.wait(lambda s: s["empty"], "the welcome page")
+                editor.key("F10")
+                editor.key("Down")
+                time.sleep(0.2)
+                self.assertIsNone(editor.process.poll(), text)
+
     def test_an_export_is_cancelled(self):
         fern = os.path.join(SOURCE, "assets/fern.json")
         target = os.path.join(self.work, "film.webp")
