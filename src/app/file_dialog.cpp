@@ -68,7 +68,7 @@ void FileDialog::enter(const Path& folder) {
     return std::make_pair(!a.folder, lower_case(a.path.filename().string())) <
            std::make_pair(!b.folder, lower_case(b.path.filename().string()));
   });
-  folder_ = fs::absolute(folder).lexically_normal();
+  folder_ = absolute_path(folder);
   items_ = std::move(items);
 }
 

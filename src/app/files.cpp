@@ -36,7 +36,7 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
 
 void Files::trust_folder_of(const Path& path) {
   constexpr size_t kMost = 200;
-  const Path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+  const Path folder = absolute_path(path).parent_path();
   std::vector<Path>& trusted = preferences_.trusted;
   if (std::ranges::find(trusted, folder) != trusted.end()) return;
   trusted.insert(trusted.begin(), folder);
@@ -83,7 +83,7 @@ std::string Files::open(const Path& path) {
   const std::string problem =
       jobs_.run("Opening " + path.filename().string(), read, [this, opened, left, path] {
         adopt(std::move(**opened));
-        dialog_.start_in(std::filesystem::absolute(path).parent_path());
+        dialog_.start_in(absolute_path(path).parent_path());
         keep_recent(path);
         ask_about_unsaved(*left);
       });
@@ -274,7 +274,7 @@ void Files::discard(const Path& autosave) {
 
 std::string Files::save_to(const Path& path, const Then& then, Conflict conflict) {
   Document& document = workspace_.document;
-  const Path target = std::filesystem::absolute(path).lexically_normal();
+  const Path target = absolute_path(path);
   if (conflict == Conflict::ask && target == document.path() && document.changed_on_disk()) {
     ask_about_change(path, then);
     return "";
@@ -375,7 +375,7 @@ void Files::autosave() {
 }
 
 void Files::keep_recent(const Path& path) {
-  remember(preferences_, std::filesystem::absolute(path).lexically_normal());
+  remember(preferences_, absolute_path(path));
   keep_preferences();
 }
 

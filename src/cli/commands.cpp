@@ -85,9 +85,7 @@ void run(const NewCommand& command) {
     scene.surface = surface_of_file(*command.outline, flattening);
     scene.method = "outline";
   }
-  const auto absolute = [](const Path& path) {
-    return std::filesystem::absolute(path).lexically_normal();
-  };
+  const auto absolute = [](const Path& path) { return absolute_path(path); };
   const std::string text = json_of(portable(scene, absolute(command.out).parent_path()));
   scene_from_json(text, command.out.string());  // what could not be read again is not written
   write_result(command.out, text);

@@ -10,7 +10,7 @@ namespace holomorph {
 /// Limits on what is read and prepared. Each can be raised on the command line.
 struct Budget {
   double pixels = 256e6;      ///< of all pictures of a scene together
-  double coordinates = 50e6;  ///< control points times the places where a layer's map is known
+  double coordinates = 50e6;  ///< control points, those of curves twice, times places of a map
   double operators = 1e9;     ///< bytes of the maps that are kept for a layer's keyframes
   double scene = 64e6;        ///< bytes of a scene file
   double groups = 256;        ///< levels of groups in an SVG file

@@ -68,7 +68,7 @@ Path lock_path(const Path& autosave) {
 
 /// The absolute path of what a scene file names.
 Path beside(const Path& scene, const Path& file) {
-  return fs::absolute(file.is_absolute() ? file : scene.parent_path() / file).lexically_normal();
+  return absolute_path(file.is_absolute() ? file : scene.parent_path() / file);
 }
 
 /// The other way: relative to an absolute folder, as it is when that is empty.
@@ -93,8 +93,10 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
 /// Lets a reference name the picture's namesake beside the scene when that is the picture and the
 /// file that it names is gone.
 void look_beside(const Path& scene, ImageReference& reference, PictureFiles& files) {
+  const Path name = Path(reference.file).filename();
+  if (name.empty()) return;
   ImageReference moved = reference;
-  moved.file = beside(scene, Path(reference.file).filename()).string();
+  moved.file = beside(scene, name).string();
   try {
     if (files.picture(moved).sha256 == reference.sha256) reference = std::move(moved);
   } catch (const Error&) {
@@ -324,8 +326,7 @@ Document::Document(LoadedScene loaded, Path path)
 
 Document Document::open(const Path& path, const Reach& reach) {
   const std::string kind = lower_case(path.extension().string());
-  if (is_scene_name(path))
-    return {load_scene(path, {true, reach}), fs::absolute(path).lexically_normal()};
+  if (is_scene_name(path)) return {load_scene(path, {true, reach}), absolute_path(path)};
   if (kind == ".obj") return {scene_of_surface(path, reach), Path()};
   return {scene_of_image(path), Path()};
 }
@@ -433,7 +434,7 @@ Scene with_present_pictures(const Scene& scene, Pictures& pictures, const Path& 
 }  // namespace
 
 void Document::save(const Path& path) {
-  const Path target = fs::absolute(path).lexically_normal();
+  const Path target = absolute_path(path);
   check_not_read_only(target);
   Scene present = with_present_pictures(scene(), pictures_, target);
   const std::string text = json_of(portable(present, target.parent_path()));

@@ -165,6 +165,12 @@ std::string read_descriptor(int descriptor, const Path& name, size_t limit, size
 
 }  // namespace
 
+Path absolute_path(const Path& path) {
+  std::error_code error;
+  const Path absolute = std::filesystem::absolute(path.empty() ? "." : path, error);
+  return (error ? path : absolute).lexically_normal();
+}
+
 bool is_there(const Path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error);

@@ -11,6 +11,9 @@ namespace holomorph {
 
 using Path = std::filesystem::path;
 
+/// From the root on, without dots; the path itself where there is no working folder any more.
+Path absolute_path(const Path& path);
+
 /// Whether there is a file or folder of this name; false for names that cannot be asked for.
 bool is_there(const Path& path);
 /// Whether there is a regular file of this name.

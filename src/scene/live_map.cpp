@@ -93,10 +93,12 @@ namespace {
 
 /// Before they are computed.
 void check_coordinates(const Rest& rest, Index places) {
-  const Index controls = rest.cage.control_count();
-  check_budget(&Budget::coordinates, static_cast<double>(controls) * static_cast<double>(places),
-               "the cage has " + std::to_string(controls) + " control points and its mesh " +
-                   std::to_string(places) + " vertices:");
+  double cost = 0;  // those of curves take much longer to compute
+  for (Index i = 0; i < rest.cage.size(); ++i)
+    cost += rest.cage.degree(i) > 1 ? 2.0 * rest.cage.degree(i) : 1.0;
+  check_budget(&Budget::coordinates, cost * static_cast<double>(places),
+               "the cage has " + std::to_string(rest.cage.control_count()) +
+                   " control points and its mesh " + std::to_string(places) + " vertices:");
 }
 
 /// The same place for every segment, whatever degrees straight ones are written with.

@@ -46,7 +46,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
 
 std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how) {
   if (lower_case(path.extension().string()) != ".obj") return {};
-  return SurfaceReference{std::filesystem::absolute(path).lexically_normal().string(), how};
+  return SurfaceReference{absolute_path(path).string(), how};
 }
 
 }  // namespace holomorph

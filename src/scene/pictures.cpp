@@ -26,7 +26,7 @@ Picture PictureFiles::picture(const ImageReference& reference) {
 
 ImageReference reference_in(const Path& file, const std::string& entry) {
   ImageReference reference;
-  reference.file = fs::absolute(file).lexically_normal().string();
+  reference.file = absolute_path(file).string();
   reference.entry = entry;
   return reference;
 }

@@ -33,7 +33,7 @@ Path folder(const char* variable, const char* fallback) {
 
 Path in_folder(const char* variable, const char* fallback, const char* name) {
   const Path at = folder(variable, fallback);
-  return at.empty() ? at : std::filesystem::absolute(at / name).lexically_normal();
+  return at.empty() ? at : absolute_path(at / name);
 }
 
 Path preferences_path() {

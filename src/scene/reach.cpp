@@ -19,8 +19,7 @@ bool Reach::covers(const Path& file, const Path& scene_folder) const {
     return std::ranges::find(folders, each.parent_path()) != folders.end();
   };
   const Path name = file.lexically_normal(),
-             folder =
-                 std::filesystem::absolute(scene_folder / "x").lexically_normal().parent_path();
+             folder = absolute_path(scene_folder / "x").parent_path();
   if (is_known(name)) return true;
   if (!lies_in(name, folder)) return false;
   std::error_code error;

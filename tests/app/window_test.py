@@ -453,7 +453,7 @@ class WindowTest(WindowCase):
             editor.key("u")
             outline = load(scene)["outline"]
             self.assertEqual(len(outline), 72)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor(PROGRAM, ["--allow-outside", scene]) as editor:
             editor.wait(lambda s: s["on_surface"] and s["pins"] == 1, "the saved surface")
             editor.key("u")
             x, y = outline[10]

@@ -1,0 +1,79 @@
+"""What the attacks share: the program under limits, seeds that are printed, and a summary line.
+
+Each script takes the program and the checkout, as the other tests do, and options; it prints one summary line and ends
+with 1 when something is bad. Without options it runs in its short form, as CI does.
+"""
+import argparse
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+
+
+def arguments(text, **options):
+    """The command line: PROGRAM SOURCE, --seed, and options by their defaults."""
+    parser = argparse.ArgumentParser(description=text)
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("source", type=os.path.abspath)
+    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
+    for name, default in options.items():
+        parser.add_argument("--" + name, type=type(default), default=default)
+    return parser.parse_args()
+
+
+class Outcome:
+    """How a run of the program ended: its status, or minus a signal; processor seconds, MB, and what it said."""
+
+    def __init__(self, status, seconds, megabytes, said, hung):
+        self.status, self.seconds, self.megabytes, self.said, self.hung = status, seconds, megabytes, said, hung
+
+    def wrong(self, most_seconds, most_megabytes):
+        """What is wrong with it; "" when nothing is."""
+        if self.hung:
+            return "hangs"
+        if self.status in (-signal.SIGXCPU, -signal.SIGKILL):
+            return f"more than {most_seconds} s"
+        if self.status < 0:
+            return f"signal {-self.status}"
+        if self.status > 2:
+            return f"status {self.status}"
+        if self.megabytes > most_megabytes:
+            return f"{self.megabytes} MB"
+        if self.status and not self.said.startswith("holomorph: "):
+            return "no sentence: " + self.said[:200]
+        for word in ("bad_alloc", "basic_", "Sanitizer", "CGAL", "assertion", "what()", "filesystem error"):
+            if word in self.said:
+                return "says " + self.said[:200]
+        return ""
+
+
+def run(command, folder, most_seconds=20, patience=240, address_space=12 << 30):
+    """Runs a command with a limit on its processor time."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (most_seconds, most_seconds + 2))
+        resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))
+        os.setsid()
+
+    with tempfile.TemporaryFile() as said:
+        process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=said, preexec_fn=limit)
+        hung = []
+        timer = threading.Timer(patience, lambda: (hung.append(True), process.kill()))
+        timer.start()
+        _, status, use = os.wait4(process.pid, 0)
+        timer.cancel()
+        process.returncode = 0
+        said.seek(0)
+        return Outcome(os.waitstatus_to_exitcode(status), use.ru_utime + use.ru_stime, use.ru_maxrss >> 10,
+                       said.read(4000).decode(errors="replace"), bool(hung))
+
+
+def finish(name, line, bad):
+    for each in bad[:20]:
+        print("bad:", each)
+    print(f"{name}: {line}: {'bad' if bad else 'good'}")
+    sys.exit(1 if bad else 0)
