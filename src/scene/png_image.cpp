@@ -27,6 +27,7 @@ class PngReader {
   Image read(PixelBudget& pixels) {
     run(&PngReader::read_header);
     pixels.take(width_, height_, name_);
+    run(&PngReader::prepare);
     image_ = Image(static_cast<int>(width_), static_cast<int>(height_));
     rows_.resize(height_);
     for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = image_.at(0, static_cast<int>(r));
@@ -78,6 +79,10 @@ class PngReader {
     int depth = 0, colors = 0;
     png_get_IHDR(png_, info_, &width_, &height_, &depth, &colors, nullptr, nullptr, nullptr);
     read_colors();
+  }
+
+  /// libpng allocates rows here: their size is known, and allowed.
+  void prepare() {
     png_set_expand(png_);
     png_set_scale_16(png_);
     png_set_gray_to_rgb(png_);
