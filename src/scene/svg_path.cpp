@@ -151,25 +151,35 @@ class PathReader {
   std::vector<Points> segments_;
 };
 
+/// Throws Error where groups are nested deeper than the budget has it.
+void check_levels(pugi::xml_document& document, const std::string& name) {
+  struct Deepest : pugi::xml_tree_walker {  // does not recurse
+    bool for_each(pugi::xml_node&) override {
+      levels = std::max(levels, depth());
+      return true;
+    }
+    int levels = 0;
+  } deepest;
+  document.traverse(deepest);
+  check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
+}
+
 /// The paths below a node in document order, without those that only serve others.
-void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths,
-                   const std::string& name, int level = 0) {
-  check_budget(&Budget::groups, level, name + ": its groups have");
+void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths) {
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
                                              "marker", "pattern",  "symbol"};
   for (const pugi::xml_node& child : node.children()) {
     std::string tag = child.name();
     if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
     if (tag == "path") paths.push_back(child);
-    if (!kUnseen.contains(tag)) collect_paths(child, paths, name, level + 1);
+    if (!kUnseen.contains(tag)) collect_paths(child, paths);
   }
 }
 
 /// The path with this id, or the first one.
-pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id,
-                       const std::string& name) {
+pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
   std::vector<pugi::xml_node> paths;
-  collect_paths(document, paths, name);
+  collect_paths(document, paths);
   for (const pugi::xml_node& path : paths)
     if (path.attribute("id").as_string() == id) return path;
   return paths.empty() ? pugi::xml_node() : paths.front();
@@ -213,7 +223,8 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
     throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
-  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)], name);
+  check_levels(document, name);
+  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
   if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
   for (pugi::xml_node node = path; node; node = node.parent())
     if (is_transformed(node))

@@ -277,6 +277,33 @@ class Files(Case):
         scene["image"] = {"file": "../red.png"}
         self.good("info", self.write("in/s.json", scene), "--allow-outside")
 
+    def test_limits_are_named_and_can_be_raised(self):
+        deep = self.write("deep.svg", "<svg>" + "<g>" * 5 + '<path d="M1 1L50 1L50 35Z"/>' + "</g>" * 5 + "</svg>")
+        out = self.path("o.png")
+        for option, little, enough, words in (
+                ("--max-pixels", "0.002", "0.01", ["info", self.scene]),
+                ("--max-scene", "0.0001", "1", ["info", self.scene]),
+                ("--max-coordinates", "0.01", "1", ["info", self.scene]),
+                ("--max-keyframes", "0.1", "10", ["render", self.scene, "--time", "0.7", "--out", out]),
+                ("--max-frames", "3", "5", ["render", self.scene, "--frames", "all", "--out", out]),
+                ("--max-frames", "3", "5", ["export", self.scene, "--format", "gif", "--out", self.path("o.gif")]),
+                ("--max-groups", "3", "8", ["new", self.path("red.png"), "--cage", deep, "--force", "--out", self.path("n.json")])):
+            with self.subTest(option=option, words=words):
+                said = self.bad(*words, option, little, says=option).stderr
+                self.assertIn("at most", said)
+                self.good(*words, option, enough)
+                # What the message asks for is enough.
+                asked = said.split(option + " ")[1].split()[0]
+                self.good(*words, option, asked)
+        self.bad("info", self.scene, "--max-pixels", "-1", says="--max-pixels")
+
+    def test_many_points_are_mapped_in_blocks(self):
+        points = self.write("many.csv", "".join(f"{10 + i % 50},{5 + i // 50 % 30}\n" for i in range(3000)))
+        whole = self.good("map", self.scene, "--points", points, "--frames", "0..2").stdout
+        blocks = self.good("map", self.scene, "--points", points, "--frames", "0..2", "--max-coordinates", "0.1").stdout
+        self.assertEqual(whole.count("\n"), 3 * 3000 + 1)
+        self.assertEqual(blocks, whole)
+
     def test_progress_is_shown_on_terminals_and_only_after_a_second(self):
         one_core = {"preexec_fn": lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})}
 
