@@ -20,9 +20,8 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
   ImGui::Text("\uf071  %s %s%s", file.filename().c_str(),
               withheld ? "is not in the scene's folder" : "could not be read", others.c_str());
   ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
-  ImGui::TextDisabled(
-      withheld ? "It is left out until you agree: %s" : "The scene looks for it in %s.",
-      withheld ? file.c_str() : file.parent_path().c_str());
+  ImGui::TextDisabled(withheld ? "Hidden until you allow it: %s" : "The scene looks for it in %s.",
+                      withheld ? file.c_str() : file.parent_path().c_str());
   ImGui::PopTextWrapPos();
   if (withheld) {
     if (ImGui::Button("Show it...")) workspace.request = Request::show_withheld;

@@ -31,9 +31,8 @@ class Editor {
         canvas_([this] { window_.wake(); }),
         comparison_([this] { window_.wake(); }),
         files_(
-            workspace_, preferences_,
-            [this](Files::Replaced how) { document_replaced(how == Files::Replaced::other); },
-            [this] { window_.wake(); }, options.allow_outside),
+            workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); },
+            options.allow_outside),
         keys_(workspace_, files_.chooser(), [this] {
           preferences_.keys = changed_keys();
           files_.keep_preferences();
@@ -54,7 +53,10 @@ class Editor {
     };
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);
-    if (!options.file.empty() && !files_.recoverable().empty())
+    const auto is_other = [&](const Recovery& each) {
+      return each.origin != absolute_path(options.file);
+    };
+    if (!options.file.empty() && std::ranges::any_of(files_.recoverable(), is_other))
       workspace_.say("There is unsaved work from an earlier session: File > New shows it.");
   }
 
@@ -353,12 +355,12 @@ class Editor {
     }
   }
 
-  void document_replaced(bool other) {
+  void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.forget();
     panel_focus_.leave();
     layers_.forget();
-    if (other) fit_ = opened_ = true;
+    fit_ = opened_ = true;
     if (!workspace_.document.empty()) samples_.pause();
   }
 

@@ -60,7 +60,9 @@ std::string lacking(const Workspace& workspace) {
   for (const size_t i : document.without_picture())
     if (const Scene& layer = layer_at(document.scene(), i); layer.layer.visible)
       return Path(layer.image->file).filename().string() +
-             " could not be read: find it (menu File), or hide its layer.";
+             (document.pictures().withheld().contains(layer.image->file)
+                  ? " is not in the scene's folder: show it, or hide its layer."
+                  : " could not be read: find it (menu File), or hide its layer.");
   return "";
 }
 

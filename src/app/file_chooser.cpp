@@ -46,11 +46,7 @@ std::vector<std::string> native_command(const FileQuestion& question, const Path
 
 }  // namespace
 
-void FileChooser::ask(FileQuestion question, Answer take) {
-  Answer answer = [this, take = std::move(take)](const Path& path, double scale) {
-    on_chosen_(path);
-    return take(path, scale);
-  };
+void FileChooser::ask(FileQuestion question, Answer answer) {
   Path start = question.start.empty() ? folder() / "" : question.start;
   const std::vector<std::string> command = uses_native_ && !question.asks_scale
                                                ? native_command(question, start)

@@ -30,8 +30,6 @@ class FileChooser {
   const Path& folder() const { return browser_.folder(); }
   bool open() const { return browser_.open() || native_; }
   void draw(double scale);
-  /// Called with each file that the user has chosen, before the answer.
-  void on_chosen(std::function<void(const Path&)> chosen) { on_chosen_ = std::move(chosen); }
   /// Whether to use the desktop's dialogs.
   void use_native(bool use) { uses_native_ = use; }
 
@@ -40,7 +38,6 @@ class FileChooser {
 
   FileDialog browser_;
   std::function<void()> wake_;
-  std::function<void(const Path&)> on_chosen_ = [](const Path&) {};
   bool uses_native_ = true;
   FileQuestion question_;
   Answer answer_;

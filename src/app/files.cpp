@@ -17,7 +17,19 @@
 #include "scene/svg_path.h"
 
 namespace holomorph {
-Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(Replaced)> replaced,
+namespace {
+
+/// A name from a file, on one line and not too long.
+std::string short_name(const Path& path) {
+  constexpr size_t kMost = 120;
+  std::string text = printable(path.string());
+  std::ranges::replace(text, '\n', '?');
+  return text.size() <= kMost ? text : "..." + text.substr(text.size() - kMost);
+}
+
+}  // namespace
+
+Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
              const std::function<void()>& wake, bool everywhere)
     : workspace_(workspace),
       preferences_(preferences),
@@ -28,11 +40,10 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       export_(workspace, jobs_, dialog_),
       imports_(
           workspace, jobs_, dialog_, [this] { return reach(); },
-          [this](const Path& path) { keep_recent(path); }, [this] { replaced_(Replaced::other); }),
+          [this](const Path& path) { keep_recent(path); },
+          [this](const Path& path) { trust_folder_of(path); }, replaced_),
       watch_(workspace),
-      recoverable_(holomorph::recoverable(autosave_folder())) {
-  dialog_.on_chosen([this](const Path& path) { trust_folder_of(path); });
-}
+      recoverable_(holomorph::recoverable(autosave_folder())) {}
 
 void Files::trust_folder_of(const Path& path) {
   constexpr size_t kMost = 200;
@@ -52,23 +63,15 @@ void Files::ask_then(Then then) {
        {{"Save", [this, then] { save(false, then); }}, {"Do not save", then}, {"Cancel", {}}}});
 }
 
-void Files::adopt(Document document, Replaced how) {
+void Files::adopt(Document document) {
   workspace_.document.remove_autosave(autosave_folder());
-  const Viewport view = workspace_.viewport;
-  const Timeline timeline = workspace_.timeline;
   workspace_.open(std::move(document));
-  if (how == Replaced::same) {
-    workspace_.viewport = view;
-    workspace_.timeline.time = timeline.time;
-    workspace_.timeline.visible = timeline.visible;
-    workspace_.timeline.shows = timeline.shows && has_keyframes(workspace_.document.scene());
-  }
   export_.forget();
   questions_.withdraw();
   watch_.forget();
   changing_.reset();
   left_alone_.reset();
-  replaced_(how);
+  replaced_();
 }
 
 std::string Files::open(const Path& path) {
@@ -84,6 +87,7 @@ std::string Files::open(const Path& path) {
       jobs_.run("Opening " + path.filename().string(), read, [this, opened, left, path] {
         adopt(std::move(**opened));
         dialog_.start_in(absolute_path(path).parent_path());
+        trust_folder_of(path);
         keep_recent(path);
         ask_about_unsaved(*left);
       });
@@ -95,32 +99,42 @@ std::string Files::open(const Path& path) {
 void Files::ask_about_unsaved(const std::vector<Recovery>& left) {
   if (left.empty()) return ask_about_withheld();
   const Path autosave = left.front().path;
-  questions_.ask(
-      {"Unsaved work",
-       "There is unsaved work on this scene from an earlier session:\n" + left.front().label,
-       {{"Recover it", [this, autosave] { ask_recover(autosave); }},
-        {"Discard it",
-         [this, autosave] {
-           discard(autosave);
-           ask_about_withheld();
-         }},
-        {"Leave it for later", [this] { ask_about_withheld(); }}}});
+  const auto discard_it = [this, autosave] {
+    discard(autosave);
+    ask_about_withheld();
+  };
+  const auto ask_again = [this, discard_it] {
+    questions_.ask({"Unsaved work",
+                    "Discard it for good?",
+                    {{"Discard it", discard_it}, {"Keep it", [this] { ask_about_withheld(); }}},
+                    1});
+  };
+  questions_.ask({"Unsaved work",
+                  "There is unsaved work on this scene from an earlier session:\n" +
+                      left.front().label + "\nRecover it?",
+                  {{"Recover it", [this, autosave] { ask_recover(autosave); }},
+                   {"Leave it for later", [this] { ask_about_withheld(); }},
+                   {"Discard it...", ask_again}},
+                  0,
+                  1});
 }
 
 void Files::ask_about_withheld() {
-  constexpr size_t kShown = 6;
+  constexpr size_t kShown = 12;
   const std::vector<Path> withheld = workspace_.document.withheld();
   if (withheld.empty()) return;
   std::string text = "This scene shows files that are not in its folder:\n";
   for (size_t i = 0; i < std::min(kShown, withheld.size()); ++i)
-    text += "    " + withheld[i].string() + "\n";
+    text += "    " + short_name(withheld[i]) + "\n";
   if (withheld.size() > kShown)
     text += "    and " + std::to_string(withheld.size() - kShown) + " more\n";
-  text += "Show them if you know where the scene comes from.";
+  text +=
+      "Show them only if you trust where the scene comes from. Scenes may then show files from "
+      "these folders without asking.";
   questions_.ask({"Files from elsewhere",
                   text,
                   {{"Show them", [this] { show_withheld(); }}, {"Leave them out", {}}},
-                  false});
+                  1});
 }
 
 void Files::show_withheld() {
@@ -147,17 +161,19 @@ void Files::show_withheld() {
   }));
 }
 
-/// The scene as its file is now, seen as it was.
+/// The scene as its file is now: a step, so that undo brings back what was there.
 void Files::reload() {
   const auto opened = std::make_shared<std::optional<Document>>();
   const Path path = workspace_.document.path();
   const std::string problem = jobs_.run(
-      "Reading " + path.filename().string() + " again",
+      "Reloading " + path.filename().string(),
       [opened, path, reach = reach()](Job::Progress&) { *opened = Document::open(path, reach); },
       [this, opened] {
-        adopt(std::move(**opened), Replaced::same);
-        workspace_.say(workspace_.document.title() +
-                       " was changed by another program and is read again.");
+        Document& document = workspace_.document;
+        document.add_pictures((*opened)->pictures());
+        workspace_.commit_layers("Reload", (*opened)->scene());
+        document.count_as_saved(**opened);
+        workspace_.say(document.title() + " was changed by another program and has been reloaded.");
         ask_about_withheld();
       });
   workspace_.complain(problem);
@@ -169,19 +185,28 @@ void Files::watch() {
 }
 
 void Files::watch_scene() {
+  using Time = std::filesystem::file_time_type;
   Document& document = workspace_.document;
-  if (asking() || workspace_.preview || !document.changed_on_disk()) return;
-  std::error_code error;
-  const auto now = std::filesystem::last_write_time(document.path(), error);
-  if (error || left_alone_ == now) return;
+  if (document.path().empty() || asking() || workspace_.preview) return;
+  std::error_code gone;
+  const Time found = std::filesystem::last_write_time(document.path(), gone);
+  const Time now = gone ? Time::min() : found;
+  if (left_alone_ == now || (!gone && !document.changed_on_disk())) return;
   if (changing_ != now) {
     changing_ = now;
     return;
   }
   left_alone_ = now;
-  if (!document.modified()) return reload();
-  workspace_.say(document.title() +
-                 " was changed by another program. Saving asks which one is to stay.");
+  const bool saved = !document.modified();
+  document.count_as_unsaved();  // what is here is not in the file
+  if (gone)
+    workspace_.complain(document.title() +
+                        " has been moved or deleted by another program. Save to keep your work.");
+  else if (saved)
+    reload();
+  else
+    workspace_.say("Another program has changed " + document.title() +
+                   ". Saving asks which version to keep.");
 }
 
 void Files::ask_open(const Path& path) {
@@ -189,7 +214,6 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
-  trust_folder_of(path);
   const std::string kind = lower_case(path.extension().string());
   const Document& document = workspace_.document;
   if ((kind == ".obj" || kind == ".svg") && document.scene().has_cage())
@@ -209,7 +233,7 @@ void Files::drop(const Path& path) {
 
 /// A dropped picture or scene may go to several places.
 void Files::ask_where(const Path& path) {
-  Question question{"A dropped picture", path.filename().string(), {}, false};
+  Question question{"A dropped picture", short_name(path.filename()), {}};
   question.answers.push_back(
       {"Add it as a layer", [this, path] { workspace_.complain(imports_.add_layer(path)); }});
   if (!is_scene_name(path))
@@ -255,6 +279,10 @@ void Files::ask_recover(const Path& autosave) {
 }
 
 void Files::recover(const Path& autosave) {
+  if (!is_there(autosave)) {
+    recoverable_ = holomorph::recoverable(autosave_folder());
+    return workspace_.complain("That work was recovered or discarded in another window.");
+  }
   const auto recovered = std::make_shared<std::optional<Document>>();
   workspace_.complain(jobs_.run(
       "Recovering",
@@ -263,7 +291,9 @@ void Files::recover(const Path& autosave) {
         adopt(std::move(**recovered));
         if (!workspace_.document.autosave(autosave_folder())) return;
         discard(autosave);  // the document has written its own
-        workspace_.say("Recovered. Save it under a name to keep it.");
+        workspace_.say(workspace_.document.path().empty()
+                           ? "Recovered. Save it under a name to keep it."
+                           : "Recovered. Save to keep it.");
       }));
 }
 
@@ -282,6 +312,7 @@ std::string Files::save_to(const Path& path, const Then& then, Conflict conflict
   try {
     document.save(path);
     document.remove_autosave(autosave_folder());
+    trust_folder_of(path);
     keep_recent(document.path());
     workspace_.say("Saved " + path.filename().string() + ".");
   } catch (const Error& error) {
@@ -294,14 +325,15 @@ std::string Files::save_to(const Path& path, const Then& then, Conflict conflict
 void Files::ask_about_change(const Path& path, const Then& then) {
   questions_.ask(
       {"Changed by another program",
-       path.filename().string() +
-           " was changed by another program, or in another window, since it was opened here.",
+       short_name(path.filename()) +
+           " has been changed by another program, or in another window, since it was opened here. "
+           "Which version do you want to keep?",
        {{"Save a copy under another name", [this, then] { save(true, then); }},
-        {"Overwrite it with mine",
+        {"Overwrite it with this version",
          [this, path, then] { workspace_.complain(save_to(path, then, Conflict::overwrite)); }},
-        {"Reload it and drop my changes", [this] { reload(); }},
+        {"Reload it and lose the changes made here", [this] { reload(); }},
         {"Cancel", {}}},
-       false});
+       3});
 }
 
 void Files::save(bool as, const Then& then) {

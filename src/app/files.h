@@ -14,11 +14,9 @@ namespace holomorph {
 /// work is lost.
 class Files {
  public:
-  /// What replaces a document: another one, or the same as it is on disk now.
-  enum class Replaced { other, same };
   /// `replaced` is called whenever the workspace has got another document, `wake` on other threads
   /// when something has ended there. With `everywhere`, scenes show pictures of any folder.
-  Files(Workspace& workspace, Preferences& preferences, std::function<void(Replaced)> replaced,
+  Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
         const std::function<void()>& wake, bool everywhere);
 
   /// Opens a scene or a picture at once, or after the user has decided about unsaved work. Returns
@@ -66,7 +64,7 @@ class Files {
   void trust_folder_of(const Path& path);
   void ask_then(Then then);
   void keep_recent(const Path& path);
-  void adopt(Document document, Replaced how = Replaced::other);
+  void adopt(Document document);
   void recover(const Path& autosave);
   void ask_about_unsaved(const std::vector<Recovery>& left);
   void ask_about_withheld();
@@ -88,7 +86,7 @@ class Files {
 
   Workspace& workspace_;
   Preferences& preferences_;
-  std::function<void(Replaced)> replaced_;
+  std::function<void()> replaced_;
   bool everywhere_;
   Jobs jobs_;
   Questions questions_;

@@ -28,6 +28,7 @@ std::string Imports::add_layer(const Path& path) {
                                      : scene_of_image(path, open);
       },
       [this, added, path] {
+        chosen_(path);
         if (add_layers_of(*added, "Add " + path.stem().string())) remember_(path);
       });
 }
@@ -43,6 +44,7 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
   Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
   if (!workspace_.commit_layers(label, std::move(scene))) return false;
   workspace_.complain(added.warning);
+  if (!added.pictures.withheld().empty()) workspace_.request = Request::show_withheld;
   if (first)
     first_();
   else
@@ -72,6 +74,7 @@ std::string Imports::replace_picture(const Path& path) {
         *picture = read_picture(reference_in(path), open);
       },
       [this, picture, path] {
+        chosen_(path);
         Scene scene = workspace_.document.scene();
         const std::optional<ImageReference> before = scene.image;
         scene.image = described(reference_in(path), *picture);
@@ -98,9 +101,9 @@ void Imports::ask_find_picture() {
 /// The others that are missing may have been moved with it.
 std::string Imports::find_picture(const Path& path, const std::string& asked) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
-  const auto find = [found, path, asked, scene = workspace_.document.scene(),
+  const auto find = [found, path, asked, open = open_pixels(), scene = workspace_.document.scene(),
                      missing = workspace_.document.without_picture()](Job::Progress&) {
-    PictureFiles files;
+    PictureFiles files(open);
     for (const size_t i : missing) {
       const ImageReference& was = *layer_at(scene, i).image;
       const bool chosen = was.file == asked;
@@ -116,7 +119,8 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
       }
     }
   };
-  return jobs_.run("Reading " + path.filename().string(), find, [this, found] {
+  return jobs_.run("Reading " + path.filename().string(), find, [this, found, path] {
+    chosen_(path);
     Document& document = workspace_.document;
     std::vector<Scene> layers = layers_of(document.scene());
     bool other = false;
@@ -151,7 +155,10 @@ std::string Imports::svg(const Path& path, bool pose) {
         *cage = cage_of_svg(read_file(path), path.string(), height,
                             pose ? PathUse::pose : PathUse::rest);
       },
-      [this, cage, pose] { take_cage(std::move(*cage), pose); });
+      [this, cage, pose, path] {
+        chosen_(path);
+        take_cage(std::move(*cage), pose);
+      });
 }
 
 void Imports::take_cage(Cage cage, bool pose) {
@@ -179,6 +186,7 @@ std::string Imports::outline(const Path& path) {
     *outline = outline_of_file(path, height, onto);
   };
   return jobs_.run("Reading " + path.filename().string(), read, [this, outline, path] {
+    chosen_(path);
     take_outline(workspace_, "Outline from file", std::move(*outline),
                  surface_of_file(path, Flattening::lscm));
   });

@@ -12,14 +12,17 @@ std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 class Imports {
  public:
   /// `reach` is what scenes may have read, `remember` is called with files that became layers,
-  /// `first` when the document was empty before.
+  /// `chosen` with all that the user has chosen and that could be read, `first` when the document
+  /// was empty before.
   Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<Reach()> reach,
-          std::function<void(const Path&)> remember, std::function<void()> first)
+          std::function<void(const Path&)> remember, std::function<void(const Path&)> chosen,
+          std::function<void()> first)
       : workspace_(workspace),
         jobs_(jobs),
         chooser_(chooser),
         reach_(std::move(reach)),
         remember_(std::move(remember)),
+        chosen_(std::move(chosen)),
         first_(std::move(first)) {}
 
   /// Does what an action asked for, if it brings something in.
@@ -44,7 +47,7 @@ class Imports {
   Jobs& jobs_;
   FileChooser& chooser_;
   std::function<Reach()> reach_;
-  std::function<void(const Path&)> remember_;
+  std::function<void(const Path&)> remember_, chosen_;
   std::function<void()> first_;
 };
 

@@ -75,7 +75,7 @@ void PictureWatch::take() {
   if (const auto error = ended->error()) return workspace_.complain(*error);
   workspace_.say(
       Path(read_->front().first.file).filename().string() +
-      (back ? " is there again." : " was changed by another program and is read again.") +
+      (back ? " is there again." : " was changed by another program and has been reloaded.") +
       (resized ? " It has another size now; cage, pins and strokes stay where they "
                  "are, in pixels."
                : ""));

@@ -22,19 +22,23 @@ void Questions::draw(double scale) {
   ImGui::PushTextWrapPos(std::min(430 * s, display.x - 60 * s));
   ImGui::TextUnformatted(open_->text.c_str());
   ImGui::PopTextWrapPos();
+  const float text_right = ImGui::GetItemRectMax().x;
   ImGui::Dummy({0, 6});
   const std::vector<Question::Answer>& answers = open_->answers;
   const bool row = std::ranges::all_of(
       answers, [](const Question::Answer& answer) { return answer.label.size() <= kShort; });
+  const float width =
+      std::max(330 * s, text_right - ImGui::GetWindowPos().x - ImGui::GetStyle().WindowPadding.x);
   std::optional<size_t> given;
+  size_t focused = open_->usual;
   for (size_t i = 0; i < answers.size(); ++i) {
     if (row && i > 0) ImGui::SameLine();
-    if (ImGui::Button(answers[i].label.c_str(), {row ? 130 * s : 330 * s, 0})) given = i;
+    if (ImGui::Button(answers[i].label.c_str(), {row ? 130 * s : width, 0})) given = i;
+    if (i == open_->usual) ImGui::SetItemDefaultFocus();
+    if (ImGui::IsItemFocused()) focused = i;
   }
-  if (escape_pressed()) given = answers.size() - 1;
-  if (open_->enter && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) &&
-      !ImGui::IsAnyItemFocused())
-    given = 0;
+  if (escape_pressed()) given = open_->escape.value_or(answers.size() - 1);
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) given = focused;
   if (given) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (!given) return;

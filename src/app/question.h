@@ -14,8 +14,9 @@ struct Question {
     std::function<void()> act;
   };
   std::string title, text;
-  std::vector<Answer> answers;  ///< Enter gives the first one, Escape the last
-  bool enter = true;            ///< not where the first one could do harm
+  std::vector<Answer> answers;
+  size_t usual = 0;  ///< the answer that has the focus, and that Enter gives; one that does no harm
+  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last one
 };
 
 /// Shows one question at a time.

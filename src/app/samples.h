@@ -26,7 +26,7 @@ class Samples {
  public:
   /// `wake` is called on another thread when one has been drawn.
   explicit Samples(std::function<void()> wake) : wake_(std::move(wake)) {}
-  /// Starts, when nobody has yet, and takes over what has been drawn. Needs a current OpenGL
+  /// Starts drawing them if need be, and takes over what has been drawn. Needs a current OpenGL
   /// context.
   const std::vector<Sample>& shown();
   /// Draws no more for now: nobody looks at them.

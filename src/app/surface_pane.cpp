@@ -14,9 +14,15 @@ namespace {
 
 constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 
+/// Whether the surface is not to be read before the user agrees.
+bool is_withheld(const Workspace& workspace) {
+  return workspace.document.pictures().withheld().contains(workspace.scene().surface->file);
+}
+
 /// The surface again from its file, its boundary where the outline is.
 void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
   const Scene& scene = workspace.document.scene();
+  if (is_withheld(workspace)) return;
   SurfaceReference surface = *scene.surface;
   surface.flattening = how;
   const auto outline = std::make_shared<Points>();
@@ -39,10 +45,10 @@ std::filesystem::file_time_type time_of(const Path& file) {
 
 }  // namespace
 
-/// The file is read beside the window; what it says replaces what was there when it has ended.
+/// The file is read on another thread; until that has ended there is no surface.
 void SurfacePane::read(const Workspace& workspace) {
   const Scene& scene = workspace.scene();
-  const bool withheld = workspace.document.pictures().withheld().contains(scene.surface->file);
+  const bool withheld = is_withheld(workspace);
   const auto time =
       withheld ? std::filesystem::file_time_type::max() : time_of(scene.surface->file);
   if (shown_ != scene.surface || time != read_) {
@@ -53,7 +59,10 @@ void SurfacePane::read(const Workspace& workspace) {
     problem_.clear();
     fitted_ = 0;
     outline_.clear();
-    reading_.reset();
+    if (reading_) {  // not waited for
+      reading_->cancel();
+      abandoned_.push_back(std::move(reading_));
+    }
     found_ = std::make_shared<LaidSurface>();
     if (withheld) {
       problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
@@ -67,6 +76,7 @@ void SurfacePane::read(const Workspace& workspace) {
         },
         wake_);
   }
+  std::erase_if(abandoned_, [](const auto& job) { return job->ended(); });
   if (!reading_ || !reading_->ended()) return;
   if (const auto error = reading_->error())
     problem_ = std::string(about(shown_->file, *error).what()) +
@@ -142,6 +152,8 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   if (reading_) ImGui::TextDisabled("Reading the surface...");
   if (problem_.empty()) return;
   ImGui::TextWrapped("%s", problem_.c_str());
+  if (is_withheld(workspace) && ImGui::Button("Show it..."))
+    workspace.request = Request::show_withheld;
   if (flat_ && ImGui::Button("Lay it out again"))
     lay_out(workspace, "Lay out surface", shown_->flattening);
 }

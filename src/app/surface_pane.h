@@ -42,6 +42,7 @@ class SurfacePane {
   std::unique_ptr<Drawing> drawing_;
   std::shared_ptr<LaidSurface> found_;  ///< what is being read
   std::unique_ptr<Job> reading_;
+  std::vector<std::unique_ptr<Job>> abandoned_;  ///< cancelled; they end when they notice
   std::optional<SurfaceReference> shown_;
   std::filesystem::file_time_type read_;  ///< its file's time when it was read
   Points outline_;                        ///< that `laid_` was laid along

@@ -55,8 +55,13 @@ void CommandLine::add_budget(CLI::App* sub) {
            option.name,
            [this, &option](double amount) { budget.*option.limit = amount * option.per_unit; },
            std::string(option.what) + "; " + shown_number(budget.*option.limit / option.per_unit) +
-               " " + option.unit + " if not given")
-        ->check(CLI::PositiveNumber)
+               " " + option.unit + " by default")
+        ->check([](const std::string& text) {
+          double value = 0;
+          return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                     ? std::string()
+                     : "'" + text + "' is not a limit; write a number above 0";
+        })
         ->group("Limits");
 }
 
@@ -291,7 +296,7 @@ int run_program(int argc, char** argv) {
 }
 
 int fail(const std::string& what, int status) {
-  std::cerr << "holomorph: " << what << "\n";
+  std::cerr << "holomorph: " << printable(what) << "\n";
   return status;
 }
 
@@ -306,6 +311,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     if (is_interrupted()) return fail("interrupted", 130);
     const auto* known = dynamic_cast<const Error*>(&error);
-    return fail(error.what(), known && known->kind() == ErrorKind::bad_input ? 2 : 1);
+    return fail(what_of(error), known && known->kind() == ErrorKind::bad_input ? 2 : 1);
   }
 }

@@ -35,9 +35,9 @@ class Lost {
   size_t count_ = 0, first_ = 0;
 };
 
-/// Of how many points the coordinates take a part of the memory that they may take.
+/// How many points to map together, so that their coordinates fit into memory.
 size_t points_at_once(const TimedMap& map) {
-  constexpr double kShare = 0.1;
+  constexpr double kShare = 0.25;  // of what the budget has
   const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
   return static_cast<size_t>(std::max(1.0, kShare * budget().coordinates / controls));
 }
@@ -53,6 +53,8 @@ void run(const MapCommand& command) {
   out.write(std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n");
   TimedMap timed(scene);
   Lost lost;
+  std::vector<char> inside;
+  for (const Complex& z : points) inside.push_back(contains(scene.rest, z));
   const size_t block = points_at_once(timed), blocks = (points.size() + block - 1) / block;
   for (size_t k = 0; k < moments.size(); ++k) {
     const TimedMap::Frame frame = timed.frame(moments[k].time);
@@ -63,7 +65,7 @@ void run(const MapCommand& command) {
                         points.begin() + static_cast<long>(to));
       SampledMap map = timed.at(frame, some);
       for (Index i = 0; i < map.f.size(); ++i) {
-        if (!contains(scene.rest, some[static_cast<size_t>(i)]))
+        if (!inside[from + static_cast<size_t>(i)])
           map.f[i] = map.fz[i] = map.fzbar[i] = Complex(NAN, NAN);
         else if (!is_finite(map.f[i]) || !is_finite(map.fz[i]) || !is_finite(map.fzbar[i]))
           lost.add(from + static_cast<size_t>(i));

@@ -1,6 +1,4 @@
 // render and export: what a scene becomes as pictures, films and other formats.
-#include <unistd.h>
-
 #include <cstdio>
 
 #include "cli/commands.h"
@@ -71,25 +69,6 @@ bool is_film(const std::string& format) {
          });
 }
 
-/// A new folder, which is removed with its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_((std::filesystem::temp_directory_path() / "holomorph-XXXXXX").string()) {
-    if (!::mkdtemp(path_.data())) throw Error(ErrorKind::failed, "there is no temporary folder");
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  Path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   require_keyframes(loaded.scene, command.scene);
   if (!is_standard(command.out) &&
@@ -106,9 +85,11 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
     options.last = range.last;
   }
   const TidyStop tidy;
-  std::optional<TemporaryFolder> folder;
+  std::optional<NewFolder> folder;
   Path out = command.out;
-  if (is_standard(out)) out = folder.emplace().path() / ("film." + command.format);
+  if (is_standard(out))
+    out = folder.emplace(std::filesystem::temp_directory_path() / "film").path() /
+          ("film." + command.format);
   std::optional<WrittenFilm> film;
   {
     Progress progress("export", "frame");

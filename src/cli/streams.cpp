@@ -26,7 +26,7 @@ std::string read_input(const Path& input) {
 }
 
 void say_warning(const LoadedScene& loaded) {
-  if (!loaded.warning.empty()) std::cerr << "holomorph: " << loaded.warning << "\n";
+  if (!loaded.warning.empty()) std::cerr << "holomorph: " << printable(loaded.warning) << "\n";
 }
 
 LoadedScene read_scene(const OfScene& command) {

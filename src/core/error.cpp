@@ -1,10 +1,17 @@
 // A broken invariant ends the program: the autosave file holds everything up to the last commit.
 #include "core/error.h"
 
+#include <new>
+
 #include <cstdio>
 #include <cstdlib>
 
 namespace holomorph {
+
+std::string what_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "there is not enough memory for this";
+  return error.what();
+}
 
 void check(bool condition, const char* what) {
   if (condition) return;

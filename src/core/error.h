@@ -29,6 +29,9 @@ class Error : public std::runtime_error {
   std::optional<Complex> where_;
 };
 
+/// What went wrong, in words: also of what the standard library throws.
+std::string what_of(const std::exception& error);
+
 /// Aborts with a message when an invariant of the program itself is broken; on in every build.
 void check(bool condition, const char* what);
 

@@ -79,12 +79,14 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
     shape.nu[triangle] = std::conj(fzbar) / std::polar(size, angle);
   }
   if (!before) return shape;
+  constexpr double kMostTurns = 1e6;
   const VectorXd between = (shape.logarithm - before->logarithm).imag();
   std::optional<Location> at;
   if (expected.at) at = locate(*mesh_, mesh_->vertices, *expected.at);
   const double now = at ? between[at->triangle] : between.dot(areas_) / areas_.sum();
   return turned(std::move(shape),
-                static_cast<int>(std::round((expected.radians - now) / (2 * kPi))));
+                static_cast<int>(std::clamp(std::round((expected.radians - now) / (2 * kPi)),
+                                            -kMostTurns, kMostTurns)));
 }
 
 Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {

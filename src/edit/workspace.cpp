@@ -301,15 +301,15 @@ void Workspace::erase(const Selection& handles, Refit refit) {
 }
 
 void Workspace::say(const std::string& text) {
-  toasts.push_back({text, false, {}});
+  toasts.push_back({printable(text), false, {}});
 }
 
 void Workspace::complain(const Error& error) {
-  toasts.push_back({error.what(), true, error.where()});
+  toasts.push_back({printable(error.what()), true, error.where()});
 }
 
 void Workspace::complain(const std::string& problem) {
-  if (!problem.empty()) toasts.push_back({problem, true, {}});
+  if (!problem.empty()) toasts.push_back({printable(problem), true, {}});
 }
 
 void Workspace::prune_selection() {

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -24,12 +25,16 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// The file itself, or one in a new folder where it is a pipe.
+Path writable_beside(const Path& out, std::optional<NewFolder>& folder) {
+  if (!is_stream(out)) return out;
+  return folder.emplace(std::filesystem::temp_directory_path() / "film").path() / "film";
+}
+
 class FfmpegWriter final : public FilmWriter {
  public:
   FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
-      : out_(out),
-        film_(is_stream(out) ? std::filesystem::temp_directory_path() / "film" : out),
-        opaque_(opaque) {
+      : out_(out), film_(writable_beside(out, folder_)), opaque_(opaque) {
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
     std::vector<std::string> words{"ffmpeg",
@@ -113,7 +118,8 @@ class FfmpegWriter final : public FilmWriter {
   }
 
   Path out_;
-  NewFile film_;  ///< elsewhere for a pipe: the encoder goes back and forth in it
+  std::optional<NewFolder> folder_;  ///< for a pipe: the encoder goes back and forth in its file
+  NewFile film_;
   bool opaque_;
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
   Child child_;

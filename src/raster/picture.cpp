@@ -58,7 +58,8 @@ class PictureMaker::LayerMaker {
     for (const auto& [from, to, held] : motion_.stretches()) {
       // A turn of half a right angle is short enough to see how the motion bends.
       const double turn = motion_.turned_at(to) - motion_.turned_at(from);
-      const int pieces = held ? 0 : 2 + static_cast<int>(std::abs(turn) / (kPi / 4));
+      const int pieces =
+          held ? 0 : 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMostPieces));
       for (int i = 0; i < pieces; ++i) {
         const double start = from + (to - from) * i / pieces,
                      end = from + (to - from) * (i + 1) / pieces;
@@ -80,12 +81,13 @@ class PictureMaker::LayerMaker {
 
  private:
   static constexpr int kMostHalves = 10;
+  static constexpr double kMostPieces = 2000;
 
   /// From one time to another: halved until the way of each vertex hardly bends, so that what it
   /// does between can be told from its ends and its middle.
   bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
                        Box& box, const std::function<bool()>& go_on, int halves) {
-    constexpr double kBend = 1;  // of the plane
+    const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // of the plane
     if (!go_on()) return false;
     const double middle = 0.5 * (from + to);
     const VectorXc at_middle = map_at(middle, false).f;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace holomorph {
 namespace {
@@ -12,9 +13,11 @@ Budget& current() {
   return budget;
 }
 
+/// Rounded up, with three digits at least.
 std::string shown(double amount) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.0f", std::ceil(amount - 1e-9));
+  const double step = amount >= 100 ? 1 : std::pow(10, std::floor(std::log10(amount)) - 2);
+  std::snprintf(text, sizeof text, "%.10g", std::ceil(amount / step - 1e-9) * step);
   return text;
 }
 
@@ -30,13 +33,14 @@ void set_budget(const Budget& budget) {
 
 const std::vector<BudgetOption>& budget_options() {
   static const std::vector<BudgetOption> all{
-      {"--max-pixels", "megapixels", "Of all pictures of a scene", &Budget::pixels, 1e6},
-      {"--max-coordinates", "million coordinates", "Control points times mesh vertices, or points",
-       &Budget::coordinates, 1e6},
-      {"--max-keyframes", "MB", "Of memory for the maps at keyframes", &Budget::operators, 1e6},
-      {"--max-scene", "MB", "Of a scene file", &Budget::scene, 1e6},
-      {"--max-groups", "levels", "Of groups in an SVG file", &Budget::groups, 1},
-      {"--max-frames", "frames", "Of one film", &Budget::frames, 1}};
+      {"--max-pixels", "megapixels", "Limit for all pictures of a scene", &Budget::pixels, 1e6},
+      {"--max-coordinates", "million coordinates",
+       "Limit for control points times mesh vertices, or points", &Budget::coordinates, 1e6},
+      {"--max-keyframe-memory", "MB", "Limit for the memory of the maps at keyframes",
+       &Budget::operators, 1e6},
+      {"--max-scene-size", "MB", "Limit for a scene file", &Budget::scene, 1e6},
+      {"--max-groups", "levels", "Limit for groups in an SVG file", &Budget::groups, 1},
+      {"--max-frames", "frames", "Limit for one film", &Budget::frames, 1}};
   return all;
 }
 

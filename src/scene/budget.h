@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 
@@ -17,7 +18,7 @@ struct Budget {
   double frames = 100000;     ///< of one film
 };
 
-/// The running program's. Set before anything is read; not guarded against threads.
+/// What the program allows. Set before anything is read; not guarded against threads.
 const Budget& budget();
 void set_budget(const Budget& budget);
 

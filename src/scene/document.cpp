@@ -32,33 +32,37 @@ Path autosave_path(const Path& folder, const std::string& id) {
   return folder / (id + ".json");
 }
 
+constexpr int kDeepestExtra = 1000;  // it was read from less
+
 // An autosave remembers the file that its scene was opened from, under a key of its own.
-constexpr const char* kOrigin = "autosave_of";
+constexpr const char *kOrigin = "autosave_of", *kOriginHash = "autosave_of_sha256";
 
-Scene with_origin(Scene scene, const Path& origin) {
-  if (origin.empty()) return scene;
-  using Text = nlohmann::json;
-  const std::string member =
-      Text(kOrigin).dump() + ":" +
-      Text(origin.string()).dump(-1, ' ', false, Text::error_handler_t::replace);
-  Extra& extra = scene.extra;  // an object's text
-  extra =
-      extra.empty() ? "{" + member + "}" : extra.substr(0, extra.size() - 1) + "," + member + "}";
-  return scene;
-}
-
-Path origin_of(const Scene& scene) {
-  const auto extra = nlohmann::json::parse(scene.extra, nullptr, false);
-  return extra.is_object() && extra.contains(kOrigin) && extra[kOrigin].is_string()
-             ? Path(extra[kOrigin].get<std::string>())
-             : Path();
+/// A member of an object's text; "" without one.
+std::string member_of(const Extra& extra, const char* key) {
+  if (extra.empty()) return "";
+  const JsonTree tree(extra, kDeepestExtra);
+  const std::string name;
+  const Reader reader(tree.root(), name, "");
+  return reader.has(key) ? reader[key].text() : "";
 }
 
 Extra without_origin(const Extra& extra) {
   if (extra.empty()) return extra;
-  constexpr int kDeepest = 1000;  // it was read from less
-  const JsonTree tree(extra, kDeepest);
-  return Reader(tree.root(), "", "").others({kOrigin});
+  const JsonTree tree(extra, kDeepestExtra);
+  const std::string name;
+  return Reader(tree.root(), name, "").others({kOrigin, kOriginHash});
+}
+
+Scene with_origin(Scene scene, const Path& origin, const std::string& sha256) {
+  scene.extra = without_origin(scene.extra);
+  if (origin.empty()) return scene;
+  nlohmann::ordered_json json;
+  json[kOrigin] = origin.string();
+  json[kOriginHash] = sha256;
+  const std::string ours = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  scene.extra =
+      scene.extra.empty() ? ours : ours.substr(0, ours.size() - 1) + "," + scene.extra.substr(1);
+  return scene;
 }
 
 /// Beside an autosave: locked while the program that writes it runs.
@@ -90,15 +94,15 @@ void for_each_file(std::vector<Scene>& layers, Use use) {
   }
 }
 
-/// Lets a reference name the picture's namesake beside the scene when that is the picture and the
-/// file that it names is gone.
-void look_beside(const Path& scene, ImageReference& reference, PictureFiles& files) {
+/// Lets a reference name the picture's namesake beside the scene when that is the picture.
+void look_beside(const Path& scene, ImageReference& reference, const Reach& reach,
+                 PictureFiles& files) {
   const Path name = Path(reference.file).filename();
   if (name.empty()) return;
-  ImageReference moved = reference;
-  moved.file = beside(scene, name).string();
+  const Path moved = beside(scene, name);
+  if (!reach.covers(moved, scene.parent_path())) return;
   try {
-    if (files.picture(moved).sha256 == reference.sha256) reference = std::move(moved);
+    if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
   } catch (const Error&) {
     // There is none either.
   }
@@ -107,17 +111,17 @@ void look_beside(const Path& scene, ImageReference& reference, PictureFiles& fil
 /// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
 /// it may be.
 std::string load_picture(Scene& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
-                         const std::string& pointer, bool may_be_missing) {
+                         const std::string& pointer, const LoadOptions& options) {
   if (!layer.image) return "";
   ImageReference& reference = *layer.image;
   if (pictures.withheld().contains(reference.file))
     return "/image/file: " + reference.file + " is not in the scene's folder.";
-  if (!is_there(reference.file)) look_beside(scene, reference, files);
+  if (!is_there(reference.file)) look_beside(scene, reference, options.reach, files);
   try {
     if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
   } catch (const Error& error) {
     const std::string what = pointer + "/image/file: " + error.what();
-    if (!may_be_missing) throw Error(error.kind(), what);
+    if (!options.pictures_may_be_missing) throw Error(error.kind(), what);
     return what;
   }
   const Picture& picture = *pictures.find(reference);
@@ -161,12 +165,12 @@ void keep_in_reach(std::vector<Scene>& layers, const Path& scene, const LoadOpti
       if (!options.pictures_may_be_missing)
         throw Error(ErrorKind::bad_input,
                     pointer + what + ": " + file +
-                        " is not in the scene's folder; --allow-outside reads "
-                        "it all the same");
+                        " is not in the scene's folder; use --allow-outside to "
+                        "read it");
       pictures.withhold(file);
     };
     if (auto& image = layers[i].image; image && !options.reach.covers(image->file, folder)) {
-      look_beside(scene, *image, files);
+      look_beside(scene, *image, options.reach, files);
       if (!options.reach.covers(image->file, folder)) withhold(image->file, "/image/file");
     }
     if (const auto& surface = layers[i].surface;
@@ -188,11 +192,12 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
-    const std::string warning = load_picture(layers[i], loaded.pictures, files, path, pointer,
-                                             options.pictures_may_be_missing);
+    const std::string warning =
+        load_picture(layers[i], loaded.pictures, files, path, pointer, options);
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene = scene_of_layers(std::move(layers), edited_layer(scene), scene);
+  if (!options.recovers) loaded.scene.extra = without_origin(loaded.scene.extra);
   return loaded;
 }
 
@@ -320,9 +325,8 @@ Document::Document(LoadedScene loaded, Path path)
       pictures_(std::move(loaded.pictures)),
       path_(std::move(path)),
       saved_(loaded.scene),
-      warning_(std::move(loaded.warning)) {
-  stamp(loaded.sha256);
-}
+      warning_(std::move(loaded.warning)),
+      stamp_{{}, std::move(loaded.sha256)} {}
 
 Document Document::open(const Path& path, const Reach& reach) {
   const std::string kind = lower_case(path.extension().string());
@@ -336,35 +340,28 @@ Document Document::copy_of(const Path& scene) {
 }
 
 Document Document::recover(const Path& autosave) {
-  Document document(load_scene(autosave, {true, {true}}), Path());
-  document.path_ = origin_of(document.scene());
+  LoadOptions options{true, {true}};
+  options.recovers = true;
+  Document document(load_scene(autosave, options), Path());
   Scene scene = document.scene();
+  document.path_ = member_of(scene.extra, kOrigin);
+  document.stamp_ = {{}, member_of(scene.extra, kOriginHash)};
   scene.extra = without_origin(scene.extra);
   document.history_ = History(scene, "Recovered");
   document.saved_ = Scene{};
   return document;
 }
 
-void Document::stamp(const std::string& sha256) {
-  std::error_code size_error, time_error;
-  const auto size = fs::file_size(path_, size_error);
-  const auto time = fs::last_write_time(path_, time_error);
-  stamp_.reset();
-  if (!path_.empty() && !size_error && !time_error) stamp_ = {size, time, sha256};
-}
-
 bool Document::changed_on_disk() {
-  std::error_code size_error, time_error;
-  const auto size = fs::file_size(path_, size_error);
-  const auto time = fs::last_write_time(path_, time_error);
-  if (!stamp_ || size_error || time_error || (size == stamp_->size && time == stamp_->time))
-    return false;
+  std::error_code error;
+  const auto time = fs::last_write_time(path_, error);
+  if (error || stamp_.sha256.empty() || time == stamp_.time) return false;
   try {
-    if (size != stamp_->size || sha256_hex(read_scene_file(path_)) != stamp_->sha256) return true;
+    if (sha256_hex(read_scene_file(path_)) != stamp_.sha256) return true;
   } catch (const Error&) {
     return true;
   }
-  stamp_->time = time;  // touched, and the same
+  stamp_.time = time;  // touched, and the same
   return false;
 }
 
@@ -441,8 +438,9 @@ void Document::save(const Path& path) {
   write_file(target, text);
   history_.replace(std::move(present));
   path_ = target;
-  stamp(sha256_hex(text));
+  stamp_ = {{}, sha256_hex(text)};
   saved_ = history_.current();
+  unsaved_ = false;
 }
 
 bool Document::autosave(const Path& folder) {
@@ -457,7 +455,7 @@ bool Document::autosave(const Path& folder) {
   }
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));
-    write_file(path, json_of(with_origin(portable(scene(), Path()), path_)),
+    write_file(path, json_of(with_origin(portable(scene(), Path()), path_, stamp_.sha256)),
                NewFile::Readers::owner);
   } catch (const Error&) {
     return false;
@@ -482,9 +480,9 @@ Recovery recovery_of(const Path& autosave, fs::file_time_type time) {
   std::string& name = recovery.label;
   try {
     const Scene scene = scene_from_json(read_scene_file(autosave), autosave.string());
-    const Path& origin = recovery.origin = origin_of(scene);
+    const Path& origin = recovery.origin = member_of(scene.extra, kOrigin);
     if (!origin.empty())
-      name = origin.filename().string();
+      name = (origin.parent_path().filename() / origin.filename()).string();
     else if (scene.image)
       name = Path(scene.image->file).stem().string() + " (never saved)";
     size_t points = 0, pins = 0;
@@ -495,7 +493,7 @@ Recovery recovery_of(const Path& autosave, fs::file_time_type time) {
     if (layer_count(scene) > 1) name += ", " + std::to_string(layer_count(scene)) + " layers";
     name += ", " + std::to_string(points) + " cage points, " + std::to_string(pins) +
             (pins == 1 ? " pin" : " pins");
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     name = "a damaged scene";
   }
   const auto age =

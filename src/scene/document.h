@@ -26,6 +26,7 @@ struct LoadOptions {
   bool pictures_may_be_missing = false;
   Reach reach = {};
   double open_pixels = 0;  ///< of pictures that are there already
+  bool recovers = false;   ///< what an autosave says of its origin is kept
 };
 /// Reads a scene file and the pictures that it names, relative to the file's folder; one that is
 /// not where it was is looked for beside the scene. Throws Error.
@@ -93,7 +94,7 @@ class Document {
   /// Whether another program has changed the file since it was read or saved; not when it is gone.
   bool changed_on_disk();
   std::string title() const;
-  bool modified() const { return scene() != saved_; }
+  bool modified() const { return unsaved_ || scene() != saved_; }
   bool empty() const {
     return !scene().image && !scene().has_cage() && !has_layers(scene()) &&
            history_.entries().size() == 1;
@@ -107,6 +108,15 @@ class Document {
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
   /// What is out of reach may be read from now on.
   void release_pictures() { pictures_.release(); }
+
+  /// As another document is, which was just read from the same file.
+  void count_as_saved(const Document& read) {
+    saved_ = scene();
+    unsaved_ = false;
+    stamp_ = read.stamp_;
+  }
+  /// The file does not hold what is here any more.
+  void count_as_unsaved() { unsaved_ = true; }
 
   /// One step of the history; no step when nothing changed. Returns whether there was one.
   bool commit(const std::string& label, Scene scene, std::optional<double> at = {});
@@ -127,23 +137,22 @@ class Document {
  private:
   Document(LoadedScene loaded, Path path);
 
-  /// What a file was like.
+  /// What the scene's file holds as far as is known here, and when it was found to.
   struct Stamp {
-    std::uintmax_t size = 0;
     std::filesystem::file_time_type time = {};
     std::string sha256;
   };
-  void stamp(const std::string& sha256);
 
   std::string id_;  ///< names the autosave file, whatever the document's path is
   History history_;
   Pictures pictures_;
   Path path_;
   Scene saved_;
+  bool unsaved_ = false;  ///< whatever was saved
   std::optional<Scene> autosaved_;
   std::shared_ptr<FileLock> lock_;  ///< says that the autosave has a running owner
   std::string warning_;
-  std::optional<Stamp> stamp_;  ///< of the scene's file
+  Stamp stamp_;
 };
 
 /// An autosave that no running program owns, and how to name it to the user.

@@ -1,6 +1,7 @@
 // POSIX calls, because an atomic replacement needs fsync and rename.
 #include "scene/file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <openssl/evp.h>
 #include <sys/file.h>
@@ -90,20 +91,46 @@ mode_t mode_for(const Path& path) {
 }
 
 constexpr std::string_view kTemporary = ".holomorph-";
-constexpr size_t kRandom = 8;  ///< letters behind it
+constexpr size_t kRandom = 8;  ///< hexadecimal digits behind it
 
 bool is_temporary(const std::string& name) {
   return name.starts_with(kTemporary) && name.size() == kTemporary.size() + kRandom &&
-         name.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz", kTemporary.size()) ==
-             std::string::npos;
+         name.find_first_not_of("0123456789abcdef", kTemporary.size()) == std::string::npos;
 }
 
 Path fresh_temporary(const Path& folder) {
   thread_local std::random_device random;
-  std::string name(kTemporary);
-  for (size_t k = 0; k < kRandom; ++k)
-    name += "0123456789abcdefghijklmnopqrstuvwxyz"[random() % 36];
+  char name[32];
+  std::snprintf(name, sizeof name, "%s%08x", kTemporary.data(), random());
   return folder / name;
+}
+
+/// Removes what a NewFile or a NewFolder left, unless it is in use, or something else of that name.
+void remove_left(int folder, const char* name) {
+  const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return;
+  const Descriptor closed{fd};
+  struct stat opened {
+  }, named{};
+  if (::fstat(fd, &opened) != 0 || opened.st_uid != ::geteuid() ||
+      ::flock(fd, LOCK_EX | LOCK_NB) != 0)
+    return;
+  // The name may be another one's by now.
+  if (::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino ||
+      named.st_dev != opened.st_dev)
+    return;
+  if (S_ISREG(opened.st_mode)) ::unlinkat(folder, name, 0);
+  if (!S_ISDIR(opened.st_mode) || (opened.st_mode & 07777) != 0700) return;
+  DIR* entries = ::fdopendir(::dup(fd));
+  if (!entries) return;
+  while (const dirent* entry = ::readdir(entries)) {
+    const std::string_view file = entry->d_name;
+    const bool ours = file.starts_with("film") || is_temporary(entry->d_name) ||
+                      file.find_first_not_of("0123456789") == std::string_view::npos;
+    if (ours) ::unlinkat(fd, entry->d_name, 0);
+  }
+  ::closedir(entries);
+  ::unlinkat(folder, name, AT_REMOVEDIR);  // only when it is empty now
 }
 
 /// Removes what killed programs have left in a folder: what is locked is in use.
@@ -118,20 +145,14 @@ void clean(const Path& folder) {
     last->second = Clock::now();
     if (cleaned.size() > 1000) cleaned.clear();
   }
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  const Descriptor closed{fd};
   std::error_code error;
-  std::vector<Path> left;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (is_temporary(entry->path().filename().string())) left.push_back(entry->path());
-  for (const Path& path : left) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) continue;
-    const Descriptor closed{fd};
-    struct stat found {};
-    if (::fstat(fd, &found) != 0 || found.st_uid != ::geteuid() ||
-        (!S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode)))
-      continue;
-    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove_all(path, error);
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (is_temporary(name)) remove_left(fd, name.c_str());
   }
 }
 
@@ -211,10 +232,14 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   if (S_ISDIR(found.st_mode)) throw refuse("this is a directory, not a file");
   // Devices are not even opened: some do what they are for.
   if (!S_ISREG(found.st_mode) && !streams) throw refuse("this is not a regular file");
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  const bool waits = !S_ISREG(found.st_mode);  // for whoever writes into a pipe
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (waits ? 0 : O_NONBLOCK));
   if (fd < 0) throw refuse(unreadable(path, errno));
   const Descriptor closed{fd};
-  if (!S_ISREG(found.st_mode)) return read_descriptor(fd, path, limit);
+  if (waits) return read_descriptor(fd, path, limit);
+  // It may be another one by now.
+  if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
+    throw refuse("this is not a regular file");
   if (static_cast<size_t>(found.st_size) > limit)
     throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
   // No more than its size: some files of the system's go on for ever.
@@ -380,6 +405,25 @@ bool FileLock::is_held(const Path& path) {
   const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // other probes are no owners
   ::close(descriptor);
   return held;
+}
+
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const auto at = [&](size_t k) {
+      return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
+    };
+    // U+202A to U+202E and U+2066 to U+2069 change the direction of writing.
+    const bool turns = at(0) == 0xe2 && ((at(1) == 0x80 && at(2) >= 0xaa && at(2) <= 0xae) ||
+                                         (at(1) == 0x81 && at(2) >= 0xa6 && at(2) <= 0xa9));
+    const bool steers = (at(0) < ' ' && at(0) != '\n') || at(0) == 0x7f ||
+                        (at(0) == 0xc2 && at(1) >= 0x80 && at(1) < 0xa0);
+    if (turns || steers) shown += '?';
+    if (turns) i += 2;
+    if (steers && at(0) == 0xc2) ++i;
+    if (!turns && !steers) shown += text[i];
+  }
+  return shown;
 }
 
 std::string lower_case(std::string text) {

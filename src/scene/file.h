@@ -112,6 +112,10 @@ class FileLock {
 /// The error with the file's name in front, unless it starts with it.
 Error about(const Path& file, const Error& error);
 
+/// A text that may come from a file, without what would steer a terminal or turn its letters
+/// around.
+std::string printable(const std::string& text);
+
 /// ASCII capitals made small: for extensions and searches.
 std::string lower_case(std::string text);
 /// Whether a text has all of these words, in lower or upper case.

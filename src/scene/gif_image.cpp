@@ -41,6 +41,9 @@ class GifReader {
   Image read(PixelBudget& pixels) {
     pixels.take(static_cast<unsigned>(file_->SWidth), static_cast<unsigned>(file_->SHeight), name_);
     find_picture();
+    PixelBudget frame;  // what lies beyond the canvas is decoded, too
+    frame.take(static_cast<size_t>(file_->Image.Width), static_cast<size_t>(file_->Image.Height),
+               name_);
     Image image(file_->SWidth, file_->SHeight);
     const GifImageDesc& at = file_->Image;
     const ColorMapObject* colors = at.ColorMap ? at.ColorMap : file_->SColorMap;

@@ -14,7 +14,7 @@
 
 namespace holomorph {
 
-void PixelBudget::take(size_t width, size_t height, const std::string& name) {
+void PixelBudget::take(size_t width, size_t height, const std::string& name, double copies) {
   constexpr size_t kLargest = 16384;
   if (width == 0 || height == 0)
     throw Error(ErrorKind::bad_input, name + ": the picture has no pixels");
@@ -23,8 +23,10 @@ void PixelBudget::take(size_t width, size_t height, const std::string& name) {
                                           std::to_string(height) + " pixels; at most " +
                                           std::to_string(kLargest) + " a side can be opened");
   const double pixels = static_cast<double>(width) * static_cast<double>(height);
-  check_budget(&Budget::pixels, taken_ + pixels,
-               name + (taken_ > 0 ? ": with this picture all of them have" : ": the picture has"));
+  check_budget(&Budget::pixels, taken_ + copies * pixels,
+               name + (copies > 1   ? ": to decode this picture takes the memory of"
+                       : taken_ > 0 ? ": with this picture all of them have"
+                                    : ": the picture has"));
   taken_ += pixels;
 }
 

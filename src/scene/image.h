@@ -35,8 +35,8 @@ class PixelBudget {
   /// What is left when so many pixels are open already.
   explicit PixelBudget(double taken = 0) : taken_(taken) {}
   /// Before anything is decoded. Throws Error{bad_input} for more than are left, and for more than
-  /// 16384 pixels a side.
-  void take(size_t width, size_t height, const std::string& name);
+  /// 16384 pixels a side. While it is decoded a picture may take the memory of several copies.
+  void take(size_t width, size_t height, const std::string& name, double copies = 1);
 
  private:
   double taken_;

@@ -16,7 +16,7 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
         } catch (const Error& error) {
           keep(error);
         } catch (const std::exception& error) {
-          keep(Error(ErrorKind::failed, title_ + " failed: " + error.what()));
+          keep(Error(ErrorKind::failed, title_ + " failed: " + what_of(error)));
         }
         ended_ = true;
         if (wake) wake();

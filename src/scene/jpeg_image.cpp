@@ -1,10 +1,12 @@
 // JPEG by libjpeg-turbo, from memory: gray, YCbCr, RGB and CMYK, in sRGB, and upright.
-#include <jpeglib.h>
 #include <csetjmp>
-#include <cstdio>  // before jpeglib.h, which wants FILE
+#include <cstdio>
 #include <cstdlib>
-
+// After cstdio, because it wants FILE.
+// clang-format off
+#include <jpeglib.h>
 #include <jerror.h>
+// clang-format on
 
 #include "core/error.h"
 #include "scene/image_formats.h"
@@ -36,7 +38,9 @@ class JpegReader {
 
   Image read(PixelBudget& pixels) {
     run(&JpegReader::read_header);
-    pixels.take(jpeg_.image_width, jpeg_.image_height, name_);
+    // What is built up in passes is kept twice.
+    const double copies = jpeg_has_multiple_scans(&jpeg_) ? 2 : 1;
+    pixels.take(jpeg_.image_width, jpeg_.image_height, name_, copies);
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
     const CmykToSrgb cmyk(profile);
     if (jpeg_.out_color_space == JCS_CMYK) cmyk_ = &cmyk;

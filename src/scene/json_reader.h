@@ -3,7 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unordered_map>
+#include <algorithm>
+#include <numeric>
 
 #include "core/error.h"
 #include "scene/json_tree.h"
@@ -118,15 +119,20 @@ class Reader {
   }
   /// Each key once, in the order in which they come first, with where it stands last.
   std::vector<std::pair<std::string_view, size_t>> last_of_each() const {
-    std::vector<std::pair<std::string_view, size_t>> all;
-    std::unordered_map<std::string_view, size_t> places;
-    for (size_t i = 0; i < size(); ++i) {
-      const auto [place, first] = places.try_emplace(value_.key(i), all.size());
-      if (first)
-        all.emplace_back(value_.key(i), i);
-      else
-        all[place->second].second = i;
+    std::vector<std::uint32_t> sorted(size());
+    std::iota(sorted.begin(), sorted.end(), 0u);
+    std::ranges::sort(sorted, {}, [&](std::uint32_t i) { return std::pair(value_.key(i), i); });
+    std::vector<std::uint32_t> last(size());  // for the first of each key; none for the others
+    constexpr std::uint32_t kNone = 0xffffffff;
+    for (size_t i = 0; i < sorted.size();) {
+      size_t end = i + 1;
+      while (end < sorted.size() && value_.key(sorted[end]) == value_.key(sorted[i])) ++end;
+      last[sorted[i]] = sorted[end - 1];
+      while (++i < end) last[sorted[i]] = kNone;
     }
+    std::vector<std::pair<std::string_view, size_t>> all;
+    for (size_t i = 0; i < last.size(); ++i)
+      if (last[i] != kNone) all.emplace_back(value_.key(i), last[i]);
     return all;
   }
   std::string kind() const {

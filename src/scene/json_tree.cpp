@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
 #include "core/error.h"
 

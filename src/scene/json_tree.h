@@ -12,7 +12,7 @@ namespace holomorph {
 /// with one key the last one counts. Cost: six times the text's size at most, in linear time.
 class JsonTree {
  public:
-  /// Throws Error{bad_input} saying where the text is no JSON, and for brackets that are nested
+  /// Throws Error{bad_input} saying where the text is not JSON, and for brackets that are nested
   /// deeper than that.
   JsonTree(const std::string& text, int deepest);
   JsonTree(const JsonTree&) = delete;

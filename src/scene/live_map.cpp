@@ -149,15 +149,20 @@ LiveMap::~LiveMap() {
 void LiveMap::work() {
   std::unique_lock lock(mutex_);
   constexpr auto kIdle = std::chrono::milliseconds(300);
+  std::shared_ptr<PreparedMap> tried;  ///< the one that was made ready for playing, if it could be
   while (true) {
     const auto wanted_now = [this] { return stop_ || waiting_; };
-    if (!base_ || base_->between.load()) {
+    if (!base_ || base_ == tried || base_->between.load()) {
       changed_.wait(lock, wanted_now);
     } else if (!changed_.wait_for(lock, kIdle, wanted_now)) {
       // Nobody waits: what playing will need is made before.
-      const std::shared_ptr<PreparedMap> base = base_;
+      const std::shared_ptr<PreparedMap> base = tried = base_;
       lock.unlock();
-      inbetween_of(*base);
+      try {
+        inbetween_of(*base);
+      } catch (const std::exception&) {
+        // Whoever plays the keyframes is told.
+      }
       lock.lock();
       continue;
     }
@@ -181,8 +186,7 @@ void LiveMap::work() {
     } catch (const Error& error) {
       failure = error;
     } catch (const std::exception& error) {
-      failure =
-          Error(ErrorKind::failed, std::string("the map could not be prepared: ") + error.what());
+      failure = Error(ErrorKind::failed, "the map could not be prepared: " + what_of(error));
     }
     lock.lock();
     working_ = false;

@@ -17,6 +17,7 @@ namespace holomorph {
 namespace {
 
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
+constexpr zip_uint64_t kLargestDescription = 4u << 20;
 constexpr int kDeepest = 50;        ///< groups in groups
 constexpr int kFarthest = 1 << 20;  ///< of a layer from the canvas' corner
 
@@ -42,12 +43,12 @@ class Archive {
     return decode_png(bytes, name_ + ", " + entry, pixels);
   }
 
-  std::string read(const std::string& entry) const {
+  std::string read(const std::string& entry, zip_uint64_t most = kLargestEntry) const {
     zip_stat_t stat;
     zip_stat_init(&stat);
     if (zip_stat(zip_.get(), entry.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE))
       fail(name_, entry + " is missing");
-    if (stat.size > kLargestEntry) fail(name_, entry + " is too large");
+    if (stat.size > most) fail(name_, entry + " is too large");
     const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(
         zip_fopen(zip_.get(), entry.c_str(), 0), zip_fclose);
     if (!file) fail(name_, entry + " cannot be read");
@@ -97,7 +98,7 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
 }
 
 Stack stack_of(const Archive& archive, const std::string& name) {
-  const std::string text = archive.read("stack.xml");
+  const std::string text = archive.read("stack.xml", kLargestDescription);
   pugi::xml_document document;
   if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is no XML");
   const pugi::xml_node image = document.child("image");

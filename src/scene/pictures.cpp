@@ -6,18 +6,20 @@
 namespace holomorph {
 namespace fs = std::filesystem;
 
+const PictureFiles::File& PictureFiles::read(const std::string& name) {
+  const auto found = files_.find(name);
+  if (found != files_.end()) return found->second;
+  File file;
+  std::error_code ignored;
+  file.changed = fs::last_write_time(name, ignored);  // before: a later change is seen
+  file.bytes = read_file(name);
+  file.sha256 = sha256_hex(file.bytes);
+  return files_.emplace(name, std::move(file)).first->second;
+}
+
 Picture PictureFiles::picture(const ImageReference& reference) {
   const std::string& name = reference.file;
-  auto found = files_.find(name);
-  if (found == files_.end()) {
-    File file;
-    std::error_code ignored;
-    file.changed = fs::last_write_time(name, ignored);  // before: a later change is seen
-    file.bytes = read_file(name);
-    file.sha256 = sha256_hex(file.bytes);
-    found = files_.emplace(name, std::move(file)).first;
-  }
-  const File& file = found->second;
+  const File& file = read(name);
   Image image = reference.entry.empty()
                     ? decode_image(file.bytes, name, pixels_)
                     : decode_ora_layer(file.bytes, reference.entry, name, pixels_);

@@ -25,12 +25,16 @@ class PictureFiles {
   explicit PictureFiles(double open = 0) : pixels_(open) {}
   /// Throws Error.
   Picture picture(const ImageReference& reference);
+  /// Of a file's bytes, which are not decoded. Throws Error.
+  const std::string& sha256(const std::string& file) { return read(file).sha256; }
 
  private:
   struct File {
     std::string bytes, sha256;
     std::filesystem::file_time_type changed = {};
   };
+  const File& read(const std::string& name);
+
   std::map<std::string, File> files_;  ///< by path
   PixelBudget pixels_;
 };

@@ -90,7 +90,8 @@ Size tga_size(const Bytes& file) {
 
 void check_tga(const Bytes& file, const Size& size) {
   const size_t kind = file.at(2), pixel = (file.at(16) + 7) / 8,
-               colors = file.at(1) ? file.little(5, 2) * ((file.at(7) + 7) / 8) : 0;
+               colors =
+                   file.at(1) ? file.little(3, 2) + file.little(5, 2) * ((file.at(7) + 7) / 8) : 0;
   if (pixel < 1 || pixel > 4) file.damaged("its pixels are of no known kind");
   size_t place = 18 + file.at(0) + colors;
   if (kind < 8) return file.need(place, size.width * size.height * pixel);
@@ -120,10 +121,16 @@ void check_psd(const Bytes& file, const Size& size) {
   if (packed == 0) return file.need(place, rows * size.width * bytes);
   if (packed != 1) file.damaged("it is compressed in an unknown way");
   if (bytes != 1) file.damaged("it is compressed with 16 bits");
-  file.need(place, 2 * rows);
-  size_t total = 0;
-  for (size_t r = 0; r < rows; ++r) total += file.big(place + 2 * r, 2);
-  file.need(place + 2 * rows, total);
+  place += 2 * rows;  // past the rows' lengths
+  for (size_t channel = 0; channel < channels; ++channel)
+    for (size_t left = size.width * size.height; left > 0;) {
+      const size_t head = file.at(place), repeats = head > 128;
+      const size_t count = head == 128 ? 0 : repeats ? 257 - head : head + 1;
+      if (count > left) file.damaged("its rows do not fit");
+      place += 1 + (head == 128 ? 0 : repeats ? 1 : count);
+      file.need(place, 0);
+      left -= count;
+    }
 }
 
 /// TGA files have nothing that they could be known by: these are sensible in all of their header.

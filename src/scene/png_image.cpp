@@ -74,7 +74,7 @@ class PngReader {
     png_set_read_fn(png_, this, take);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the budget says more
     png_set_chunk_malloc_max(png_, kLargestChunk);
-    png_set_chunk_cache_max(png_, 200);
+    png_set_chunk_cache_max(png_, 1);  // none: texts are not wanted
     png_read_info(png_, info_);
     int depth = 0, colors = 0;
     png_get_IHDR(png_, info_, &width_, &height_, &depth, &colors, nullptr, nullptr, nullptr);

@@ -33,7 +33,7 @@ PosePin read_pose_pin(const Reader& reader) {
   reader.object();
   PosePin pin;
   pin.position = reader["pose"].point();
-  if (reader.has("angle")) pin.angle = reader["angle"].number();
+  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMostPinTurn, kMostPinTurn);
   if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
   return pin;
 }

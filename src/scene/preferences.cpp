@@ -20,8 +20,10 @@ constexpr std::array<const char*, 3> kThemes{"dark", "light", "contrast"};
 Path home() {
   const char* set = std::getenv("HOME");
   if (set && *set) return set;
-  const passwd* entry = ::getpwuid(::getuid());
-  return entry && entry->pw_dir ? Path(entry->pw_dir) : Path();
+  passwd entry{}, *found = nullptr;
+  char names[4096];
+  ::getpwuid_r(::getuid(), &entry, names, sizeof names, &found);
+  return found && found->pw_dir ? Path(found->pw_dir) : Path();
 }
 
 Path folder(const char* variable, const char* fallback) {

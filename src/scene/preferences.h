@@ -21,7 +21,7 @@ struct Preferences {
   bool hints = true;           ///< the first steps are shown
   KeyNames keys;               ///< that differ from the program's own
   std::vector<Path> recent;
-  std::vector<Path> trusted = {};  ///< folders whose scenes may name pictures elsewhere
+  std::vector<Path> trusted = {};  ///< folders whose files any scene may show
   bool operator==(const Preferences&) const = default;
 };
 

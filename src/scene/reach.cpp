@@ -1,4 +1,4 @@
-// First by names alone; only what lies in the folder by its name is looked at.
+// First by names alone; only what is in reach by its name is looked at, because it may be a link.
 #include "scene/reach.h"
 
 #include <algorithm>
@@ -11,22 +11,37 @@ bool lies_in(const Path& file, const Path& folder) {
   return !way.empty() && *way.begin() != "..";
 }
 
+/// Where a path leads through links, also where nothing is there in the end; empty when it leads in
+/// a circle or cannot be followed.
+Path real_path(Path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code wrong;
+  for (int links = 0; links < kMostLinks; ++links) {
+    path = std::filesystem::weakly_canonical(path, wrong);
+    if (wrong) return {};
+    if (!std::filesystem::is_symlink(path, wrong)) return path;
+    path = path.parent_path() / std::filesystem::read_symlink(path, wrong);
+    if (wrong) return {};
+  }
+  return {};
+}
+
 }  // namespace
 
 bool Reach::covers(const Path& file, const Path& scene_folder) const {
   if (everywhere) return true;
+  const Path name = file.lexically_normal(),
+             folder = absolute_path(scene_folder / "x").parent_path();
   const auto is_known = [&](const Path& each) {
     return std::ranges::find(folders, each.parent_path()) != folders.end();
   };
-  const Path name = file.lexically_normal(),
-             folder = absolute_path(scene_folder / "x").parent_path();
-  if (is_known(name)) return true;
-  if (!lies_in(name, folder)) return false;
-  std::error_code error;
-  const Path real = std::filesystem::weakly_canonical(name, error);
-  if (error) return true;  // reading it will say what is wrong
-  const Path real_folder = std::filesystem::weakly_canonical(folder, error);
-  return error || lies_in(real, real_folder) || is_known(real);
+  if (!lies_in(name, folder) && !is_known(name)) return false;
+  // It may still be a link.
+  const Path real = real_path(name);
+  if (real.empty()) return false;
+  return lies_in(real, real_path(folder)) || std::ranges::any_of(folders, [&](const Path& each) {
+           return real.parent_path() == real_path(each);
+         });
 }
 
 }  // namespace holomorph

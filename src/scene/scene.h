@@ -80,6 +80,7 @@ struct AnimationSettings {
   bool straight = false;  ///< in-betweens blend places instead of shapes, to compare
   bool operator==(const AnimationSettings&) const = default;
 };
+inline constexpr double kMostPinTurn = 1e5;                    ///< radians
 inline constexpr int kMostDepth = 1000;                        ///< of a pin, up or down
 inline constexpr double kLongestTime = 3600;                   ///< seconds
 inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< a second

@@ -37,7 +37,7 @@ Pin read_pin(const Reader& reader) {
   Pin pin;
   pin.rest = reader["rest"].point();
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
-  if (reader.has("angle")) pin.angle = reader["angle"].number();
+  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMostPinTurn, kMostPinTurn);
   if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
   if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMostDepth, kMostDepth);
   pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth"});

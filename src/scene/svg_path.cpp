@@ -164,22 +164,27 @@ void check_levels(pugi::xml_document& document, const std::string& name) {
   check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
 }
 
-/// The paths below a node in document order, without those that only serve others.
-void collect_paths(const pugi::xml_node& node, std::vector<pugi::xml_node>& paths) {
+/// The paths of a document in their order, without those that only serve others.
+std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
                                              "marker", "pattern",  "symbol"};
-  for (const pugi::xml_node& child : node.children()) {
-    std::string tag = child.name();
+  std::vector<pugi::xml_node> paths, waiting{document};
+  while (!waiting.empty()) {  // no recursion: groups may be deep
+    const pugi::xml_node node = waiting.back();
+    waiting.pop_back();
+    std::string tag = node.name();
     if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
-    if (tag == "path") paths.push_back(child);
-    if (!kUnseen.contains(tag)) collect_paths(child, paths);
+    if (tag == "path") paths.push_back(node);
+    if (kUnseen.contains(tag)) continue;
+    for (pugi::xml_node child = node.last_child(); child; child = child.previous_sibling())
+      waiting.push_back(child);
   }
+  return paths;
 }
 
 /// The path with this id, or the first one.
 pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
-  std::vector<pugi::xml_node> paths;
-  collect_paths(document, paths);
+  const std::vector<pugi::xml_node> paths = paths_of(document);
   for (const pugi::xml_node& path : paths)
     if (path.attribute("id").as_string() == id) return path;
   return paths.empty() ? pugi::xml_node() : paths.front();

@@ -4,7 +4,6 @@
 #include <lcms2.h>
 
 #include <cmath>
-#include <limits>
 
 namespace holomorph {
 namespace {
@@ -21,7 +20,6 @@ using Conversion = std::unique_ptr<void, Delete>;
 constexpr size_t kLargestProfile = 8 << 20;
 
 Profile opened(const std::string& bytes) {
-  cmsSetLogErrorHandler([](cmsContext, cmsUInt32Number, const char*) {});
   if (bytes.size() > kLargestProfile) return {};
   return Profile(cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
 }

@@ -282,9 +282,9 @@ class Files(Case):
         out = self.path("o.png")
         for option, little, enough, words in (
                 ("--max-pixels", "0.002", "0.01", ["info", self.scene]),
-                ("--max-scene", "0.0001", "1", ["info", self.scene]),
+                ("--max-scene-size", "0.0001", "1", ["info", self.scene]),
                 ("--max-coordinates", "0.01", "1", ["info", self.scene]),
-                ("--max-keyframes", "0.1", "10", ["render", self.scene, "--time", "0.7", "--out", out]),
+                ("--max-keyframe-memory", "0.1", "10", ["render", self.scene, "--time", "0.7", "--out", out]),
                 ("--max-frames", "3", "5", ["render", self.scene, "--frames", "all", "--out", out]),
                 ("--max-frames", "3", "5", ["export", self.scene, "--format", "gif", "--out", self.path("o.gif")]),
                 ("--max-groups", "3", "8", ["new", self.path("red.png"), "--cage", deep, "--force", "--out", self.path("n.json")])):

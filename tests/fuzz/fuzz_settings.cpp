@@ -1,11 +1,7 @@
-// Any bytes as preferences, as keys to import, and as what an interrupted session left.
-#include <filesystem>
-
+// Any bytes as preferences, and as keys to import.
 #include "core/error.h"
 #include "edit/keymap.h"
-#include "scene/document.h"
 #include "scene/preferences.h"
-#include "scene/scene_json.h"
 
 using namespace holomorph;
 

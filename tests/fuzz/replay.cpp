@@ -11,6 +11,9 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size);
+/// What a target does to inputs that were changed, such as mending their checksums.
+extern "C" size_t LLVMFuzzerCustomMutator(std::uint8_t* data, size_t size, size_t most,
+                                          unsigned int seed) __attribute__((weak));
 extern "C" size_t LLVMFuzzerMutate(std::uint8_t*, size_t size, size_t) {
   return size;
 }
@@ -46,6 +49,9 @@ std::string mutated(std::string bytes, const std::string& other, std::mt19937_64
           bytes[at + k] = static_cast<char>(below(2) ? 0xff : 0x7f);
     }
   }
+  if (LLVMFuzzerCustomMutator)
+    LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size(),
+                            bytes.size(), static_cast<unsigned>(random()));
   return bytes;
 }
 

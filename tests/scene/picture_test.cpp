@@ -227,10 +227,23 @@ TEST_CASE("A picture that is cut off anywhere is an error that says so") {
                                          : std::uniform_int_distribution<size_t>(
                                                0, kind.bytes.size() - 2 - kind.tail)(random);
         CAPTURE(length, kind.bytes.size());
-        CHECK(complaint_of([&] { decode_image(kind.bytes.substr(0, length), kind.name); }) != "");
+        const std::string said =
+            complaint_of([&] { decode_image(kind.bytes.substr(0, length), kind.name); });
+        CHECK_THAT(said, Catch::Contains("cut off") || Catch::Contains("damaged") ||
+                             Catch::Contains("cannot be read") || Catch::Contains("no picture"));
       }
     }
   }
+  // A table of rows that hold nothing.
+  std::string rows = psd_file(Image(64, 48), true);
+  rows.resize(26 + 12 + 2 + 2 * 4 * 48);
+  std::fill(rows.begin() + 26 + 12 + 2, rows.end(), '\0');
+  CHECK_THAT(complaint_of([&] { decode_image(rows, "a.psd"); }), Catch::Contains("cut off"));
+  // A picture of 65535 x 65535 on a canvas of 1 x 1.
+  std::string gif = "GIF89a" + little(1, 2) + little(1, 2) +
+                    std::string("\x80\0\0\0\0\0\0\0\0,", 10) + little(0, 4) + little(65535, 2) +
+                    little(65535, 2) + std::string("\0\2\2\x44\1\0;", 7);
+  CHECK_THAT(complaint_of([&] { decode_image(gif, "a.gif"); }), Catch::Contains("pixels"));
   // A file of 23 bytes that claims 16384 x 16384 pixels.
   std::string claim("\0\0\x0a\0\0\0\0\0\0\0\0\0\0\x40\0\x40\x20\x08\xff\0\0\0\0", 23);
   CHECK_THAT(complaint_of([&] { decode_image(claim, "a.tga"); }), Catch::Contains("pixels"));
