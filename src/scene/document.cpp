@@ -13,6 +13,7 @@
 #include "scene/json_reader.h"
 #include "scene/laid_surface.h"
 #include "scene/layers.h"
+#include "scene/live_map.h"
 #include "scene/ora_image.h"
 #include "scene/preferences.h"
 #include "scene/scene_json.h"
@@ -187,6 +188,11 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   const Scene scene = scene_from_json(text, path.string());
   PictureFiles files(options.open_pixels);
   std::vector<Scene> layers = layers_of(scene);
+  try {
+    check_affordable(layers);
+  } catch (const Error& error) {
+    throw about(path, error);
+  }
   for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
   keep_in_reach(layers, path, options, files, loaded.pictures);
   for (size_t i = 0; i < layers.size(); ++i) {

@@ -52,6 +52,32 @@ std::shared_ptr<const Mesh> ordered(std::shared_ptr<const Mesh> mesh,
 
 }  // namespace
 
+namespace {
+
+/// Control points; those of curves take much longer to compute.
+double cost_of(const Cage& cage) {
+  double cost = 0;
+  for (Index i = 0; i < cage.size(); ++i) cost += cage.degree(i) > 1 ? 2.0 * cage.degree(i) : 1.0;
+  return cost;
+}
+
+}  // namespace
+
+void check_affordable(std::span<const Scene> layers) {
+  const double vertices = MeshOptions{}.vertices;
+  double controls = 0, keys = 0;
+  for (const Scene& layer : layers) {
+    controls += cost_of(layer.rest);
+    keys += layer.has_cage() ? static_cast<double>(layer.keyframes.size()) : 0;
+  }
+  check_budget(&Budget::coordinates, controls * vertices,
+               "the cages have " + std::to_string(static_cast<long>(controls)) +
+                   " control points and their meshes some " +
+                   std::to_string(static_cast<long>(vertices)) + " vertices:");
+  check_budget(&Budget::operators, keys * vertices * sizeof(Complex),
+               "the maps at " + std::to_string(static_cast<long>(keys)) + " keyframes need");
+}
+
 std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared) {
   std::shared_ptr<const Inbetween> between = prepared.between.load();
   if (between) return between;
@@ -93,10 +119,7 @@ namespace {
 
 /// Before they are computed.
 void check_coordinates(const Rest& rest, Index places) {
-  double cost = 0;  // those of curves take much longer to compute
-  for (Index i = 0; i < rest.cage.size(); ++i)
-    cost += rest.cage.degree(i) > 1 ? 2.0 * rest.cage.degree(i) : 1.0;
-  check_budget(&Budget::coordinates, cost * static_cast<double>(places),
+  check_budget(&Budget::coordinates, cost_of(rest.cage) * static_cast<double>(places),
                "the cage has " + std::to_string(rest.cage.control_count()) +
                    " control points and its mesh " + std::to_string(places) + " vertices:");
 }

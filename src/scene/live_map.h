@@ -28,6 +28,9 @@ struct PreparedMap {
   /// For what lies between maps on the mesh; null until somebody needs it, or has time for it.
   std::atomic<std::shared_ptr<const Inbetween>> between = {};
 };
+/// Throws Error{bad_input} when the cages and keyframes of all layers together need more than the
+/// budget has; meshes have about their usual size.
+void check_affordable(std::span<const Scene> layers);
 /// That of a prepared map; made, if there is none yet.
 std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 

@@ -50,16 +50,17 @@ class Round:
             file.write(content if isinstance(content, bytes) else content.encode())
         return name
 
-    def add(self, title, *words):
-        self.cases.append((title, words))
+    def add(self, title, *words, refused=False):
+        """A command; some have to be refused, whatever else they do."""
+        self.cases.append((title, words, refused))
 
-    def scene(self, title, words=("info",), version=1, **members):
+    def scene(self, title, words=("info",), version=1, refused=False, **members):
         name = f"scene-{len(self.cases)}.json"
         content = {"format": "holomorph", "version": version, **members}
         if version == 1:
             content = {"image": {"file": "p.png"}, "cage": {"rest": SQUARE, "pose": MOVED}, **content}
         self.write(name, json.dumps(content))
-        self.add(title, words[0], name, *words[1:])
+        self.add(title, words[0], name, *words[1:], refused=refused)
 
     def names(self):
         """Names that are no pictures of the scene's."""
@@ -72,7 +73,7 @@ class Round:
                "--help", "a\0b", "n" * self.rng.randint(256, 9000), "pipe.png", "one.png", "door.png", "p.png/", "p.png/x", "", " ", "\u202e.png"]
         for name in odd:
             for inside in ((), ("--allow-outside",)):
-                self.scene(f"a picture called {name[:24]!r} {inside}", ("info", *inside), image={"file": name})
+                self.scene(f"a picture called {name[:24]!r} {inside}", ("info", *inside), refused=True, image={"file": name})
 
     def pictures(self):
         """Few bytes that claim many pixels, or many passes over them."""
@@ -93,13 +94,13 @@ class Round:
         }
         for name, content in claims.items():
             self.write(name, content)
-            self.scene(f"{name} of {len(content)} bytes", image={"file": name})
+            self.scene(f"{name} of {len(content)} bytes", refused=name not in ("text.png", "profile.png"), image={"file": name})
         flat = zlib.compressobj(9)
         rows = b"".join(flat.compress(bytes(1 + 4 * 12000)) for _ in range(12000)) + flat.flush()
         for i in range(3):  # each of them may be opened, not all
             self.write(f"flat{i}.png", PNG_START + chunk(b"IHDR", struct.pack(">IIBBBBB", 12000, 12000, 8, 6, 0, 0, 0))
                        + chunk(b"IDAT", rows) + chunk(b"IEND", b""))
-        self.scene("three pictures of 144 megapixels", version=2,
+        self.scene("three pictures of 144 megapixels", version=2, refused=True,
                    layers=[{"image": {"file": f"flat{i}.png"}, "cage": {"rest": SQUARE}} for i in range(3)])
         self.scene("one picture of 144 megapixels", image={"file": "flat0.png"})
 
@@ -116,12 +117,12 @@ class Round:
         self.write("long.svg", '<svg><path d="M0 0' + "".join(f"L{i} {i * i % 977}" for i in range(300000)) + 'Z"/></svg>')
         for name in ("deep.svg", "long.svg"):
             for use in ("--cage", "--outline"):
-                self.add(f"{name} as {use}", "new", "p.png", use, name, "--out", "o.json", "--force")
+                self.add(f"{name} as {use}", "new", "p.png", use, name, "--out", "o.json", "--force", refused=True)
         thin = [f"v {self.rng.random()} 0 0" for _ in range(5)]
         self.write("thin.obj", "\n".join(thin) + "\nf 1 2 3\nf 2 3 4\nf 3 4 5\n")
         self.write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 0 0\nv 1 1 0\nf 3 4 5\n")
         for name in ("thin.obj", "twice.obj"):
-            self.add(f"{name}, without area", "new", "p.png", "--outline", name, "--out", "o.json", "--force")
+            self.add(f"{name}, without area", "new", "p.png", "--outline", name, "--out", "o.json", "--force", refused=True)
 
     def claims(self):
         """Scenes that ask for much work."""
@@ -138,6 +139,9 @@ class Round:
         for corners, degree in ((5000, 1), (1000, 8), (5000, 8), (self.rng.randint(500, 2000), self.rng.randint(1, 8))):
             self.scene(f"a cage of {corners} segments of degree {degree}",
                        cage={"rest": loop(corners, degree), "pose": loop(corners, degree, 26)})
+        cage = {"rest": loop(3000), "pose": loop(3000, 1, 26)}
+        self.scene("50 layers with cages of 3000 points", ("render", "--out", "o.png"), version=2, refused=True,
+                   layers=[{"image": {"file": "p.png"}, "cage": cage} for _ in range(50)])
         for seconds, rate in ((60, 24), (3600, 240)):
             film = dict(animation={"frames_per_second": rate}, keyframes=[{"time": 0}, {"time": seconds, "pose": {"cage": SQUARE}}])
             self.scene(f"one frame of {seconds} s at {rate}", ("render", "--frames", "0..0", "--out", "o.png"), **film)
@@ -157,9 +161,9 @@ class Round:
 bad, count, peak, slowest = [], 0, 0, 0
 for round_number in range(options.rounds):
     folder = tempfile.mkdtemp(prefix="hostile-")
-    for title, words in Round(folder, random.Random(options.seed + round_number)).cases:
+    for title, words, refused in Round(folder, random.Random(options.seed + round_number)).cases:
         outcome = attack.run([options.program, *words], folder, MOST_SECONDS)
-        wrong = outcome.wrong(MOST_SECONDS, MOST_MEGABYTES)
+        wrong = outcome.wrong(MOST_SECONDS, MOST_MEGABYTES) or ("is not refused" if refused and outcome.status == 0 else "")
         if wrong:
             bad.append(f"{title}: {wrong}")
         count, peak, slowest = count + 1, max(peak, outcome.megabytes), max(slowest, outcome.seconds)
