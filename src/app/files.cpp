@@ -331,7 +331,7 @@ void Files::ask_about_change(const Path& path, const Then& then) {
        {{"Save a copy under another name", [this, then] { save(true, then); }},
         {"Overwrite it with this version",
          [this, path, then] { workspace_.complain(save_to(path, then, Conflict::overwrite)); }},
-        {"Reload it and lose the changes made here", [this] { reload(); }},
+        {"Reload what is on disk", [this] { reload(); }},
         {"Cancel", {}}},
        3});
 }
