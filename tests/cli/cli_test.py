@@ -209,7 +209,7 @@ class CommandLine(Case):
         own = self.path("own.obj")
         shutil.copy(mask, own)
         self.good("new", "--force", fish, "--out", scene, "--outline", own)
-        self.bad("export", scene, "--format", "textured", "--out", own, says="surface that the scene")
+        self.bad("export", scene, "--allow-outside", "--format", "textured", "--out", own, says="surface that the scene")
         self.bad("new", "--force", fish, "--out", scene, "--cage", mask, says="no texture coordinates")
         self.bad("new", "--force", fish, "--out", scene, "--outline", mask, "--flattening", "magic", says="magic")
         closed = self.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")
