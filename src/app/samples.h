@@ -29,7 +29,7 @@ class Samples {
   /// Starts drawing them if need be, and takes over what has been drawn. Needs a current OpenGL
   /// context.
   const std::vector<Sample>& shown();
-  /// Draws no more for now: nobody looks at them.
+  /// Stops after the one that is being drawn; shown() goes on.
   void pause() {
     if (drawing_) drawing_->cancel();
   }

@@ -33,8 +33,8 @@ class PictureMaker {
 
   RasterResult picture(const PictureOptions& options);
   /// The part of the plane that the whole motion needs, with the pictures' own rectangles: the same
-  /// for whoever draws some of its frames, however many there are. `go_on` is asked now and then;
-  /// none when it says no. Cost: maps at the keyframes and at some ten times between two of them.
+  /// whichever of its frames are drawn. `go_on` is asked now and then; none when it says no. Cost:
+  /// maps at the keyframes and at some ten times between two of them.
   std::optional<Box> shown(const std::function<bool()>& go_on = [] { return true; });
   /// The lowest visible picture's rectangle, which crop keeps; empty without one.
   Box rectangle() const;

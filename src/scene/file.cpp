@@ -73,7 +73,8 @@ Path folder_of(const Path& path) {
   return path.has_parent_path() ? path.parent_path() : Path(".");
 }
 
-/// Of files that are not there yet. Read without setting it, which other threads would notice.
+/// The permissions of new files. umask() can only be asked by setting it, which would affect files
+/// that other threads are creating.
 mode_t mode_of_new_files() {
   static const mode_t mask = [] {
     std::ifstream status("/proc/self/status");
@@ -110,12 +111,12 @@ void remove_left(int folder, const char* name) {
   const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return;
   const Descriptor closed{fd};
-  struct stat opened {
-  }, named{};
+  struct stat opened {};
+  struct stat named {};
   if (::fstat(fd, &opened) != 0 || opened.st_uid != ::geteuid() ||
       ::flock(fd, LOCK_EX | LOCK_NB) != 0)
     return;
-  // The name may be another one's by now.
+  // Something else may have taken the name since it was opened.
   if (::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino ||
       named.st_dev != opened.st_dev)
     return;
@@ -165,9 +166,8 @@ bool lock_fresh(int descriptor) {
 }
 
 /// Up to the end; `name` is for messages.
-std::string read_descriptor(int descriptor, const Path& name, size_t limit, size_t expected = 0) {
+std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
   std::string bytes;
-  bytes.reserve(expected);
   std::vector<char> block(1 << 16);
   while (true) {
     const ssize_t count = ::read(descriptor, block.data(), block.size());
@@ -209,7 +209,7 @@ std::string unreadable(const Path& path, int reason) {
   std::error_code error;
   if (reason == ENOENT && std::filesystem::is_symlink(path, error))
     return "this is a link to " + std::filesystem::read_symlink(path, error).string() +
-           ", and there is no such file";
+           ", which does not exist";
   if (reason == ENOENT || reason == ENOTDIR) return "there is no such file";
   if (reason == ELOOP) return "this is a link that leads to itself";
   if (reason == ENAMETOOLONG) return "the name is too long";
@@ -232,17 +232,17 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   if (S_ISDIR(found.st_mode)) throw refuse("this is a directory, not a file");
   // Devices are not even opened: some do what they are for.
   if (!S_ISREG(found.st_mode) && !streams) throw refuse("this is not a regular file");
-  const bool waits = !S_ISREG(found.st_mode);  // for whoever writes into a pipe
+  const bool waits = !S_ISREG(found.st_mode);  // until somebody writes into the pipe
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (waits ? 0 : O_NONBLOCK));
   if (fd < 0) throw refuse(unreadable(path, errno));
   const Descriptor closed{fd};
   if (waits) return read_descriptor(fd, path, limit);
-  // It may be another one by now.
+  // The name may lead to another file since it was looked at.
   if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
     throw refuse("this is not a regular file");
   if (static_cast<size_t>(found.st_size) > limit)
     throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
-  // No more than its size: some files of the system's go on for ever.
+  // No more than its size: some system files have no end.
   std::string bytes(static_cast<size_t>(found.st_size), '\0');
   size_t done = 0;
   while (done < bytes.size()) {

@@ -31,13 +31,13 @@ std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
 std::string read_standard_input(size_t limit = size_t{1} << 30);
 
 /// A file that comes into being: written beside where it goes, under a short name of its own, and
-/// there as a whole when it is put in place, or never. What a killed program leaves of one is
-/// removed by the next write in that folder, of whatever program of ours. A pipe or a device is
-/// written into at once.
+/// there as a whole when it is put in place, or never. What a killed program leaves behind is
+/// removed by the next NewFile or NewFolder in that folder. A pipe or a device is written into at
+/// once.
 class NewFile {
  public:
-  /// Who may read it: whoever may read what it replaces, or, of new files, whom the user's umask
-  /// lets; or its owner alone.
+  /// Who may read it. The usual: as with the file that it replaces, or as the umask says; or only
+  /// its owner.
   enum class Readers { usual, owner };
 
   /// Throws Error{failed} when nothing can be written there. A link keeps pointing where it points.
@@ -58,8 +58,7 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// A folder for files that are to come into being together: as NewFile, but what is not moved out
-/// of it is removed.
+/// A temporary folder for files that belong together; whatever is not moved out of it is removed.
 class NewFolder {
  public:
   /// Beside a file. Throws Error{failed}.
@@ -112,8 +111,8 @@ class FileLock {
 /// The error with the file's name in front, unless it starts with it.
 Error about(const Path& file, const Error& error);
 
-/// A text that may come from a file, without what would steer a terminal or turn its letters
-/// around.
+/// A text that may come from a file, with a question mark for each character that would control a
+/// terminal or change the direction of writing.
 std::string printable(const std::string& text);
 
 /// ASCII capitals made small: for extensions and searches.

@@ -78,7 +78,7 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
   if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
   throw Error(ErrorKind::bad_input,
               name +
-                  ": this is no picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
+                  ": this is not a picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
                   "BMP, TGA, GIF or PSD)");
 }
 

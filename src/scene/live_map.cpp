@@ -184,7 +184,7 @@ void LiveMap::work() {
       try {
         inbetween_of(*base);
       } catch (const std::exception&) {
-        // Whoever plays the keyframes is told.
+        // Playing the keyframes will fail in the same way, and say why.
       }
       lock.lock();
       continue;

@@ -31,7 +31,7 @@ struct PreparedMap {
 /// Throws Error{bad_input} when the cages and keyframes of all layers together need more than the
 /// budget has; meshes have about their usual size.
 void check_affordable(std::span<const Scene> layers);
-/// That of a prepared map; made, if there is none yet.
+/// A prepared map's `between`, which is made if there is none yet.
 std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
 /// The mesh as it is to be drawn: its triangles from the lowest to the highest, by the depths of

@@ -542,6 +542,23 @@ class EditorWindowTest(WindowCase):
             time.sleep(0.3)
             self.press_in_dialog(editor, 55)  # Reload it
             editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "what the file has")
+            editor.key("ctrl+z")  # reloading is a step like others
+            editor.wait(lambda s: s["first_point"] == [180, 100] and s["modified"], "what was here")
+            editor.key("ctrl+shift+z")
+            editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "the reloaded scene again")
+            # A file that is damaged or gone does not hold what is here: quitting asks.
+            with open(scene, "w") as file:
+                file.write('{"format"')
+            editor.wait(lambda s: s["modified"] and s["first_point"] == [300, 100], "work that is in no file")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: s["asking"], "the question")
+            time.sleep(0.3)
+            self.press_in_dialog(editor, 22)  # Overwrite it
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+            os.remove(scene)
+            editor.wait(lambda s: s["modified"], "work that is in no file")
+            editor.key("ctrl+q")
+            editor.wait(lambda s: s["question"] == "Unsaved changes", "the question")
 
     def test_unsaved_work_is_offered_where_its_scene_is_opened(self):
         scene = self.square_scene(self.work, "gecko.png")

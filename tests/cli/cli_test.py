@@ -560,7 +560,7 @@ class CommandLine(Case):
         self.bad("export", scene, "--format", "doc", "--out", self.path("x"), says="obj, svg, npy, png, stmap, unwarp")
         picture = os.path.join(SOURCE, "assets/giraffe.png")
         self.bad("new", "--force", picture, "--out", self.path("n.json"), "--vertices", 2, says="3 to 500")
-        self.bad("new", "--force", scene, "--out", self.path("n.json"), says="no picture")
+        self.bad("new", "--force", scene, "--out", self.path("n.json"), says="not a picture")
         with open(picture, "rb") as file:
             half = file.read()[:20000]
         with open(self.path("half.png"), "wb") as file:
