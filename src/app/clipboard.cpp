@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/process.h"
+#include "system/process.h"
 
 namespace holomorph {
 namespace {

@@ -5,18 +5,18 @@
 
 #include <utility>
 
-#include "app/canvas.h"
-#include "app/comparison_panel.h"
+#include "app/canvas/canvas.h"
+#include "app/canvas/surface_pane.h"
+#include "app/dialogs/keys_window.h"
+#include "app/dialogs/palette.h"
 #include "app/files.h"
-#include "app/hints.h"
-#include "app/keys_window.h"
-#include "app/palette.h"
-#include "app/panel_focus.h"
-#include "app/panels.h"
+#include "app/panels/comparison_panel.h"
+#include "app/panels/hints.h"
+#include "app/panels/panel_focus.h"
+#include "app/panels/panels.h"
+#include "app/panels/timeline_panel.h"
+#include "app/panels/toasts.h"
 #include "app/state_file.h"
-#include "app/surface_pane.h"
-#include "app/timeline_panel.h"
-#include "app/toasts.h"
 #include "core/clock.h"
 #include "core/error.h"
 

@@ -1,7 +1,7 @@
 // The editor: a window around a workspace.
 #pragma once
 
-#include "scene/file.h"
+#include "system/file.h"
 
 namespace holomorph {
 

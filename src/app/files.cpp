@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "app/clipboard.h"
-#include "app/panels.h"
+#include "app/panels/panels.h"
 #include "core/error.h"
-#include "edit/keymap.h"
-#include "edit/tool.h"
+#include "edit/actions/keymap.h"
+#include "edit/tools/tool.h"
 #include "raster/picture.h"
 #include "raster/textured.h"
-#include "scene/export.h"
-#include "scene/outline_import.h"
-#include "scene/svg_path.h"
+#include "scene/formats/export.h"
+#include "scene/formats/outline_import.h"
+#include "scene/formats/svg_path.h"
 
 namespace holomorph {
 namespace {

@@ -2,10 +2,10 @@
 // ask the user.
 #pragma once
 
-#include "app/export_dialog.h"
+#include "app/dialogs/export_dialog.h"
+#include "app/dialogs/question.h"
 #include "app/imports.h"
 #include "app/picture_watch.h"
-#include "app/question.h"
 #include "scene/preferences.h"
 
 namespace holomorph {

@@ -6,10 +6,10 @@
 
 #include "app/clipboard.h"
 #include "core/error.h"
-#include "edit/keymap.h"
-#include "edit/tool.h"
-#include "scene/outline_import.h"
-#include "scene/svg_path.h"
+#include "edit/actions/keymap.h"
+#include "edit/tools/tool.h"
+#include "scene/formats/outline_import.h"
+#include "scene/formats/svg_path.h"
 
 namespace holomorph {
 

@@ -1,8 +1,8 @@
 // What comes into the open document: pictures as layers or in place of others, cages, outlines.
 #pragma once
 
-#include "app/file_chooser.h"
-#include "app/jobs.h"
+#include "app/dialogs/file_chooser.h"
+#include "app/dialogs/jobs.h"
 
 namespace holomorph {
 

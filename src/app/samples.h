@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "render/texture.h"
-#include "scene/image.h"
-#include "scene/job.h"
+#include "scene/formats/image.h"
+#include "system/job.h"
 
 namespace holomorph {
 

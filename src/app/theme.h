@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/heat.h"
+#include "core/maps/heat.h"
 #include "scene/preferences.h"
 
 namespace holomorph {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "edit/input.h"
-#include "scene/file.h"
 #include "scene/preferences.h"
+#include "system/file.h"
 
 struct GLFWwindow;
 

@@ -9,13 +9,13 @@
 #include "cli/progress.h"
 #include "cli/streams.h"
 #include "core/error.h"
-#include "core/flatten.h"
+#include "core/mesh/flatten.h"
 #include "scene/auto_cage.h"
+#include "scene/formats/outline_import.h"
+#include "scene/formats/scene_json.h"
+#include "scene/formats/surface_file.h"
+#include "scene/formats/svg_path.h"
 #include "scene/laid_surface.h"
-#include "scene/outline_import.h"
-#include "scene/scene_json.h"
-#include "scene/surface_file.h"
-#include "scene/svg_path.h"
 
 namespace holomorph {
 namespace {

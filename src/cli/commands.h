@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cli/moments.h"
-#include "scene/file.h"
+#include "system/file.h"
 
 namespace holomorph {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/file.h"
 #include "scene/scene.h"
+#include "system/file.h"
 
 namespace holomorph {
 

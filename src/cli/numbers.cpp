@@ -5,10 +5,10 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "scene/budget.h"
-#include "scene/export.h"
+#include "scene/formats/export.h"
 #include "scene/report.h"
 
 namespace holomorph {

@@ -9,9 +9,9 @@
 #include "film/ordered_tasks.h"
 #include "raster/textured.h"
 #include "raster/unwarp.h"
-#include "scene/export.h"
+#include "scene/formats/export.h"
+#include "scene/formats/svg_path.h"
 #include "scene/keyframes.h"
-#include "scene/svg_path.h"
 #include "scene/timed_map.h"
 
 namespace holomorph {

@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "core/error.h"
-#include "scene/export.h"
-#include "scene/scene_json.h"
+#include "scene/formats/export.h"
+#include "scene/formats/scene_json.h"
 
 namespace holomorph {
 

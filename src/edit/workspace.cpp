@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "core/polyline.h"
-#include "edit/actions.h"
-#include "scene/scene_json.h"
+#include "core/geometry/polyline.h"
+#include "edit/actions/actions.h"
+#include "scene/formats/scene_json.h"
 
 namespace holomorph {
 namespace {

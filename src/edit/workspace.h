@@ -4,14 +4,14 @@
 #include <functional>
 #include <memory>
 
-#include "core/heat.h"
-#include "core/mesher.h"
-#include "edit/displacement.h"
+#include "core/maps/heat.h"
+#include "core/mesh/mesher.h"
+#include "edit/edits/displacement.h"
 #include "edit/timeline.h"
 #include "edit/viewport.h"
 #include "scene/document.h"
-#include "scene/job.h"
 #include "scene/layer_maps.h"
+#include "system/job.h"
 
 namespace holomorph {
 

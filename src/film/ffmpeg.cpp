@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "film/film_writer.h"
 #include "raster/compose.h"
-#include "scene/process.h"
+#include "system/process.h"
 
 namespace holomorph {
 namespace {

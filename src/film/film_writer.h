@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/image.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "scene/image.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

@@ -1,9 +1,9 @@
 // The exported pixels use the mesh and the precision of the screen, so both show the same picture.
 #include "raster/picture.h"
 
-#include "core/distortion.h"
 #include "core/error.h"
-#include "core/mesher.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/mesher.h"
 #include "raster/compose.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"

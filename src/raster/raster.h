@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "core/heat.h"
-#include "core/mesh.h"
-#include "scene/image.h"
+#include "core/maps/heat.h"
+#include "core/mesh/mesh.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

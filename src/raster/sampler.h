@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-#include "scene/image.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

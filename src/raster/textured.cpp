@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/mesher.h"
-#include "core/polyline.h"
+#include "core/geometry/polyline.h"
+#include "core/mesh/mesher.h"
 #include "raster/bleed.h"
 #include "raster/raster.h"
-#include "scene/file.h"
 #include "scene/live_map.h"
+#include "system/file.h"
 
 namespace holomorph {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "scene/file.h"
-#include "scene/image.h"
+#include "scene/formats/image.h"
 #include "scene/laid_surface.h"
+#include "system/file.h"
 
 namespace holomorph {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <thread>
 
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 #include "core/error.h"
-#include "core/inverse.h"
+#include "core/maps/inverse.h"
 #include "scene/timed_map.h"
 
 namespace holomorph {

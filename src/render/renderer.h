@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "core/heat.h"
-#include "core/mesh.h"
+#include "core/maps/heat.h"
+#include "core/mesh/mesh.h"
 #include "render/texture_levels.h"
 
 namespace holomorph {

@@ -1,8 +1,8 @@
 // A textured surface in space.
 #pragma once
 
-#include "core/heat.h"
-#include "core/surface.h"
+#include "core/maps/heat.h"
+#include "core/mesh/surface.h"
 #include "render/program.h"
 
 namespace holomorph {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/curve_around.h"
 #include "core/error.h"
-#include "core/simplify.h"
+#include "core/geometry/curve_around.h"
+#include "core/geometry/simplify.h"
 
 namespace holomorph {
 namespace {

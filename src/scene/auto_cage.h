@@ -1,8 +1,8 @@
 // A cage from a picture's alpha.
 #pragma once
 
-#include "core/cage.h"
-#include "scene/image.h"
+#include "core/geometry/cage.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

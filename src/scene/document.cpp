@@ -10,13 +10,13 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
-#include "scene/json_reader.h"
+#include "scene/formats/json_reader.h"
+#include "scene/formats/ora_image.h"
+#include "scene/formats/scene_json.h"
 #include "scene/laid_surface.h"
 #include "scene/layers.h"
 #include "scene/live_map.h"
-#include "scene/ora_image.h"
 #include "scene/preferences.h"
-#include "scene/scene_json.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "scene/file.h"
 #include "scene/history.h"
 #include "scene/layers.h"
 #include "scene/pictures.h"
 #include "scene/reach.h"
+#include "system/file.h"
 
 namespace holomorph {
 

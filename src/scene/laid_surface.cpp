@@ -2,9 +2,9 @@
 #include "scene/laid_surface.h"
 
 #include "core/error.h"
-#include "core/flatten.h"
-#include "core/similarity.h"
-#include "scene/file.h"
+#include "core/geometry/similarity.h"
+#include "core/mesh/flatten.h"
+#include "system/file.h"
 
 namespace holomorph {
 namespace {

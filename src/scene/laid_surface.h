@@ -1,9 +1,9 @@
 // A flattened surface in the picture's plane: what its texture is made of.
 #pragma once
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
+#include "scene/formats/surface_file.h"
 #include "scene/scene.h"
-#include "scene/surface_file.h"
 
 namespace holomorph {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "core/distortion.h"
-#include "core/mesher.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/mesher.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
 

@@ -7,11 +7,11 @@
 #include <mutex>
 #include <thread>
 
-#include "core/draw_order.h"
 #include "core/error.h"
-#include "core/injectivity.h"
-#include "core/mesh.h"
-#include "core/mesher.h"
+#include "core/maps/injectivity.h"
+#include "core/mesh/draw_order.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/mesher.h"
 #include "scene/motion.h"
 
 namespace holomorph {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/polyline.h"
+#include "core/geometry/polyline.h"
 #include "scene/keyframes.h"
 #include "scene/mirror.h"
 

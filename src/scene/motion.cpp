@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/distortion.h"
+#include "core/maps/distortion.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
 #include "scene/live_map.h"

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "core/inbetween.h"
+#include "core/mesh/inbetween.h"
 #include "scene/scene.h"
 
 namespace holomorph {

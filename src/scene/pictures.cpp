@@ -1,7 +1,7 @@
 // A file's time tells whether it has changed.
 #include "scene/pictures.h"
 
-#include "scene/ora_image.h"
+#include "scene/formats/ora_image.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "scene/image.h"
+#include "scene/formats/image.h"
 #include "scene/scene.h"
 
 namespace holomorph {

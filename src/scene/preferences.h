@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/file.h"
+#include "system/file.h"
 
 namespace holomorph {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/file.h"
+#include "system/file.h"
 
 namespace holomorph {
 

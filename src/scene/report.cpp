@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 #include "core/clock.h"
-#include "core/injectivity.h"
+#include "core/maps/injectivity.h"
 
 namespace holomorph {
 namespace {

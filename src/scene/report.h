@@ -1,7 +1,7 @@
 // All that can be said about a scene's map in numbers.
 #pragma once
 
-#include "core/distortion.h"
+#include "core/maps/distortion.h"
 #include "scene/timed_map.h"
 
 namespace holomorph {

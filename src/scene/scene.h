@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "core/deformer.h"
-#include "core/flatten.h"
-#include "core/surface.h"
+#include "core/maps/deformer.h"
+#include "core/mesh/flatten.h"
+#include "core/mesh/surface.h"
 
 namespace holomorph {
 

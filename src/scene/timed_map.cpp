@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/mesher.h"
+#include "core/mesh/mesher.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {

@@ -1,8 +1,8 @@
 // A scene's map in full precision, as it stands or at a time of its keyframes.
 #pragma once
 
-#include "core/distortion.h"
-#include "core/inverse.h"
+#include "core/maps/distortion.h"
+#include "core/maps/inverse.h"
 #include "scene/live_map.h"
 
 namespace holomorph {

@@ -1,8 +1,8 @@
 // Layers in the editor: choosing, locking, hiding, and undo through all of it.
 #include <catch2/catch.hpp>
 
-#include "desk.h"
-#include "edit/actions.h"
+#include "edit/actions/actions.h"
+#include "support/desk.h"
 
 using namespace holomorph;
 

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "desk.h"
-#include "edit/actions.h"
-#include "edit/curve_edits.h"
+#include "edit/actions/actions.h"
+#include "edit/edits/curve_edits.h"
+#include "support/desk.h"
 
 using namespace holomorph;
 

@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "scene/job.h"
 #include "scene/keyframes.h"
 #include "support/folder.h"
 #include "support/seeds.h"
+#include "system/job.h"
 
 using namespace holomorph;
 

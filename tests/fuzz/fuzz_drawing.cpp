@@ -1,7 +1,7 @@
 // Any bytes as an SVG file: an error, or a loop that is written and read again the same.
 #include "core/error.h"
-#include "scene/scene_json.h"
-#include "scene/svg_path.h"
+#include "scene/formats/scene_json.h"
+#include "scene/formats/svg_path.h"
 
 using namespace holomorph;
 

@@ -1,7 +1,7 @@
 // Any bytes as a material library and as a table of points.
 #include "core/error.h"
-#include "scene/export.h"
-#include "scene/surface_file.h"
+#include "scene/formats/export.h"
+#include "scene/formats/surface_file.h"
 
 using namespace holomorph;
 

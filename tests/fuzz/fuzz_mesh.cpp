@@ -2,10 +2,10 @@
 // up.
 #include <cstring>
 
-#include "core/cauchy_array.h"
+#include "core/cauchy/cauchy_array.h"
 #include "core/error.h"
-#include "core/mesh.h"
-#include "core/mesher.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/mesher.h"
 
 using namespace holomorph;
 

@@ -3,8 +3,8 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
-#include "scene/image.h"
-#include "scene/ora_image.h"
+#include "scene/formats/image.h"
+#include "scene/formats/ora_image.h"
 
 using namespace holomorph;
 

@@ -1,6 +1,6 @@
 // Reads any bytes as a scene: an Error or a scene that writes and reads back the same.
 #include "core/error.h"
-#include "scene/scene_json.h"
+#include "scene/formats/scene_json.h"
 
 using namespace holomorph;
 

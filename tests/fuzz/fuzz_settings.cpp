@@ -1,6 +1,6 @@
 // Any bytes as preferences, and as keys to import.
 #include "core/error.h"
-#include "edit/keymap.h"
+#include "edit/actions/keymap.h"
 #include "scene/preferences.h"
 
 using namespace holomorph;

@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "scene/surface_file.h"
+#include "scene/formats/surface_file.h"
 
 using namespace holomorph;
 

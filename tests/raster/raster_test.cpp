@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/mesher.h"
+#include "core/mesh/mesher.h"
 #include "raster/bleed.h"
 #include "raster/picture.h"
 #include "raster/textured.h"

@@ -3,13 +3,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/boundary_basis.h"
-#include "core/distortion.h"
+#include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
-#include "core/mesh.h"
-#include "core/mesher.h"
-#include "scene/file.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/mesher.h"
 #include "support/shapes.h"
+#include "system/file.h"
 
 using namespace holomorph;
 

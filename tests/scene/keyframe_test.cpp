@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "core/mesher.h"
+#include "core/mesh/mesher.h"
+#include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
-#include "scene/scene_json.h"
 #include "support/complaint.h"
 
 using namespace holomorph;

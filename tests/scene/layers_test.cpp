@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "scene/document.h"
+#include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
 #include "scene/layer_maps.h"
 #include "scene/preferences.h"
-#include "scene/scene_json.h"
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/shapes.h"

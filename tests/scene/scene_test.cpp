@@ -10,10 +10,10 @@
 
 #include "core/error.h"
 #include "scene/document.h"
-#include "scene/export.h"
+#include "scene/formats/export.h"
+#include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
 #include "scene/preferences.h"
-#include "scene/scene_json.h"
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/shapes.h"

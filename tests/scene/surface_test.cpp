@@ -2,12 +2,12 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "core/curve.h"
 #include "core/error.h"
-#include "core/flatten.h"
+#include "core/geometry/curve.h"
+#include "core/mesh/flatten.h"
 #include "scene/document.h"
+#include "scene/formats/scene_json.h"
 #include "scene/laid_surface.h"
-#include "scene/scene_json.h"
 #include "support/complaint.h"
 
 using namespace holomorph;

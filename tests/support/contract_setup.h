@@ -1,8 +1,8 @@
 // The rest and pose that the contract tests give every method.
 #pragma once
 
-#include "core/deformer.h"
-#include "core/mesher.h"
+#include "core/maps/deformer.h"
+#include "core/mesh/mesher.h"
 #include "support/shapes.h"
 
 namespace holomorph {

@@ -3,7 +3,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "core/cage.h"
+#include "core/geometry/cage.h"
 
 namespace holomorph::exact {
 

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <string>
 
-#include "scene/image.h"
+#include "scene/formats/image.h"
 
 namespace holomorph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/cage.h"
+#include "core/geometry/cage.h"
 
 namespace holomorph::shapes {
 

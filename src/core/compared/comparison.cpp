@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/bounded_reference.h"
+#include "core/bounded/bounded_reference.h"
 #include "core/clock.h"
 #include "core/compared/projections.h"
-#include "core/distortion.h"
 #include "core/error.h"
-#include "core/real_form.h"
+#include "core/maps/distortion.h"
+#include "core/solvers/real_form.h"
 
 namespace holomorph {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <stop_token>
 
-#include "core/certificate.h"
-#include "core/deformer.h"
+#include "core/bounded/certificate.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

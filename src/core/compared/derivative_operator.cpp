@@ -4,7 +4,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/error.h"
-#include "core/real_form.h"
+#include "core/solvers/real_form.h"
 
 namespace holomorph {
 namespace {

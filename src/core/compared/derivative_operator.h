@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "core/boundary_basis.h"
-#include "core/map_on_mesh.h"
+#include "core/bounded/map_on_mesh.h"
+#include "core/cauchy/boundary_basis.h"
 
 namespace holomorph {
 

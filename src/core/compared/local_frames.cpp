@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "core/compared/projections.h"
-#include "core/cone.h"
+#include "core/solvers/cone.h"
 
 namespace holomorph {
 namespace {

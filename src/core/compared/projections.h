@@ -7,7 +7,7 @@
 
 #include <stop_token>
 
-#include "core/certificate.h"
+#include "core/bounded/certificate.h"
 #include "core/compared/derivative_operator.h"
 
 namespace holomorph {

@@ -4,8 +4,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "core/cauchy.h"
-#include "core/hilbert.h"
+#include "core/angles/hilbert.h"
+#include "core/cauchy/cauchy.h"
 
 namespace holomorph {
 

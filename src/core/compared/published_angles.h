@@ -3,8 +3,8 @@
 // coordinates whose derivative comes near to exp(i H) (eq. 7).
 #pragma once
 
-#include "core/cage.h"
-#include "core/dense.h"
+#include "core/geometry/cage.h"
+#include "core/solvers/dense.h"
 
 namespace holomorph {
 

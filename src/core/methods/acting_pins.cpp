@@ -1,7 +1,7 @@
 // Pins outside the cage, or on the spot of an earlier one, are left out and named.
 #include "core/methods/acting_pins.h"
 
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 
 namespace holomorph {
 

@@ -1,7 +1,7 @@
 // Which pins of a rest a method can use, for methods whose maps end at the cage.
 #pragma once
 
-#include "core/deformer.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -3,8 +3,8 @@
 #include <numeric>
 #include <set>
 
-#include "core/angle_pins.h"
-#include "core/boundary_angles.h"
+#include "core/angles/angle_pins.h"
+#include "core/angles/boundary_angles.h"
 #include "core/compared/published_angles.h"
 #include "core/error.h"
 #include "core/methods/acting_pins.h"

@@ -5,15 +5,15 @@
 // along the mesh.
 #include <cstdio>
 
-#include "core/bounded_reference.h"
-#include "core/distortion.h"
+#include "core/bounded/bounded_reference.h"
+#include "core/bounded/psi_space.h"
 #include "core/error.h"
+#include "core/geometry/similarity.h"
+#include "core/maps/distortion.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
-#include "core/psi_space.h"
-#include "core/similarity.h"
 
 namespace holomorph {
 namespace {

@@ -1,8 +1,8 @@
 // A bounded map at points that are no mesh vertices: integrated from a vertex of their triangle.
 #pragma once
 
-#include "core/deformer.h"
-#include "core/path_integral.h"
+#include "core/bounded/path_integral.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

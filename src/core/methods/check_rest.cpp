@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
-#include "core/polyline.h"
+#include "core/geometry/polyline.h"
 
 namespace holomorph {
 namespace {

@@ -1,7 +1,7 @@
 // What a Rest must be for a method to prepare it.
 #pragma once
 
-#include "core/deformer.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -1,8 +1,8 @@
 // What methods that know nothing of cages hold on to: points of the rest and their places.
 #pragma once
 
-#include "core/deformer.h"
-#include "core/similarity.h"
+#include "core/geometry/similarity.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -2,7 +2,7 @@
 // Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
 //
 // A few hundred unknowns and no mesh in the energy: f_z = Phi' and f_zbar = conj(Psi') at samples.
-#include "core/boundary_basis.h"
+#include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
 #include "core/methods/handles.h"
 #include "core/methods/linear.h"

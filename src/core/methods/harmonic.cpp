@@ -2,11 +2,11 @@
 // control points' weights do, so that the cage's image is the posed cage itself.
 #include <algorithm>
 
-#include "core/cauchy.h"
-#include "core/hilbert.h"
+#include "core/angles/hilbert.h"
+#include "core/cauchy/cauchy.h"
+#include "core/geometry/polyline.h"
 #include "core/methods/real_coordinates.h"
 #include "core/methods/rows.h"
-#include "core/polyline.h"
 
 namespace holomorph {
 namespace {

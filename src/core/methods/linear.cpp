@@ -1,9 +1,9 @@
 // Products with the operator, and what cage operators are made of.
 #include "core/methods/linear.h"
 
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 #include "core/error.h"
-#include "core/polyline.h"
+#include "core/geometry/polyline.h"
 
 namespace holomorph {
 template <class T>

@@ -4,8 +4,8 @@
 // scales with the deformation, not with the picture.
 #pragma once
 
-#include "core/cauchy_map.h"
-#include "core/deformer.h"
+#include "core/cauchy/cauchy_map.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

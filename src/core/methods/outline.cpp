@@ -3,13 +3,13 @@
 #include <cstdio>
 #include <string>
 
-#include "core/cauchy_array.h"
-#include "core/cauchy_map.h"
+#include "core/cauchy/cauchy_array.h"
+#include "core/cauchy/cauchy_map.h"
 #include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
-#include "core/outline_match.h"
+#include "core/outline/outline_match.h"
 
 namespace holomorph {
 namespace {

@@ -1,7 +1,7 @@
 // Parameters of methods in the words of their tables.
 #pragma once
 
-#include "core/deformer.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

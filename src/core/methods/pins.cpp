@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "core/cauchy.h"
+#include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"

@@ -1,7 +1,7 @@
 // The rows of the table of methods, one function per file of this folder.
 #pragma once
 
-#include "core/deformer.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -6,15 +6,15 @@
 // minimized by alternating least squares. Without strokes it is method `pins`.
 #include <cstdio>
 
-#include "core/alternating_fit.h"
-#include "core/boundary_basis.h"
-#include "core/cauchy.h"
+#include "core/cauchy/boundary_basis.h"
+#include "core/cauchy/cauchy.h"
 #include "core/error.h"
+#include "core/geometry/polyline.h"
 #include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
-#include "core/polyline.h"
+#include "core/solvers/alternating_fit.h"
 
 namespace holomorph {
 namespace {

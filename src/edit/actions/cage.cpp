@@ -1,8 +1,8 @@
 // Menu Cage: the cage, and what the method does with it.
 #include "edit/actions/groups.h"
-#include "edit/corner_edits.h"
-#include "edit/curve_edits.h"
-#include "edit/tool.h"
+#include "edit/edits/corner_edits.h"
+#include "edit/edits/curve_edits.h"
+#include "edit/tools/tool.h"
 #include "scene/auto_cage.h"
 
 namespace holomorph {

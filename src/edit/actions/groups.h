@@ -1,7 +1,7 @@
 // What the files of the action table share.
 #pragma once
 
-#include "edit/actions.h"
+#include "edit/actions/actions.h"
 
 namespace holomorph {
 

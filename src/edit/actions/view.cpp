@@ -1,6 +1,6 @@
 // Menus View and Help.
 #include "edit/actions/groups.h"
-#include "edit/posed_corners.h"
+#include "edit/tools/posed_corners.h"
 
 namespace holomorph {
 namespace {

@@ -1,0 +1,155 @@
+// From the bottom to the top; the first one drawn clears the canvas.
+#include "app/canvas/canvas.h"
+
+#include <utility>
+
+namespace holomorph {
+namespace {
+
+/// Texture px per plane unit: a power of two, so that a box a pixel larger has the same.
+double texture_zoom(const Box& box) {
+  const double most = is_software_driver() ? 1024 : 2048;
+  return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
+}
+
+Frame frame_at(const Viewport& view, const CanvasFrame& at) {
+  Frame frame;
+  frame.window_width = at.window_width;
+  frame.window_height = at.window_height;
+  frame.canvas_left = view.left * at.ratio;
+  frame.canvas_top = view.top * at.ratio;
+  frame.canvas_width = view.width * at.ratio;
+  frame.canvas_height = view.height * at.ratio;
+  frame.center = view.center;
+  frame.zoom = view.zoom * at.ratio;
+  frame.background = at.background;
+  frame.backdrop = at.backdrop;
+  return frame;
+}
+
+/// What a background of one colour puts in place of the theme's.
+Color color_of(const Background& background) {
+  Color color;
+  for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;
+  return color;
+}
+
+}  // namespace
+
+Color onion_color(bool later) {
+  return later ? Color{0.35f, 0.67f, 1} : Color{1, 0.55f, 0.31f};
+}
+
+LayerPainter& Canvas::painter_of(const Scene& layer) {
+  std::unique_ptr<LayerPainter>& painter = painters_[layer.layer.id];
+  if (!painter) painter = std::make_unique<LayerPainter>(wake_);
+  return *painter;
+}
+
+void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
+  const int factor = painter_of(layer).take_picture(workspace.document.pictures().shared(layer));
+  if (painter_of(layer).grows()) wake_();
+  if (factor > 1)
+    workspace.say(
+        "The picture is larger than this driver's textures: the canvas shows it reduced " +
+        std::to_string(factor) + " times. Export uses all pixels.");
+}
+
+bool Canvas::make_room() {
+  for (auto& [id, painter] : painters_)
+    if (painter->make_room()) return true;
+  return false;
+}
+
+void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
+  if (std::exchange(forgets_, false)) painters_.clear();
+  std::erase_if(painters_, [&](const auto& entry) {
+    return layer_of_id(workspace.document.scene(), entry.first) ==
+           layer_count(workspace.document.scene());
+  });
+  const double split = workspace.split.value_or(0);
+  draw_part(workspace, at, split, 1, workspace.show_original);
+  if (split > 0) draw_part(workspace, at, 0, split, true);
+}
+
+void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
+                       bool original) {
+  const Scene& scene = workspace.document.scene();
+  // The views of a map are about the edited layer's, and so is its rest.
+  const bool alone = workspace.view != View::image || workspace.posture == Posture::rest;
+  Frame frame = frame_at(workspace.viewport, at);
+  frame.from = from;
+  frame.to = to;
+  // As in exports it is everywhere.
+  if (scene.background.kind == Background::Kind::color)
+    frame.background = frame.backdrop = color_of(scene.background);
+  edited_ = &painter_of(scene);
+  std::vector<const Scene*> drawn;
+  for (size_t i = 0; i < layer_count(scene); ++i) {
+    const Scene& layer = layer_at(scene, i);
+    if (&layer != &scene && (alone || !layer.layer.visible)) continue;
+    take_picture(workspace, layer);
+    if (&layer == &scene && !alone && !layer.layer.visible) continue;
+    painter_of(layer).take_map(workspace.maps.of(layer.layer.id),
+                               &layer == &scene ? workspace.view : View::image,
+                               workspace.automatic_range);
+    drawn.push_back(&layer);
+  }
+  const auto draw = [&](const Scene& layer, Frame drawing) {
+    painter_of(layer).draw(workspace.maps.of(layer.layer.id),
+                           &layer == &scene ? workspace.view : View::image, std::move(drawing));
+    frame.over = true;
+  };
+  if (drawn.empty()) {
+    frame.shows = Shows::nothing;
+    return draw(scene, frame);
+  }
+  if (scene.background.kind == Background::Kind::original && !alone) {
+    Frame as_it_was = frame;
+    as_it_was.shows = Shows::original;
+    for (const Scene* layer : drawn) {
+      draw(*layer, as_it_was);
+      as_it_was.over = true;
+    }
+  }
+  const std::vector<OnionSkin> skins = workspace.onion_skins();
+  for (const Scene* layer : drawn) {
+    Frame drawing = frame;
+    if (original || (layer == &scene && workspace.at_rest()))
+      drawing.placement = Placement::at_rest;
+    if (layer == &scene) {
+      drawing.wireframe = workspace.show_mesh;
+      for (const OnionSkin& skin : skins)
+        drawing.ghosts.push_back(
+            {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
+    }
+    draw(*layer, std::move(drawing));
+  }
+}
+
+Box Canvas::whole_pixels(const Box& box) {
+  const double zoom = texture_zoom(box), width = std::ceil(zoom * box.width() + 1) / zoom,
+               height = std::ceil(zoom * box.height() + 1) / zoom;
+  Box whole;
+  whole.include(box.center() - 0.5 * Complex(width, height));
+  whole.include(box.center() + 0.5 * Complex(width, height));
+  return whole;
+}
+
+void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay) {
+  Frame frame;
+  frame.zoom = texture_zoom(box);
+  frame.window_width = static_cast<int>(std::lround(frame.zoom * box.width()));
+  frame.window_height = static_cast<int>(std::lround(frame.zoom * box.height()));
+  frame.canvas_width = frame.window_width;
+  frame.canvas_height = frame.window_height;
+  frame.center = box.center();
+  frame.map_alone = true;
+  frame.background = {0, 0, 0};
+  frame.backdrop = clay;
+  into.bind(frame.window_width, frame.window_height);
+  painter_of(workspace.document.scene()).draw(workspace.map(), workspace.view, frame);
+  into.release();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,94 @@
+// Values are compared with what the renderer has: a preparation's number, a picture's address.
+#include "app/canvas/layer_painter.h"
+
+#include <utility>
+
+namespace holomorph {
+
+namespace {
+
+/// What takes no time that anyone could notice.
+constexpr size_t kSmallPixels = 1'500'000;
+constexpr size_t kBytesPerFrame = 8 << 20;
+
+}  // namespace
+
+int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
+  if (picture == picture_) {
+    grows_ = grows_ && renderer_.upload_more(kBytesPerFrame);
+    return std::exchange(factor_, 0);
+  }
+  picture_ = std::move(picture);
+  making_ready_.reset();
+  grows_ = false;
+  if (!picture_) return renderer_.set_picture(0, 0, nullptr);
+  if (static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height) <= kSmallPixels)
+    return renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
+  ready_ = std::make_shared<TextureLevels>();
+  making_ready_ = std::make_unique<Job>(
+      "Texture",
+      [picture = picture_, ready = ready_,
+       largest = Renderer::largest_side()](Job::Progress& progress) {
+        *ready = texture_levels(picture->width, picture->height, picture->pixels.data(), largest,
+                                [&] { return !progress.cancelled(); });
+      },
+      wake_);
+  return 0;
+}
+
+bool LayerPainter::make_room() {
+  if (!making_ready_ || !making_ready_->ended()) return false;
+  making_ready_.reset();
+  factor_ = ready_->factor;
+  renderer_.begin_picture(std::exchange(ready_, nullptr));
+  return grows_ = true;
+}
+
+void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {
+  if (!is_heat(view) || !map.has_map() || map.map().fz.size() == 0) {
+    heat_values_.resize(0);
+    return;
+  }
+  heat_values_ = holomorph::heat_values(view, distortion_of(map.map()));
+  heat_scale_ = holomorph::heat_scale(view, heat_values_, automatic_range);
+}
+
+void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range) {
+  update_heat(map, view, automatic_range);
+  if (!map.has_map()) {
+    renderer_.set_mesh(nullptr);
+    uploaded_ = 0;
+    return;
+  }
+  const bool timed = map.timed().has_value();
+  if (uploaded_ != map.preparation() || timed_ != timed) {
+    if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
+    // On a processor-driven OpenGL the shader's sum is the slower one; in-betweens are no sum.
+    by_operator_ = renderer_.set_operator(
+        is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
+    uploaded_ = map.preparation();
+    timed_ = timed;
+  }
+  if (mesh_ != map.drawn()) {  // other depths: the same vertices in another order
+    renderer_.set_triangles((mesh_ = map.drawn())->triangles);
+  }
+  if (by_operator_ && map.posed())
+    renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
+  renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
+  if (heat_values_.size() != map.map().f.size()) return;
+  Eigen::VectorXf shades(heat_values_.size());
+  for (Index i = 0; i < shades.size(); ++i)
+    shades[i] = static_cast<float>(heat_position(heat_scale_, heat_values_[i]));
+  renderer_.set_heat(shades);
+}
+
+void LayerPainter::draw(const LiveMap& map, View view, Frame frame) {
+  const bool shows_picture = !map.has_map() || (is_heat(view) && heat_values_.size() == 0);
+  frame.view = shows_picture ? View::image : view;
+  frame.diverging = heat_scale_.diverging;
+  if (frame.placement != Placement::at_rest)
+    frame.placement = by_operator_ ? Placement::by_operator : Placement::positions;
+  renderer_.draw(frame);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,220 @@
+// The picture is drawn flat into one texture, the surface with that texture into another, which
+// ImGui shows.
+#include "app/canvas/surface_pane.h"
+
+#include <imgui.h>
+
+#include "app/panels/panels.h"
+#include "core/error.h"
+#include "core/mesh/flatten.h"
+#include "scene/formats/outline_import.h"
+
+namespace holomorph {
+namespace {
+
+constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
+
+/// Whether the surface is not to be read before the user agrees.
+bool is_withheld(const Workspace& workspace) {
+  return workspace.document.pictures().withheld().contains(workspace.scene().surface->file);
+}
+
+/// The surface again from its file, its boundary where the outline is.
+void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
+  const Scene& scene = workspace.document.scene();
+  if (is_withheld(workspace)) return;
+  SurfaceReference surface = *scene.surface;
+  surface.flattening = how;
+  const auto outline = std::make_shared<Points>();
+  workspace.beside(
+      "Flattening " + Path(surface.file).filename().string(),
+      [outline, surface, how, onto = box_of(scene.outline)](Job::Progress&) {
+        *outline = outline_of_file(surface.file, 0, onto, how);
+      },
+      [&workspace, label, outline, surface] {
+        take_outline(workspace, label, std::move(*outline), surface);
+      });
+}
+
+/// When a file was last changed; the same for all that are missing.
+std::filesystem::file_time_type time_of(const Path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? std::filesystem::file_time_type::min() : time;
+}
+
+}  // namespace
+
+/// The file is read on another thread; until that has ended there is no surface.
+void SurfacePane::read(const Workspace& workspace) {
+  const Scene& scene = workspace.scene();
+  const bool withheld = is_withheld(workspace);
+  const auto time =
+      withheld ? std::filesystem::file_time_type::max() : time_of(scene.surface->file);
+  if (shown_ != scene.surface || time != read_) {
+    shown_ = scene.surface;
+    read_ = time;
+    flat_.reset();
+    laid_.reset();
+    problem_.clear();
+    fitted_ = 0;
+    outline_.clear();
+    if (reading_) {  // not waited for
+      reading_->cancel();
+      abandoned_.push_back(std::move(reading_));
+    }
+    found_ = std::make_shared<LaidSurface>();
+    if (withheld) {
+      problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
+      return;
+    }
+    reading_ = std::make_unique<Job>(
+        "Reading a surface",
+        [found = found_, reference = *shown_](Job::Progress&) {
+          found->surface = surface_of_obj(read_file(reference.file), reference.file).surface;
+          found->plane = flattened(found->surface, reference.flattening);
+        },
+        wake_);
+  }
+  std::erase_if(abandoned_, [](const auto& job) { return job->ended(); });
+  if (!reading_ || !reading_->ended()) return;
+  if (const auto error = reading_->error())
+    problem_ = std::string(about(shown_->file, *error).what()) +
+               ". The picture still goes onto its outline.";
+  else
+    flat_ = std::move(*found_);
+  reading_.reset();
+  if (flat_) drawing_->renderer.set_surface(flat_->surface);
+}
+
+void SurfacePane::follow(const Workspace& workspace) {
+  read(workspace);
+  const Scene& scene = workspace.scene();
+  if (!flat_ || outline_ == scene.outline) return;
+  outline_ = scene.outline;
+  laid_.reset();
+  problem_.clear();
+  try {
+    laid_ = laid_along(*flat_, outline_);
+    box_ = Canvas::whole_pixels(box_of(laid_->plane));
+    Points coordinates;
+    for (const Complex& z : laid_->plane)
+      coordinates.push_back(
+          {(z.real() - box_.left) / box_.width(), (z.imag() - box_.bottom) / box_.height()});
+    drawing_->renderer.set_coordinates(coordinates);
+  } catch (const Error&) {
+    problem_ = "The outline is not the surface's boundary: one of the two was changed.";
+  }
+}
+
+void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style) {
+  const Viewport& view = workspace.viewport;
+  const float s = static_cast<float>(style.scale);
+  const PanelSizes sizes = PanelSizes::at(style.scale);
+  const float left = static_cast<float>(view.left + view.width),
+              right = ImGui::GetIO().DisplaySize.x - static_cast<float>(sizes.inspector);
+  ImGui::SetNextWindowPos({left, static_cast<float>(view.top)});
+  ImGui::SetNextWindowSize({right - left, static_cast<float>(view.height)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 8 * s});
+  ImGui::Begin("Surface", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  hovered_ = false;
+  try {
+    if (!drawing_) drawing_ = std::make_unique<Drawing>();
+    follow(workspace);
+    draw_header(workspace, s);
+    if (flat_) draw_surface(workspace, canvas, style);
+  } catch (const Error& error) {  // of the driver: the rest of the window does without
+    ImGui::TextWrapped("%s", error.what());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void SurfacePane::draw_header(Workspace& workspace, float scale) {
+  const std::string name = Path(shown_->file).filename().string();
+  const float button = ImGui::GetFrameHeight(), combo = 140 * scale, gap = 8 * scale,
+              right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - button;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name.c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
+  // In a narrow pane the choice has a row of its own.
+  const bool one_row = ImGui::CalcTextSize(name.c_str()).x + combo + 2 * gap < right;
+  if (one_row) {
+    ImGui::SameLine(right - combo - gap);
+    choose_flattening(workspace, combo);
+  }
+  ImGui::SameLine(right);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
+  if (ImGui::Button("\uf00d", {button, 0})) run(action_named("view.surface"), workspace);
+  ImGui::PopStyleVar();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
+  if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
+  if (reading_) ImGui::TextDisabled("Reading the surface...");
+  if (problem_.empty()) return;
+  ImGui::TextWrapped("%s", problem_.c_str());
+  if (is_withheld(workspace) && ImGui::Button("Show it..."))
+    workspace.request = Request::show_withheld;
+  if (flat_ && ImGui::Button("Lay it out again"))
+    lay_out(workspace, "Lay out surface", shown_->flattening);
+}
+
+void SurfacePane::choose_flattening(Workspace& workspace, float width) {
+  ImGui::SetNextItemWidth(width);
+  if (begin_combo("##flattening", kFlattenings[static_cast<size_t>(shown_->flattening)])) {
+    for (const Flattening how : {Flattening::lscm, Flattening::circle})
+      if (ImGui::Selectable(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
+          how != shown_->flattening)
+        lay_out(workspace, "Flatten surface", how);
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "How the surface is flattened: its boundary finds its own shape, or is a circle");
+}
+
+void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
+                               const OverlayStyle& style) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  if (room.x < 1 || room.y < 1) return;
+  const double aspect = room.x / room.y;
+  if (fitted_ == 0 || (fitted_ != aspect && !moved_)) {
+    camera_ = OrbitCamera::around(flat_->surface, aspect);
+    fitted_ = aspect;
+    moved_ = false;
+  }
+  const Color clay{0.72f, 0.70f, 0.67f};
+  if (laid_) canvas.draw_map(workspace, box_, drawing_->flat, clay);
+  // Twice the pixels each way, which the display averages.
+  const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
+  drawing_->space.bind(width, height);
+  drawing_->renderer.draw({width, height, camera_.to_view(), camera_.to_clip(aspect),
+                           laid_ && workspace.map().has_map() ? drawing_->flat.texture() : 0,
+                           style.colors.canvas, clay});
+  drawing_->space.release();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("space", room,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::GetWindowDrawList()->AddImage(
+      reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(drawing_->space.texture())), corner,
+      {corner.x + room.x, corner.y + room.y}, {0, 1}, {1, 0});
+  hovered_ = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  navigate(room.y);
+}
+
+void SurfacePane::navigate(float height) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Complex delta(io.MouseDelta.x, io.MouseDelta.y);
+  const OrbitCamera before = camera_;
+  if (ImGui::IsItemActive()) {
+    if (ImGui::IsMouseDown(0) && !io.KeyShift)
+      camera_.turn_px(delta, height);
+    else
+      camera_.pan_px(delta, height);
+  }
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera_.zoom(std::pow(1.15, io.MouseWheel));
+  moved_ = moved_ || camera_ != before;
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) fitted_ = 0;
+}
+
+}  // namespace holomorph

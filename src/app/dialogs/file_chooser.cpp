@@ -1,0 +1,120 @@
+// The desktop's dialog is a program of its own (zenity or kdialog), so that this one needs no
+// toolkit, and a desktop's dialog cannot take it down.
+#include "app/dialogs/file_chooser.h"
+
+#include <imgui.h>
+
+#include <utility>
+
+#include "scene/formats/image.h"
+#include "system/process.h"
+
+namespace holomorph {
+namespace {
+
+/// "*.png *.PNG".
+std::string patterns(const std::vector<std::string>& extensions) {
+  std::string text;
+  for (const std::string& extension : extensions) {
+    std::string upper = extension;
+    for (char& c : upper)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    text += (text.empty() ? "*" : " *") + extension + " *" + upper;
+  }
+  return text;
+}
+
+/// The command of the desktop's dialog; empty where there is none.
+std::vector<std::string> native_command(const FileQuestion& question, const Path& start) {
+  const bool saves = question.mode == FileQuestion::Mode::save;
+  if (has_program("zenity")) {
+    std::vector<std::string> words{"zenity",
+                                   "--file-selection",
+                                   "--title=" + question.title,
+                                   "--filename=" + start.string(),
+                                   "--file-filter=Known kinds | " + patterns(question.extensions),
+                                   "--file-filter=All files | *"};
+    if (saves) words.insert(words.end(), {"--save", "--confirm-overwrite"});
+    return words;
+  }
+  if (has_program("kdialog"))
+    return {"kdialog",      "--title",
+            question.title, saves ? "--getsavefilename" : "--getopenfilename",
+            start.string(), patterns(question.extensions)};
+  return {};
+}
+
+}  // namespace
+
+void FileChooser::ask(FileQuestion question, Answer answer) {
+  Path start = question.start.empty() ? folder() / "" : question.start;
+  const std::vector<std::string> command = uses_native_ && !question.asks_scale
+                                               ? native_command(question, start)
+                                               : std::vector<std::string>();
+  if (command.empty()) return browser_.ask(std::move(question), std::move(answer));
+  question_ = std::move(question);
+  answer_ = std::move(answer);
+  chosen_ = std::make_shared<std::string>();
+  native_ = std::make_unique<Job>(
+      question_.title,
+      [command, chosen = chosen_](Job::Progress& progress) {
+        const auto finished = run_program(command, "", [&] { return !progress.cancelled(); });
+        if (!finished || finished->status != 0) return;
+        *chosen = finished->output.substr(0, finished->output.find('\n'));
+      },
+      wake_);
+}
+
+/// What the desktop's dialog said. What it does not ask, the browser does: whether to replace a
+/// file whose extension was added, and what to do where the answer cannot be used.
+void FileChooser::take_native() {
+  native_.reset();
+  if (chosen_->empty()) return;
+  // The answer may ask another question.
+  FileQuestion question = std::move(question_);
+  const Answer answer = std::move(answer_);
+  Path path = *chosen_;
+  std::error_code error;
+  const bool saves = question.mode == FileQuestion::Mode::save;
+  const std::string kind = format_extension(path);
+  const bool known = std::find(question.extensions.begin(), question.extensions.end(), kind) !=
+                     question.extensions.end();
+  bool asks = false;
+  if (saves && !known) {
+    path += question.extensions[0];
+    asks = std::filesystem::exists(path, error);
+  }
+  if (saves && question.writes && question.writes(path) != std::vector{path}) asks = true;
+  std::string problem;
+  if (!asks) {
+    browser_.start_in(path.parent_path());
+    problem = answer(path, 1);
+    if (problem.empty() || open()) return;
+  }
+  question.start = path;
+  browser_.ask(question, answer);
+  browser_.say(problem);
+}
+
+void FileChooser::draw(double scale) {
+  if (!native_) return browser_.draw(scale);
+  // The window goes on drawing, but what is behind the desktop's dialog must wait for it.
+  ImGui::OpenPopup("###native");
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal("Another window asks for a file###native", nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+    return;
+  ImGui::TextUnformatted(question_.title.c_str());
+  const bool cancelled = ImGui::Button("Cancel", {120 * static_cast<float>(scale), 0}) ||
+                         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)),
+             ended = native_->ended();
+  if (cancelled || ended) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  if (cancelled)
+    native_.reset();
+  else if (ended)
+    take_native();
+}
+
+}  // namespace holomorph

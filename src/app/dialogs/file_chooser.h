@@ -1,0 +1,48 @@
+// Where the user says which file: the desktop's own dialog where there is one, the browser in this
+// window otherwise.
+#pragma once
+
+#include <memory>
+
+#include "app/dialogs/file_dialog.h"
+#include "system/job.h"
+
+namespace holomorph {
+
+/// Asks one question at a time; the answer comes through the callback, once.
+class FileChooser {
+ public:
+  using Answer = FileDialog::Answer;
+
+  /// `wake` is called on another thread when the desktop's dialog was answered.
+  explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// Questions that ask more than a file are always asked in this window.
+  void ask(FileQuestion question, Answer answer);
+  /// The usual question for a file to read. The answer returns what is wrong with it, or "".
+  void ask_open(const std::string& title, const std::string& button,
+                std::vector<std::string> extensions,
+                std::function<std::string(const Path&)> answer) {
+    ask({FileQuestion::Mode::open, title, button, std::move(extensions), {}, false},
+        [answer = std::move(answer)](const Path& path, double) { return answer(path); });
+  }
+  void start_in(const Path& folder) { browser_.start_in(folder); }
+  const Path& folder() const { return browser_.folder(); }
+  bool open() const { return browser_.open() || native_; }
+  void draw(double scale);
+  /// Whether to use the desktop's dialogs.
+  void use_native(bool use) { uses_native_ = use; }
+
+ private:
+  void take_native();
+
+  FileDialog browser_;
+  std::function<void()> wake_;
+  bool uses_native_ = true;
+  FileQuestion question_;
+  Answer answer_;
+  std::shared_ptr<std::string> chosen_;
+  std::unique_ptr<Job> native_;
+};
+
+}  // namespace holomorph

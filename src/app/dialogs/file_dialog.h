@@ -1,0 +1,60 @@
+// A file browser inside the window.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "system/file.h"
+
+namespace holomorph {
+
+/// What a dialog is asked for.
+struct FileQuestion {
+  enum class Mode { open, save } mode = Mode::open;
+  std::string title, button;
+  std::vector<std::string> extensions;  ///< lower case with the dot; the first is added when saving
+  Path start;                           ///< a folder or a file; empty: the last folder
+  bool asks_scale = false;              ///< also a scale, for pictures
+  /// What saving as this writes, where that is not the path itself.
+  std::function<std::vector<Path>(const Path&)> writes = {};
+};
+
+/// Shows one question at a time; the answer comes through the callback, once.
+class FileDialog {
+ public:
+  /// Does what was asked for; returns what is wrong, and the dialog stays open, or "".
+  using Answer = std::function<std::string(const Path& path, double scale)>;
+
+  void ask(FileQuestion question, Answer answer);
+  /// Where questions without a start begin from now on.
+  void start_in(const Path& folder) { folder_ = folder; }
+  const Path& folder() const { return folder_; }
+  bool open() const { return open_; }
+  /// What is shown below the name, such as why the last answer could not be used.
+  void say(const std::string& message) { message_ = message; }
+  /// Draws the dialog while it is open.
+  void draw(double scale);
+
+ private:
+  void enter(const Path& folder);
+  void accept(const Path& path);
+  std::vector<Path> files_there(const Path& path) const;
+  bool shows(const Path& path) const;
+
+  FileQuestion question_;
+  Answer answer_;
+  unsigned questions_ = 0;  ///< asked so far
+  bool open_ = false, opening_ = false, confirming_ = false, focus_ = false;
+  Path folder_;
+  std::string name_, message_;
+  double picture_scale_ = 1;
+  struct Item {
+    Path path;
+    bool folder;
+  };
+  std::vector<Item> items_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,193 @@
+// A row for each action of the table; a click on its keys waits for others.
+#include "app/dialogs/keys_window.h"
+
+#include <imgui.h>
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/panels/panels.h"
+
+namespace holomorph {
+namespace {
+
+void wrapped_cell(const std::string& text) {
+  ImGui::TableNextColumn();
+  wrapped_text(text);
+}
+
+}  // namespace
+
+void KeysWindow::assign(const std::vector<Shortcut>& keys) {
+  say_lost(set_keys(waiting_, keys));
+  stop_waiting();
+}
+
+void KeysWindow::stop_waiting() {
+  waiting_.clear();
+  asked_.reset();
+}
+
+void KeysWindow::say_lost(const std::vector<std::string>& labels) {
+  for (const std::string& label : labels) workspace_.say("'" + label + "' has lost this key.");
+  changed_();
+}
+
+void KeysWindow::take(const Shortcut& key) {
+  if (key == Shortcut(Key::escape)) return stop_waiting();
+  if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
+  const Action* owner = owner_of(key);
+  if (owner && owner->id != waiting_ && asked_ != key) {
+    asked_ = key;
+    return;
+  }
+  std::vector<Shortcut> keys;
+  if (adds_) keys = action_named(waiting_).keys;
+  keys.push_back(key);
+  assign(keys);
+}
+
+void KeysWindow::export_keys() {
+  stop_waiting();
+  chooser_.ask({FileQuestion::Mode::save,
+                "Export the keys",
+                "Export",
+                {".json", ".md"},
+                Path("holomorph-keys.json"),
+                false},
+               [this](const Path& path, double) -> std::string {
+                 try {
+                   check_not_read_only(path);
+                   write_file(path, lower_case(path.extension().string()) == ".md"
+                                        ? keys_markdown()
+                                        : json_of_keys(all_keys()));
+                   workspace_.say("Exported " + path.filename().string() + ".");
+                 } catch (const Error& error) {
+                   return error.what();
+                 }
+                 return "";
+               });
+}
+
+void KeysWindow::import_keys() {
+  stop_waiting();
+  chooser_.ask_open("Import keys", "Open", {".json"}, [this](const Path& path) -> std::string {
+    try {
+      const auto unknown = use_keys(keys_of_json(read_file(path), path.filename().string()));
+      if (!unknown.empty())
+        workspace_.say(
+            "Not known here and left out: " + unknown[0] +
+            (unknown.size() > 1 ? " and " + std::to_string(unknown.size() - 1) + " more." : "."));
+      changed_();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  });
+}
+
+void KeysWindow::draw_row(const Action& action, float s) {
+  ImGui::TableNextRow();
+  ImGui::PushID(action.id.c_str());
+  ImGui::TableNextColumn();
+  const bool waits = waiting_ == action.id;
+  const std::string keys = !waits   ? action.keys.empty() ? "none" : keys_text(action)
+                             : asked_ ? text_of(*asked_) + " again to take it from another"
+                                    : "Press a key; Del none, Esc cancels";
+  if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
+    stop_waiting();
+    if (!waits) waiting_ = action.id;
+    adds_ = ImGui::GetIO().KeyShift;
+  }
+  if (has_own_keys(action)) {
+    ImGui::SameLine(0, 4 * s);
+    if (ImGui::Button("\uf0e2", {30 * s, 0})) {
+      stop_waiting();
+      say_lost(reset_keys(action.id));
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
+  }
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  const Action* owner = waits && asked_ ? owner_of(*asked_) : nullptr;
+  wrapped_text(owner ? "'" + owner->label + "' has this key" : action.label);
+  ImGui::PopID();
+}
+
+bool KeysWindow::draw_keys(float s) {
+  const auto is_found = [&](const Action& action) {
+    return has_words(action.label + " " + keys_text(action), search_);
+  };
+  if (std::ranges::none_of(actions(), is_found)) return false;
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return true;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  for (const Action& action : actions())
+    if (is_found(action)) draw_row(action, s);
+  ImGui::EndTable();
+  return true;
+}
+
+bool KeysWindow::draw_gestures(float s) {
+  const auto is_found = [&](const Gesture& gesture) {
+    return has_words(std::string(gesture.what) + " " + gesture.does, search_);
+  };
+  if (std::ranges::none_of(gestures(), is_found)) return false;
+  ImGui::Dummy({0, 8 * s});
+  ImGui::TextDisabled("Mouse");
+  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_RowBg)) return true;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  for (const Gesture& gesture : gestures()) {
+    if (!is_found(gesture)) continue;
+    ImGui::TableNextRow();
+    wrapped_cell(gesture.what);
+    wrapped_cell(gesture.does);
+  }
+  ImGui::EndTable();
+  return true;
+}
+
+void KeysWindow::draw(double scale) {
+  if (!open_ || chooser_.open()) return;
+  const float s = static_cast<float>(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(800 * s, display.x - 20), std::min(640 * s, display.y - 40)});
+  ImGui::Begin(
+      "Keys and mouse", &open_,
+      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
+  if (std::exchange(opening_, false)) {
+    ImGui::SetWindowFocus();
+    ImGui::SetKeyboardFocusHere();
+  }
+  ImGui::SetNextItemWidth(-340 * s);
+  ImGui::InputTextWithHint("##search", "Search keys and what they do", &search_);
+  if (ImGui::IsItemActive()) stop_waiting();  // what is typed is no key
+  ImGui::SameLine();
+  if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
+  ImGui::SameLine();
+  if (ImGui::Button("Import...", {100 * s, 0})) import_keys();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(changed_keys().empty());
+  if (ImGui::Button("Reset all", {-1, 0})) {
+    stop_waiting();
+    use_keys({});
+    changed_();
+  }
+  ImGui::EndDisabled();
+  begin_part("rows");
+  ImGui::TextDisabled("Click a key to change it; Shift-click adds one.");
+  const bool any = draw_keys(s), more = draw_gestures(s);
+  if (!any && !more) ImGui::TextDisabled("Nothing is called that.");
+  ImGui::EndChild();
+  const bool escaped = escape_pressed() && !was_waiting_;
+  was_waiting_ = waits_for_key();
+  if (escaped) open_ = false;
+  if (!open_) stop_waiting();
+  ImGui::End();
+}
+
+}  // namespace holomorph

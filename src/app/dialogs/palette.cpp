@@ -1,0 +1,135 @@
+// Up and Down choose, Enter runs, and what cannot be done now is grey.
+#include "app/dialogs/palette.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "edit/edits/edits.h"
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+namespace holomorph {
+namespace {
+
+struct Row {
+  std::string label, keys;
+  std::string found_by = {};  ///< besides its label
+  bool enabled = true, checked = false;
+  std::function<void()> run;
+};
+
+/// What the method can be: scenes are made when a row is run.
+void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
+  const Scene& scene = workspace.scene();
+  const Method& method = method_named(scene.method);
+  const auto add = [&](const std::string& label, bool is, std::function<void(Scene&)> change) {
+    rows.push_back({label, "", "", scene.has_cage(), is, [&workspace, label, change] {
+                      Scene after = workspace.scene();
+                      change(after);
+                      workspace.commit(label, std::move(after));
+                    }});
+  };
+  for (const Method& other : methods())
+    add("Method: " + other.label, other.id == method.id,
+        [id = other.id](Scene& after) { after = with_method(std::move(after), id); });
+  for (const Preset& preset : method.presets) {
+    const bool is = std::ranges::all_of(preset.parameters, [&](const auto& entry) {
+      return parameter(method, scene.parameters, entry.first) == entry.second;
+    });
+    add("Preset: " + preset.label, is,
+        [preset](Scene& after) { after = with_preset(std::move(after), preset); });
+  }
+  for (const ParameterSpec& spec : method.parameters) {
+    std::vector<std::string> names;
+    if (spec.kind == ParameterSpec::Kind::toggle) names = {"off", "on"};
+    if (spec.kind == ParameterSpec::Kind::choice)
+      for (const auto& option : spec.options) names.push_back(option.label);
+    for (size_t i = 0; i < names.size(); ++i) {
+      const double value = static_cast<double>(i);
+      add(spec.label + ": " + names[i], parameter(method, scene.parameters, spec.key) == value,
+          [key = spec.key, value](Scene& after) { after.parameters[key] = value; });
+    }
+  }
+}
+
+std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAnswer& answer) {
+  std::vector<Row> rows;
+  for (const Action& action : actions())
+    if (action.run)
+      rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
+                      action.id + " " + action.menu, action.enabled(workspace),
+                      action.checked && action.checked(workspace),
+                      [&, id = action.id] { run(action_named(id), workspace); }});
+  add_method_rows(workspace, rows);
+  for (const Look& look : looks(preferences))
+    rows.push_back(
+        {look.group + ": " + look.label, "", "", true, look.preferences == preferences, [&, look] {
+           preferences = look.preferences;
+           answer.style_changed = true;
+         }});
+  return rows;
+}
+
+}  // namespace
+
+void Palette::show() {
+  open_ = opening_ = true;
+  text_.clear();
+  chosen_ = 0;
+}
+
+PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double scale) {
+  PanelAnswer answer;
+  if (!open_) return answer;
+  const float s = static_cast<float>(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, 80 * s}, ImGuiCond_Always, {0.5f, 0.0f});
+  ImGui::SetNextWindowSize(
+      {std::min(560 * s, display.x - 40), std::min(400 * s, display.y - 120 * s)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::Begin("Find an action", nullptr, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar();
+  if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text_,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) chosen_ = 0;
+  std::vector<Row> rows = rows_of(workspace, preferences, answer);
+  std::erase_if(rows,
+                [&](const Row& row) { return !has_words(row.label + " " + row.found_by, text_); });
+  // What can be done now comes first.
+  std::stable_partition(rows.begin(), rows.end(), [](const Row& row) { return row.enabled; });
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+  const int step = pressed(ImGuiKey_DownArrow) ? 1 : pressed(ImGuiKey_UpArrow) ? -1 : 0;
+  chosen_ = std::clamp(chosen_ + step, 0, std::max(0, static_cast<int>(rows.size()) - 1));
+  const Row* run = nullptr;
+  ImGui::BeginChild("rows");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    const bool chosen = static_cast<int>(i) == chosen_;
+    ImGui::BeginDisabled(!row.enabled);
+    ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
+    ImGui::TextUnformatted("\uf00c");  // the sign of what is on, and its room
+    ImGui::PopStyleColor();
+    ImGui::SameLine(24 * s);
+    if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;
+    ImGui::EndDisabled();
+    if (chosen && step != 0) ImGui::SetScrollHereY();
+    if (chosen && entered && row.enabled) run = &row;
+    if (row.keys.empty()) continue;
+    ImGui::SameLine(ImGui::GetWindowWidth() - 150 * s);
+    ImGui::TextDisabled("%s", row.keys.c_str());
+  }
+  if (rows.empty()) ImGui::TextDisabled("Nothing is called that.");
+  ImGui::EndChild();
+  const bool left =
+      pressed(ImGuiKey_Escape) ||
+      (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
+  ImGui::End();
+  open_ = !run && !left;
+  opening_ = open_ && entered;  // nothing was run: the field goes on taking what is typed
+  if (run) run->run();
+  return answer;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,62 @@
+// What is offered over the canvas while something is missing: a cage, a picture.
+#include <algorithm>
+
+#include "app/panels/panels.h"
+
+namespace holomorph {
+
+void draw_missing_picture(Workspace& workspace, double scale, float above) {
+  const std::vector<size_t> missing = workspace.document.without_picture();
+  if (missing.empty()) return;
+  const Path file = layer_at(workspace.document.scene(), missing.front()).image->file;
+  const float s = static_cast<float>(scale);
+  const Viewport& view = workspace.viewport;
+  const float bottom = static_cast<float>(view.top + view.height) - std::max(24 * s, above);
+  begin_card("Missing picture", {static_cast<float>(view.left + view.width / 2), bottom},
+             {0.5f, 1.0f}, scale);
+  const std::string others =
+      missing.size() > 1 ? ", and " + std::to_string(missing.size() - 1) + " more" : "";
+  const bool withheld = workspace.document.pictures().withheld().contains(file.string());
+  ImGui::Text("\uf071  %s %s%s", file.filename().c_str(),
+              withheld ? "is not in the scene's folder" : "could not be read", others.c_str());
+  ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
+  ImGui::TextDisabled(withheld ? "Hidden until you allow it: %s" : "The scene looks for it in %s.",
+                      withheld ? file.c_str() : file.parent_path().c_str());
+  ImGui::PopTextWrapPos();
+  if (withheld) {
+    if (ImGui::Button("Show it...")) workspace.request = Request::show_withheld;
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
+  end_card();
+}
+
+float draw_cage_offer(Workspace& workspace, double scale) {
+  if (!workspace.document.image() || workspace.scene().has_cage()) return 0;
+  const float s = static_cast<float>(scale);
+  const Viewport& view = workspace.viewport;
+  begin_card("Cage offer",
+             {static_cast<float>(view.left + view.width / 2),
+              static_cast<float>(view.top + view.height) - 24 * s},
+             {0.5f, 1.0f}, scale);
+  ImGui::TextUnformatted("This picture needs a cage before it can bend.");
+  // Beside each other where there is room.
+  const bool row = view.width > 600 * scale;
+  const auto button = [&](const char* face, const char* id) {
+    if (ImGui::Button(face, {190 * s, 0})) run(action_named(id), workspace);
+    tooltip_of(id);
+    if (row) ImGui::SameLine();
+  };
+  button("\uf0d0  Make from picture", "cage.from_picture");
+  button("\uf040  Draw it", "tool.pen");
+  button("\uf047  Only move and scale", "cage.box");
+  if (row) ImGui::NewLine();
+  points_slider(workspace, 190 * s);
+  ImGui::SameLine();
+  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+  const float height = ImGui::GetWindowHeight();
+  end_card();
+  return height + 32 * s;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,54 @@
+// What is done is read off the document, so that no step can be forgotten or done twice.
+#include "app/panels/hints.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/panels/panels.h"
+
+namespace holomorph {
+
+bool draw_hints(const Workspace& workspace, bool kept, double scale) {
+  const Scene& scene = workspace.document.scene();
+  const History& history = workspace.document.history();
+  const bool caged = scene.has_cage(),
+             bent = caged && history.can_undo() &&
+                    whole_pose_of(scene) != whole_pose_of(history.entries()[0].scene) &&
+                    (whole_pose_of(scene) != whole_pose_of(at_rest(scene)));
+  struct Step {
+    bool done;
+    const char* what;
+    std::string how;
+  };
+  const Step steps[] = {
+      {caged, "Put a cage around the picture",
+       "Make it from the picture, or draw it with " + key_of("tool.pen")},
+      {bent, "Bend it",
+       "Drag the cage's points with " + key_of("tool.select") + "; " + key_of("tool.pin") +
+           " sets pins to drag"},
+      {bent && kept, "Keep it",
+       key_of("file.save") + " saves the scene, " + key_of("file.export") + " exports a picture"}};
+  const float s = static_cast<float>(scale);
+  const Viewport& view = workspace.viewport;
+  begin_card("First steps",
+             {static_cast<float>(view.left) + 12 * s, static_cast<float>(view.top) + 12 * s},
+             {0, 0}, scale);
+  ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
+  const Step* next = std::ranges::find(steps, false, &Step::done);  // one at a time
+  const bool all = next == std::end(steps);
+  if (!all) {
+    ImGui::Text("%d of %d   %s", static_cast<int>(next - steps) + 1,
+                static_cast<int>(std::size(steps)), next->what);
+    ImGui::TextDisabled("%s", next->how.c_str());
+  } else {
+    const std::string done = "\uf00c  That is all. " + key_of("help.keys") + " shows all keys, " +
+                             key_of("help.palette") + " finds everything.";
+    ImGui::TextWrapped("%s", done.c_str());
+  }
+  ImGui::PopTextWrapPos();
+  const bool closed = ImGui::SmallButton(all ? "Done" : "Do not show this again");
+  end_card();
+  return !closed;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,396 @@
+// The panel on the right: method, selection, cage, heat map, history.
+#include <utility>
+
+#include "app/panels/layer_panel.h"
+#include "app/panels/map_panel.h"
+#include "app/panels/panels.h"
+#include "edit/edits/corner_edits.h"
+#include "edit/edits/curve_edits.h"
+#include "edit/tools/transform_box.h"
+#include "scene/auto_cage.h"
+
+namespace holomorph {
+namespace {
+
+/// A value that previews while it is dragged and commits when it is let go: one step a drag.
+template <class Edit>
+void edit_number(const char* label, double value, const char* format, float speed,
+                 Workspace& workspace, const char* step, Edit edit) {
+  double number = value;
+  const bool changed =
+      ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
+  if (changed && std::isfinite(number)) workspace.preview = edit(workspace.unedited(), number);
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+    workspace.commit(step, *workspace.preview);
+}
+
+void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec& spec,
+                  size_t chosen) {
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.72f);
+  if (!begin_combo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
+  for (size_t i = 0; i < spec.options.size(); ++i)
+    if (ImGui::Selectable(spec.options[i].label.c_str(), i == chosen)) {
+      Scene after = scene;
+      after.parameters[spec.key] = static_cast<double>(i);
+      workspace.commit(spec.label + ": " + spec.options[i].label, after);
+    }
+  ImGui::EndCombo();
+}
+
+bool number_slider(const ParameterSpec& spec, double& value) {
+  // A logarithmic slider ends where its format has no more decimals.
+  const char* format = spec.logarithmic ? "%.9g" : "%.4g";
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (!ImGui::SliderScalar(
+          spec.label.c_str(), ImGuiDataType_Double, &value, &spec.lowest, &spec.highest, format,
+          ImGuiSliderFlags_AlwaysClamp | (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+    return false;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  value = std::clamp(std::strtod(text, nullptr), spec.lowest, spec.highest);
+  return true;
+}
+
+/// A button for each preset; the one that is set is pressed in.
+void preset_buttons(Workspace& workspace, const Scene& scene, const Method& method) {
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  for (const Preset& preset : method.presets) {
+    const Scene after = with_preset(scene, preset);
+    const float width =
+        ImGui::CalcTextSize(preset.label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (&preset != &method.presets.front()) {
+      ImGui::SameLine(0, 4);
+      if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
+    }
+    const bool is_set = after.parameters == scene.parameters;
+    if (is_set)
+      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (ImGui::Button(preset.label.c_str())) workspace.commit(preset.label, after);
+    if (is_set) ImGui::PopStyleColor();
+  }
+}
+
+void method_section(Workspace& workspace) {
+  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
+  const Method& method = method_named(scene.method);
+  ImGui::SetNextItemWidth(-1);
+  if (begin_combo("##method", method.label.c_str())) {
+    for (const Method& row : methods()) {
+      if (ImGui::Selectable(row.label.c_str(), row.id == method.id))
+        workspace.commit("Method: " + row.label, with_method(scene, row.id));
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
+    }
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", method.hint.c_str());
+  preset_buttons(workspace, scene, method);
+  for (const ParameterSpec& spec : method.parameters) {
+    const double value = parameter(method, scene.parameters, spec.key);
+    if (spec.kind == ParameterSpec::Kind::choice) {
+      choice_combo(workspace, scene, spec, static_cast<size_t>(value));
+    } else if (spec.kind == ParameterSpec::Kind::toggle) {
+      bool on = value != 0;
+      if (ImGui::Checkbox(spec.label.c_str(), &on)) {
+        Scene after = scene;
+        after.parameters[spec.key] = on ? 1 : 0;
+        workspace.commit(spec.label, after);
+      }
+    } else {
+      ImGui::BeginDisabled(!is_used(method, scene.parameters, spec));
+      double number = value;
+      if (number_slider(spec, number)) {
+        Scene after = workspace.unedited();
+        after.parameters[spec.key] = number;
+        workspace.preview = after;
+      }
+      if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+        workspace.commit(spec.label, *workspace.preview);
+      ImGui::EndDisabled();
+    }
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", spec.hint.c_str());
+  }
+  if (workspace.map().has_map() && !workspace.map().map().note.empty())
+    wrapped_text(workspace.map().map().note);
+}
+
+/// A corner's own angles, and the tension of the edge behind it.
+void corner_angles(Workspace& workspace, Index vertex) {
+  const Scene scene = workspace.scene();
+  if (!follows(scene, "angles") || workspace.posture == Posture::rest) return;
+  if (!is_corner(scene, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
+  const PoseCorner pose = corner_at(scene, vertex);
+  const double turn = (pose.before + pose.after) / 2, opening = corner_opening(scene, vertex);
+  const auto edit = [&](const char* label, double radians, const char* step, auto change) {
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+    edit_number(label, radians * 180 / kPi, "%.1f", 0.5f, workspace, step,
+                [&](const Scene& s, double degrees) { return change(s, degrees * kPi / 180); });
+  };
+  edit("degrees turned", turn, "Turn corner", [&](const Scene& s, double angle) {
+    const PoseCorner now = corner_at(s, vertex);
+    return corner_turned(s, vertex, angle - (now.before + now.after) / 2);
+  });
+  edit("degrees opened", opening, "Open corner", [&](const Scene& s, double angle) {
+    return corner_opened(s, vertex, (angle - corner_opening(s, vertex)) / 2);
+  });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("tension after it", pose.tension, "%.2f", 0.01f, workspace, "Tension",
+              [&](const Scene& s, double tension) { return with_tension(s, vertex, tension); });
+}
+
+void one_handle(Workspace& workspace, Handle handle) {
+  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
+  const Posture posture = workspace.posture;
+  const Complex z = position_of(scene, handle, posture);
+  const bool pin = handle.kind == Handle::Kind::pin;
+  ImGui::Text("%s %d, %s",
+              pin                                       ? "Pin"
+              : handle.kind == Handle::Kind::stroke     ? "Stroke"
+              : handle.control > 0                      ? "Curve point of segment"
+              : is_smooth(scene, handle.index, posture) ? "Smooth cage point"
+                                                        : "Cage point",
+              static_cast<int>(handle.index) + 1, posture == Posture::rest ? "at rest" : "posed");
+  const float speed = static_cast<float>(1 / workspace.viewport.zoom);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
+    return placed(s, handle, {x, position_of(s, handle, posture).imag()}, posture);
+  });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
+    return placed(s, handle, {position_of(s, handle, posture).real(), y}, posture);
+  });
+  if (handle.kind == Handle::Kind::stroke) return;
+  if (!pin) {
+    ImGui::Text("Segment of degree %d", cage_of(scene, posture).degree(handle.index));
+    for (const char* id : {"cage.raise", "cage.lower"}) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
+        run(action_named(id), workspace);
+    }
+    if (handle.control == 0) corner_angles(workspace, handle.index);
+    return;
+  }
+  int depth = scene.pins[handle.index].depth;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (ImGui::InputInt("depth", &depth)) {
+    Scene after = scene;
+    after.pins[handle.index].depth = std::clamp(depth, -kMostDepth, kMostDepth);
+    workspace.commit_or_amend("Pin depth", std::move(after));
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "Where parts of the picture overlap, what is around a higher pin is drawn on top");
+  if (posture == Posture::rest) return;
+  if (const auto place = workspace.map().pin_place(scene, static_cast<size_t>(handle.index)))
+    if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
+      ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
+  bool turns = scene.pins[handle.index].angle.has_value();
+  if (ImGui::Checkbox("Turns the picture", &turns)) {
+    Scene after = scene;
+    after.pins[handle.index].angle = turns ? std::optional(0.0) : std::nullopt;
+    workspace.commit(turns ? "Pin turns" : "Free pin angle", after);
+  }
+  if (!scene.pins[handle.index].angle || !workspace.scene().pins[handle.index].angle) return;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number(
+      "degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin",
+      [&](const Scene& s, double degrees) { return turned(s, handle.index, degrees * kPi / 180); });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("scale", 100 * scene.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
+              "Scale at pin", [&](const Scene& s, double percent) {
+                return scaled(s, handle.index,
+                              std::max(percent, 1.0) / 100 / s.pins[handle.index].scale);
+              });
+}
+
+void many_handles(Workspace& workspace) {
+  const Selection selection = workspace.selection;
+  const Posture posture = workspace.posture;
+  ImGui::Text("%d handles, around", static_cast<int>(selection.size()));
+  const Complex center = center_of(workspace.scene(), selection, posture);
+  const float speed = static_cast<float>(1 / workspace.viewport.zoom);
+  const auto moved_to = [&](const Scene& scene, Complex to) {
+    return moved(scene, selection, to - center_of(scene, selection, posture), posture);
+  };
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("x", center.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
+    return moved_to(s, {x, center_of(s, selection, posture).imag()});
+  });
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  edit_number("y", center.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
+    return moved_to(s, {center_of(s, selection, posture).real(), y});
+  });
+}
+
+/// A number that is 0 (or 100 %) again after each step: what is done is relative.
+template <class Edit>
+void step_number(const char* label, double neutral, const char* format, Workspace& workspace,
+                 const char* step, Edit edit) {
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID(label);
+  float number = storage.GetFloat(id, static_cast<float>(neutral));
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (ImGui::DragFloat(label, &number, 0.5f, 0, 0, format) && std::isfinite(number)) {
+    storage.SetFloat(id, number);
+    workspace.preview = edit(workspace.unedited(), static_cast<double>(number));
+  }
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
+    workspace.commit(step, *workspace.preview);
+  if (!ImGui::IsItemActive()) storage.SetFloat(id, static_cast<float>(neutral));
+}
+
+/// Turning and scaling by numbers, about the middle of what is selected.
+void turn_and_scale(Workspace& workspace) {
+  const Selection selection = workspace.selection;
+  const Posture posture = workspace.posture;
+  step_number("turn by", 0, "%.1f degrees", workspace, "Turn", [&](const Scene& s, double degrees) {
+    const double angle = degrees * kPi / 180;
+    return transformed(s, selection, Affine::turning(angle, center_of(s, selection, posture)),
+                       angle, posture);
+  });
+  step_number("scale by", 100, "%.1f %%", workspace, "Scale", [&](const Scene& s, double percent) {
+    const double scale = std::max(percent, 1.0) / 100;
+    return transformed(s, selection,
+                       Affine::scaling(scale, scale, center_of(s, selection, posture)), 0, posture);
+  });
+}
+
+void selection_section(Workspace& workspace) {
+  if (workspace.selection.empty()) {
+    ImGui::TextDisabled("Nothing is selected.");
+    return;
+  }
+  if (workspace.selection.size() == 1) {
+    one_handle(workspace, *workspace.selection.begin());
+  } else {
+    many_handles(workspace);
+  }
+  if (workspace.selection.size() > 1 || workspace.selection.begin()->kind == Handle::Kind::stroke)
+    turn_and_scale(workspace);
+  for (const char* id : {"edit.reset", "edit.delete"}) {
+    const Action& action = action_named(id);
+    if (ImGui::Button(action.label.c_str())) run(action, workspace);
+    tooltip_of(id);
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+/// "2 pins", and whether the method has no use for them.
+std::string counted(size_t count, const std::string& what, bool used) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s") +
+         (count == 0 || used ? "" : " (at rest)");
+}
+
+void cage_section(Workspace& workspace) {
+  const Scene& scene = workspace.scene();
+  if (scene.has_cage())
+    ImGui::Text(
+        "%d cage points, %s, %s", static_cast<int>(scene.rest.size()),
+        counted(scene.pins.size(), "pin", method_named(scene.method).uses_pins).c_str(),
+        counted(scene.strokes.size(), "stroke", method_named(scene.method).uses_strokes).c_str());
+  else
+    ImGui::TextDisabled("No cage yet.");
+  points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
+  float margin = static_cast<float>(std::max(workspace.auto_cage_margin, -1.0));
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
+                         ImGuiSliderFlags_AlwaysClamp))
+    workspace.auto_cage_margin = margin < 0 ? -1 : margin;
+  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+  const Action& action = action_named("cage.from_picture");
+  ImGui::BeginDisabled(!action.enabled(workspace));
+  if (ImGui::Button("Make from picture")) run(action, workspace);
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "A cage around the largest opaque part of the picture, in place of the present one");
+}
+
+void heat_section(Workspace& workspace, const HeatScale& heat) {
+  static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch",
+                                         "view.checker"};
+  ImGui::SetNextItemWidth(-1);
+  if (begin_combo("##view", action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
+    for (const char* id : kIds) {
+      const Action& action = action_named(id);
+      ImGui::BeginDisabled(!action.enabled(workspace));
+      if (ImGui::Selectable(action.label.c_str(), action.checked(workspace)))
+        run(action, workspace);
+      ImGui::EndDisabled();
+    }
+    ImGui::EndCombo();
+  }
+  if (is_heat(workspace.view)) {
+    ImGui::Checkbox("Fit the range to the map", &workspace.automatic_range);
+    ImGui::TextDisabled("%.3g to %.3g", heat.low, heat.high);
+  }
+  ImGui::Checkbox("Mesh", &workspace.show_mesh);
+}
+
+void history_section(Workspace& workspace) {
+  const History& history = workspace.document.history();
+  begin_part("history", {0, std::max(ImGui::GetContentRegionAvail().y,
+                                     7 * ImGui::GetTextLineHeightWithSpacing())});
+  // Scrolls to the current step when that has changed, and otherwise leaves the list to the user.
+  int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);
+  const bool moved =
+      std::exchange(shown, static_cast<int>(history.index())) != static_cast<int>(history.index());
+  for (size_t i = history.entries().size(); i-- > 0;) {
+    const bool current = i == history.index();
+    if (i > history.index())
+      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    const bool go = text_row(static_cast<int>(i), history.entries()[i].label, current);
+    if (current && moved) ImGui::SetScrollHereY();
+    if (i > history.index()) ImGui::PopStyleColor();
+    if (go) {
+      workspace.go_to(i);
+      break;
+    }
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace
+
+void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& heat, double scale,
+                    Theme theme) {
+  const PanelSizes sizes = PanelSizes::at(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(
+      {display.x - static_cast<float>(sizes.inspector), static_cast<float>(sizes.menu)});
+  ImGui::SetNextWindowSize({static_cast<float>(sizes.inspector),
+                            display.y - static_cast<float>(sizes.menu + sizes.status)});
+  ImGui::Begin("Inspector", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const auto section = [&](const char* title, bool opens, auto draw, bool has_to = false) {
+    ImGui::SetNextItemOpen(opens || has_to, has_to ? ImGuiCond_Always : ImGuiCond_Appearing);
+    // A quiet line: what is in it matters more.
+    ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    const bool open = ImGui::CollapsingHeader(title);
+    ImGui::PopStyleColor(2);
+    if (!open) return;
+    ImGui::PushID(title);
+    draw();
+    ImGui::PopID();
+    ImGui::Spacing();
+  };
+  // First, because it alone does not move when others grow.
+  section(
+      "Layers", true, [&] { layers.draw(workspace, scale); }, layers.naming());
+  section("Method", true, [&] {
+    method_section(workspace);
+    convergence_section(workspace, scale);
+  });
+  if (workspace.map().has_map())
+    section("Folds", true, [&] { injectivity_section(workspace, theme); });
+  section("Selection", true, [&] { selection_section(workspace); });
+  section("Cage", false, [&] { cage_section(workspace); });
+  section("View", true, [&] { heat_section(workspace, heat); });
+  section("History", true, [&] { history_section(workspace); });
+  ImGui::End();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,139 @@
+// What is being typed or dragged is kept by ImGui; the scene changes when it is done.
+#include "app/panels/layer_panel.h"
+
+#include <utility>
+
+#include "app/panels/panels.h"
+// After imgui.h, which it does not include itself.
+#include <imgui_stdlib.h>
+
+namespace holomorph {
+namespace {
+
+/// Glyphs of Font Awesome 4.
+constexpr const char *kShown = "\uf06e", *kHidden = "\uf070", *kLocked = "\uf023",
+                     *kUnlocked = "\uf09c";
+
+/// A small button with one of two faces. Returns whether it was pressed.
+bool toggle(const char* id, bool on, const char* on_face, const char* off_face, const char* tip,
+            float width) {
+  if (!on) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
+  const bool pressed = ImGui::Button((std::string(on ? on_face : off_face) + "###" + id).c_str(),
+                                     {width, ImGui::GetFrameHeight()});
+  ImGui::PopStyleColor(on ? 1 : 2);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  return pressed;
+}
+
+void background_row(Workspace& workspace) {
+  static constexpr const char* kIds[] = {"background.transparent", "background.color",
+                                         "background.original"};
+  static constexpr const char* kNames[] = {"Transparent", "A colour", "The original"};
+  Scene scene = workspace.document.scene();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+  if (begin_combo("background", kNames[static_cast<int>(scene.background.kind)])) {
+    for (int i = 0; i < 3; ++i)
+      if (const Action& action = action_named(kIds[i]);
+          ImGui::Selectable(kNames[i], action.checked(workspace)))
+        run(action, workspace);
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("What is seen and exported where the picture is transparent or has left");
+  if (scene.background.kind != Background::Kind::color) return;
+  float color[3];
+  for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
+  if (ImGui::ColorEdit3("##color", color, ImGuiColorEditFlags_DisplayHex)) {
+    for (size_t k = 0; k < 3; ++k)
+      scene.background.color[k] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
+    workspace.commit_or_amend("Background colour", scene, From::document);
+  }
+}
+
+}  // namespace
+
+void LayerPanel::rename(const Scene& scene) {
+  named_ = scene.layer.id;
+  name_ = title_of_layer(scene, edited_layer(scene));
+  starts_ = true;
+}
+
+void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
+  ImGui::SetNextItemWidth(-1);
+  if (std::exchange(starts_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##name", &name_, ImGuiInputTextFlags_AutoSelectAll);
+  if (!ImGui::IsItemDeactivated()) return;
+  const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  named_ = 0;
+  if (cancelled || name_.empty()) return;
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  state.name = name_;
+  workspace.commit_layers("Name layer", with_layer_state(scene, layer, state));
+}
+
+void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
+  const Scene& scene = workspace.document.scene();
+  LayerState state = layer_at(scene, layer).layer;
+  ImGui::PushID(state.id);
+  const auto change = [&](const char* label) {
+    workspace.commit_layers(label, with_layer_state(workspace.document.scene(), layer, state));
+  };
+  if (toggle("shown", state.visible, kShown, kHidden,
+             state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
+    state.visible = !state.visible;
+    change(state.visible ? "Show layer" : "Hide layer");
+  }
+  ImGui::SameLine(0, 0);
+  if (toggle("locked", state.locked, kLocked, kUnlocked,
+             state.locked ? "Locked; click unlocks it" : "Click locks it: edits are refused",
+             30 * s)) {
+    state.locked = !state.locked;
+    change(state.locked ? "Lock layer" : "Unlock layer");
+  }
+  ImGui::SameLine(0, 8 * s);
+  if (named_ == state.id) {
+    draw_name(workspace, layer);
+  } else {
+    const std::string title = title_of_layer(workspace.document.scene(), layer);
+    const bool edited = layer == edited_layer(workspace.document.scene());
+    if (text_row(0, title, edited, {0, ImGui::GetTextLineHeight()},
+                 ImGuiSelectableFlags_AllowDoubleClick)) {
+      workspace.choose_layer(layer);
+      if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
+    }
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
+                                     : "Click to edit this layer, double-click to rename it");
+  }
+  ImGui::PopID();
+}
+
+void LayerPanel::draw(Workspace& workspace, double scale) {
+  const float s = static_cast<float>(scale);
+  const size_t count = layer_count(workspace.document.scene());
+  // As many as fit without pushing everything else away.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+  begin_part("rows",
+             {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
+  for (size_t i = layer_count(workspace.document.scene()); i-- > 0;)
+    if (i < layer_count(workspace.document.scene())) draw_row(workspace, i, s);
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {
+    const Action& action = action_named(id);
+    ImGui::BeginDisabled(!action.enabled(workspace));
+    if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
+      run(action, workspace);
+    ImGui::EndDisabled();
+    tooltip_of(id);
+    ImGui::SameLine(0, 4 * s);
+  }
+  ImGui::NewLine();
+  background_row(workspace);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,297 @@
+// Keys are marks on a ruler; the line is the time that is shown.
+#include "app/panels/timeline_panel.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "app/panels/panels.h"
+
+namespace holomorph {
+namespace {
+
+/// Seconds on the ruler and where they are in window px.
+struct Ruler {
+  float left = 0, width = 1, top = 0, bottom = 0;
+  double length = 1;
+
+  float x(double time) const { return left + static_cast<float>(time / length) * width; }
+  double time(float x) const { return static_cast<double>((x - left) / width) * length; }
+};
+
+/// A step of 1, 2 or 5 times a power of ten that is at least so many seconds.
+double tick_of(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= least) return step * decade;
+  return 10 * decade;
+}
+
+void tool_button(const char* id, Workspace& workspace, float size) {
+  const Action& action = action_named(id);
+  const bool on = action.checked && action.checked(workspace), enabled = action.enabled(workspace);
+  const bool playing = std::string_view(id) == "time.play" && on;
+  if (on && !playing)
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+  if (std::string_view(id) == "time.auto_key" && on)
+    ImGui::PushStyleColor(ImGuiCol_Text, {0.95f, 0.3f, 0.3f, 1});
+  ImGui::BeginDisabled(!enabled);
+  const std::string face = std::string(playing ? "\uf04c" : action.icon) + "###" + id;
+  if (ImGui::Button(face.c_str(), {size, 0})) run(action, workspace);
+  ImGui::EndDisabled();
+  if (std::string_view(id) == "time.auto_key" && on) ImGui::PopStyleColor();
+  if (on && !playing) ImGui::PopStyleColor();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+  ImGui::SameLine(0, 3);
+}
+
+/// Beside the last one; a gesture that starts on it is a step of its own.
+void tell_of_item(Workspace& workspace, const char* tooltip) {
+  if (ImGui::IsItemActivated()) workspace.carried_on.reset();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
+  ImGui::SameLine();
+}
+
+void draw_time(Workspace& workspace, float s) {
+  double time = workspace.timeline.time;
+  ImGui::SetNextItemWidth(76 * s);
+  if (ImGui::DragScalar("##time", ImGuiDataType_Double, &time, 0.01f, nullptr, nullptr, "%.2f s") &&
+      std::isfinite(time))
+    workspace.go_to_time(time);
+  tell_of_item(workspace, "The time that is shown");
+}
+
+void draw_blend(Workspace& workspace, float s) {
+  AnimationSettings settings = workspace.document.scene().animation;
+  int blend = settings.straight ? 1 : 0;
+  ImGui::SetNextItemWidth(104 * s);
+  if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
+    settings.straight = blend == 1;
+    workspace.commit_layers("In-betweens", with_animation(workspace.document.scene(), settings));
+  }
+  tell_of_item(workspace,
+               "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to "
+               "compare, places");
+}
+
+/// What the key at the time has.
+void draw_key_numbers(Workspace& workspace, float s) {
+  Scene scene = workspace.document.scene();
+  const size_t key = key_at(scene, workspace.timeline.time);
+  if (key >= scene.keyframes.size()) return;
+  if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // its menu has them, too
+  ImGui::Dummy({8 * s, 0});
+  ImGui::SameLine();
+  int ease = static_cast<int>(scene.keyframes[key].ease);
+  ImGui::SetNextItemWidth(104 * s);
+  if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
+    workspace.commit("Ease", with_ease(scene, key, static_cast<Ease>(ease)), From::document);
+  tell_of_item(workspace, "How this key goes on to the next one");
+  if (key == 0) return;
+  int& turns = scene.keyframes[key].turns;
+  ImGui::SetNextItemWidth(96 * s);
+  if (ImGui::InputInt("##turns", &turns, 1, 1)) {
+    turns = std::clamp(turns, -kMostTurns, kMostTurns);
+    workspace.commit_or_amend("Whole turns", scene, From::document);
+  }
+  tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
+}
+
+/// Round ones go on smoothly, diamonds evenly, squares hold; hollow ones do not play.
+void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool plays) {
+  if (ease == Ease::smooth) {
+    r *= 0.85f;
+    return plays ? list.AddCircleFilled(at, r, color) : list.AddCircle(at, r, color, 0, 1.5f);
+  }
+  const float s = 0.75f * r;
+  const std::array<ImVec2, 4> corners =
+      ease == Ease::hold ? std::array{ImVec2(at.x - s, at.y - s), ImVec2(at.x + s, at.y - s),
+                                      ImVec2(at.x + s, at.y + s), ImVec2(at.x - s, at.y + s)}
+                         : std::array{ImVec2(at.x - r, at.y), ImVec2(at.x, at.y - r),
+                                      ImVec2(at.x + r, at.y), ImVec2(at.x, at.y + r)};
+  if (plays)
+    list.AddConvexPolyFilled(corners.data(), 4, color);
+  else
+    list.AddPolyline(corners.data(), 4, color, ImDrawFlags_Closed, 1.5f);
+}
+
+/// To a frame, unless Alt is held.
+double snapped(const Scene& scene, double time) {
+  if (ImGui::GetIO().KeyAlt) return std::clamp(time, 0.0, kLongestTime);
+  return time_of_frame(scene, std::max(0, frame_at(scene, time)));
+}
+
+std::optional<size_t> key_under_pointer(const Scene& scene, const Ruler& ruler, float s) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (mouse.y <= ruler.bottom - 24 * s) return {};
+  std::optional<size_t> under;
+  for (size_t i = 0; i < scene.keyframes.size(); ++i)
+    if (std::abs(ruler.x(scene.keyframes[i].time) - mouse.x) < 8 * s) under = i;
+  return under;
+}
+
+/// The menu of the key at the time, while it is open.
+void draw_key_menu(Workspace& workspace) {
+  if (!ImGui::BeginPopup("key")) return;
+  const Scene scene = workspace.document.scene();
+  const size_t key = key_at(scene, workspace.timeline.time);
+  if (key < scene.keyframes.size()) {
+    for (const auto& [label, ease] :
+         {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
+      if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
+        workspace.commit("Ease", with_ease(scene, key, ease), From::document);
+    ImGui::Separator();
+    int turns = scene.keyframes[key].turns;
+    ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
+    if (key > 0 && ImGui::InputInt("whole turns before it", &turns)) {
+      Scene after = scene;
+      after.keyframes[key].turns = std::clamp(turns, -kMostTurns, kMostTurns);
+      workspace.commit_or_amend("Whole turns", after, From::document);
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete key", "Del")) run(action_named("time.delete_key"), workspace);
+  }
+  ImGui::EndPopup();
+}
+
+void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<size_t> hovered,
+                float s) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 text = ImGui::GetColorU32(ImGuiCol_TextDisabled),
+              ground = ImGui::GetColorU32(ImGuiCol_FrameBg),
+              line = ImGui::GetColorU32(ImGuiCol_Separator),
+              accent = ImGui::GetColorU32(ImGuiCol_CheckMark);
+  const float height = ruler.bottom - ruler.top, middle = ruler.bottom - 13 * s;
+  list.AddRectFilled({ruler.left - 8 * s, ruler.top},
+                     {ruler.left + ruler.width + 8 * s, ruler.bottom}, ground, 4 * s);
+  const double tick = tick_of(ruler.length * 70 * s / ruler.width);
+  for (int i = 0; i * tick <= ruler.length * (1 + 1e-9); ++i) {
+    const float x = ruler.x(i * tick);
+    char label[24];
+    std::snprintf(label, sizeof label, "%.4g", i * tick);
+    list.AddLine({x, ruler.top + 0.45f * height}, {x, ruler.bottom}, line, 1);
+    list.AddText({x + 3 * s, ruler.top + 1 * s}, text, label);
+  }
+  const Scene& scene = workspace.document.scene();
+  const size_t here = key_at(scene, workspace.timeline.time);
+  for (size_t i = 0; i < scene.keyframes.size(); ++i) {
+    const ImVec2 at(ruler.x(scene.keyframes[i].time), middle);
+    const bool plays = fits(scene, scene.keyframes[i].pose);
+    const ImU32 color = i == here || hovered == i ? accent : ImGui::GetColorU32(ImGuiCol_Text);
+    draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, scene.keyframes[i].ease, plays);
+  }
+  const float x = ruler.x(std::min(workspace.timeline.time, ruler.length));
+  const ImU32 head = workspace.timeline.shows ? accent : text;
+  list.AddLine({x, ruler.top}, {x, ruler.bottom}, head, 2 * s);
+  list.AddTriangleFilled({x - 6 * s, ruler.top}, {x + 6 * s, ruler.top}, {x, ruler.top + 8 * s},
+                         head);
+}
+
+}  // namespace
+
+void TimelinePanel::draw_rate(Workspace& workspace, float s) {
+  AnimationSettings settings = workspace.document.scene().animation;
+  double rate = rate_.value_or(settings.frames_per_second);
+  ImGui::SetNextItemWidth(76 * s);
+  if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps")) rate_ = rate;
+  const bool typed = ImGui::IsItemDeactivatedAfterEdit();
+  tell_of_item(workspace, "Frames a second: what steps and exports go by");
+  if (!typed || !rate_) return;
+  rate = *std::exchange(rate_, std::nullopt);
+  if (!std::isfinite(rate)) return;
+  settings.frames_per_second = std::clamp(rate, kFewestFrames, kMostFrames);
+  workspace.commit_layers("Frame rate", with_animation(workspace.document.scene(), settings));
+}
+
+void TimelinePanel::draw_track(Workspace& workspace, float s) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+  // Asked anew each time: commits replace it.
+  const auto scene = [&]() -> const Scene& { return workspace.document.scene(); };
+  if (held_ == Held::nothing)
+    length_ = std::max({2.0, 1.1 * length_of(scene()), 1.02 * workspace.timeline.time});
+  const Ruler ruler{corner.x + 10 * s, std::max(1.0f, room.x - 20 * s), corner.y,
+                    corner.y + std::max(1.0f, room.y), length_};
+  ImGui::InvisibleButton("track", {std::max(1.0f, room.x), std::max(1.0f, room.y)});
+  std::optional<size_t> hovered;
+  if (ImGui::IsItemHovered()) hovered = key_under_pointer(scene(), ruler, s);
+  if (ImGui::IsItemActivated()) {
+    workspace.timeline.playing = false;
+    workspace.carried_on.reset();
+    held_ = hovered ? Held::key : Held::time;
+    key_ = hovered.value_or(0);
+    if (hovered) {
+      workspace.go_to_time(scene().keyframes[*hovered].time);
+      workspace.timeline.chosen = true;
+      workspace.selection.clear();  // Delete means the key now
+    }
+  }
+  if (ImGui::IsItemActive()) {
+    drag(workspace, snapped(scene(), ruler.time(ImGui::GetIO().MousePos.x)), s);
+    hovered = held_ == Held::key ? std::optional(key_) : std::nullopt;
+  } else {
+    held_ = Held::nothing;
+  }
+  if (hovered && ImGui::IsMouseClicked(1)) {
+    workspace.go_to_time(scene().keyframes[*hovered].time);
+    ImGui::OpenPopup("key");
+  }
+  if (hovered && held_ == Held::nothing)
+    ImGui::SetTooltip("%.2f s%s", scene().keyframes[*hovered].time,
+                      fits(scene(), scene().keyframes[*hovered].pose)
+                          ? "; drag to move, right-click for more"
+                          : ": it has other points than the scene, and does not play");
+  draw_ruler(workspace, ruler, hovered, s);
+  draw_key_menu(workspace);
+}
+
+/// Takes the time or a key along.
+void TimelinePanel::drag(Workspace& workspace, double time, float s) {
+  const Scene& scene = workspace.document.scene();
+  if (held_ == Held::time && time != workspace.timeline.time) workspace.go_to_time(time);
+  if (held_ != Held::key || key_ >= scene.keyframes.size() || !ImGui::IsMouseDragging(0, 3 * s) ||
+      time == scene.keyframes[key_].time || key_at(scene, time) < scene.keyframes.size())
+    return;
+  auto [after, number] = with_key_moved(scene, key_, time);
+  workspace.commit_or_amend("Move key", after, From::document);
+  if (workspace.document.scene() != after) return;
+  key_ = number;
+  workspace.go_to_time(time);
+  workspace.timeline.chosen = true;
+}
+
+void TimelinePanel::draw(Workspace& workspace, double scale) {
+  const PanelSizes sizes = PanelSizes::at(scale);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float s = static_cast<float>(scale), height = static_cast<float>(sizes.timeline);
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(sizes.toolbar), display.y - static_cast<float>(sizes.status) - height});
+  ImGui::SetNextWindowSize(
+      {display.x - static_cast<float>(sizes.toolbar + sizes.inspector), height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 6 * s});
+  ImGui::Begin("Timeline", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
+  const float button = 32 * s;
+  for (const char* id : {"time.previous_key", "time.back", "time.play", "time.forward",
+                         "time.next_key", "time.loop"})
+    tool_button(id, workspace, button);
+  ImGui::Dummy({6 * s, 0});
+  ImGui::SameLine(0, 3);
+  for (const char* id : {"time.key", "time.auto_key", "time.onion"})
+    tool_button(id, workspace, button);
+  if (sizes.two_rows) {
+    ImGui::NewLine();
+  } else {
+    ImGui::Dummy({6 * s, 0});
+    ImGui::SameLine(0, 3);
+  }
+  draw_time(workspace, s);
+  draw_rate(workspace, s);
+  draw_blend(workspace, s);
+  draw_key_numbers(workspace, s);
+  ImGui::NewLine();
+  draw_track(workspace, s);
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace holomorph

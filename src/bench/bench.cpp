@@ -1,0 +1,442 @@
+// Every speed that an issue names is one entry of the table in measured().
+#include "bench/bench.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "bench/known_maps.h"
+#include "bench/measures.h"
+#include "core/cauchy/cauchy.h"
+#include "core/clock.h"
+#include "core/compared/comparison.h"
+#include "core/error.h"
+#include "core/maps/distortion.h"
+#include "core/maps/inverse.h"
+#include "core/mesh/mesher.h"
+#include "core/methods/linear.h"
+#include "raster/raster.h"
+#include "scene/auto_cage.h"
+#include "scene/live_map.h"
+
+namespace holomorph::bench {
+namespace {
+
+/// A wavy closed cage of n vertices.
+Points wavy(int n, Complex center, double radius) {
+  Points polygon;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * kPi * i / n;
+    polygon.push_back(center + radius * (1 + 0.25 * std::sin(5 * angle)) * std::polar(1.0, angle));
+  }
+  return polygon;
+}
+
+Scene scene_with(const Points& polygon) {
+  Scene scene;
+  scene.rest = scene.pose = polygon_cage(polygon);
+  for (Points& segment : scene.pose.segments)
+    segment[0] += 20.0 * std::sin(segment[0].imag() / 100);
+  return scene;
+}
+
+/// The number of vertices to ask for so that the mesh has about 15000.
+constexpr int kAsked = 13000;
+
+Image gradient(int side) {
+  Image image(side, side);
+  for (int r = 0; r < side; ++r)
+    for (int c = 0; c < side; ++c) {
+      std::uint8_t* p = image.at(c, r);
+      p[0] = static_cast<std::uint8_t>(c), p[1] = static_cast<std::uint8_t>(r),
+      p[2] = static_cast<std::uint8_t>(c ^ r);
+      p[3] = 255;
+    }
+  return image;
+}
+
+double resident_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::atof(line.c_str() + 6) / 1024;
+  return 0;
+}
+
+struct Entry {
+  const char* name;
+  const char* unit;
+  double goal;
+  int runs;
+  double (*measure)(int runs);
+};
+
+double coordinates_ns(Kernel kernel, int order, int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {kAsked});
+  PlanarMatrix<float> out;
+  const double ms = median_ms(runs, [&] {
+    planar_coordinates<float>(polygon_cage(cage), mesh.vertices, order, kernel, out);
+  });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
+}
+
+double scalar_log_ns(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {1500});
+  volatile double sum = 0;  // read by nobody, so that nothing is left out
+  const double ms = median_ms(runs, [&] {
+    for (const Complex& z : mesh.vertices)
+      for (size_t e = 0; e < cage.size(); ++e)
+        sum = std::log((cage[(e + 1) % cage.size()] - z) / (cage[e] - z)).imag();
+  });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
+}
+
+/// 20 segments around (500, 500), each a curve of `degree`.
+Cage wavy_curves(int degree, double bulge) {
+  Cage cage = polygon_cage(wavy(20, {500, 500}, 350));
+  const Points corners = vertices_of(cage);
+  for (Index e = 0; e < cage.size(); ++e) {
+    const Complex a = corners[e], side = corners[(e + 1) % corners.size()] - a;
+    for (int m = 1; m < degree; ++m)
+      cage.segments[e].push_back(
+          a + side * Complex(static_cast<double>(m) / degree, m % 2 ? bulge : -bulge));
+  }
+  return cage;
+}
+
+double curved_prepare_ms(int runs) {
+  Scene scene;
+  scene.rest = wavy_curves(3, 0.2);
+  scene.pose = wavy_curves(3, 0.1);
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {8700}); });
+}
+
+/// The way over an intermediate polygon (Lin, Chen 2024): u2 after the inverse of u1, with u1
+/// taking the polygon of the segments' ends to the curved rest. How many of the domain's samples
+/// have no preimage under u1, in percent; and how long finding the others takes.
+struct PolygonRoute {
+  double missing_percent = 0, milliseconds = 0;
+};
+
+PolygonRoute polygon_route() {
+  const Cage rest = wavy_curves(3, 0.2);
+  const Mesh domain = domain_mesh(rest, {8700});
+  const double start = now_ms();
+  const Cage polygon = elevated_to(polygon_cage(vertices_of(rest)), rest);
+  const Mesh mesh = domain_mesh(vertices_of(rest), {4000});
+  SumMap u1;
+  u1.terms.emplace_back(polygon, controls_of(rest) - controls_of(polygon));
+  Points image;
+  for (const Complex& z : mesh.vertices) image.push_back(u1.at(z).f);
+  const InverseMap inverse(polygon, mesh, image, u1);
+  int missing = 0;
+  for (const Complex& z : domain.vertices) missing += inverse.at(z).empty();
+  return {100.0 * missing / static_cast<double>(domain.vertices.size()), now_ms() - start};
+}
+
+/// Per point and edge of a straight cage whose pose has this degree.
+double raised_coordinates_ns(int degree, int runs) {
+  const Cage straight = polygon_cage(wavy(100, {500, 500}, 350));
+  Cage raised = straight;
+  for (Points& segment : raised.segments) segment.resize(degree);
+  raised = elevated_to(straight, raised);
+  const Mesh mesh = domain_mesh(straight, {kAsked});
+  PlanarMatrix<float> out;
+  const double ms = median_ms(runs, [&] {
+    planar_coordinates<float>(raised, mesh.vertices, 0,
+                              has_avx2() ? Kernel::avx2 : Kernel::portable, out);
+  });
+  return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
+}
+
+/// 10000 preimages under 20 cubic segments, after the inverse is set up.
+double inverse_ms(int runs) {
+  Scene scene;
+  scene.rest = polygon_cage(wavy(20, {500, 500}, 350));
+  scene.pose = wavy_curves(3, 0.15);
+  const auto prepared = prepared_map(scene, Precision::full, {4000});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, {});
+  const auto points = prepared->deformer->point_map(pose_of(scene));
+  const std::span<const Complex> f(map.f.data(), static_cast<size_t>(map.f.size()));
+  const InverseMap inverse(scene.rest, *prepared->mesh, f, *points);
+  const Mesh& mesh = *prepared->mesh;
+  Points targets;  // a quarter next to the boundary
+  for (size_t i = 0; i < 10000; ++i) {
+    const Triangle& t = mesh.triangles[i * 7919 % mesh.triangles.size()];
+    const size_t b = i % mesh.boundary.size(), next = (b + 1) % mesh.boundary.size();
+    const Complex center = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0,
+                  side = mesh.vertices[mesh.boundary[next]] - mesh.vertices[mesh.boundary[b]],
+                  edge = mesh.vertices[mesh.boundary[b]] + (0.5 + 1e-4 * kI) * side;
+    targets.push_back(points->at(i % 4 ? center : edge).f);
+  }
+  return median_ms(runs, [&] {
+    for (const Complex& w : targets) inverse.at(w);
+  });
+}
+
+/// A bar of 16 vertices with pins, one of which is dragged around until the reference folds.
+Scene pulled_bar() {
+  Points bar;
+  for (int i = 0; i < 8; ++i) bar.push_back({100.0 * i, 0});
+  for (int i = 7; i >= 0; --i) bar.push_back({100.0 * i, 160});
+  Scene scene = scene_with(bar);
+  scene.method = "bounded";
+  for (const Complex z : {Complex(40, 80), Complex(350, 80), Complex(660, 80)})
+    scene.pins.push_back({z, z, {}, {}});
+  return scene;
+}
+
+/// 300 frames of a drag: the median or the longest frame, or how many frames were not certified.
+enum class DragFigure { median, longest, unproved };
+
+double bounded_drag(DragFigure figure) {
+  Scene scene = pulled_bar();
+  const auto prepared = prepared_map(scene, Precision::single, {5000});
+  std::vector<double> times;
+  int unproved = 0;
+  SampledMap map;
+  for (int frame = 0; frame < 300; ++frame) {
+    const double t = frame / 300.0;
+    scene.pins[2].pose = Complex(350, 80) + (310 - 280 * t) * std::polar(1.0, 7 * t);
+    const double start = now_ms();
+    prepared->deformer->deform(pose_of(scene), map, {false, true});
+    times.push_back(now_ms() - start);
+    unproved += map.status != SampledMap::Status::certified;
+  }
+  if (figure == DragFigure::unproved) return unproved;
+  if (figure == DragFigure::longest) return *std::max_element(times.begin(), times.end());
+  std::nth_element(times.begin(), times.begin() + 150, times.end());
+  return times[150];
+}
+
+/// The specification's maps projected from nothing, with proof: the slowest one's median.
+double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
+  double slowest = 0;
+  for (const known_maps::Known& known : known_maps::all()) {
+    const known_maps::Projection projection(known, {}, known_maps::Norm::l1, true, fineness);
+    slowest = std::max(slowest,
+                       median_ms(runs, [&] { projection.space->nearest(projection.reference); }));
+  }
+  return slowest;
+}
+
+double bounded_cold_ms(int runs) {
+  Scene scene = pulled_bar();
+  const auto prepared = prepared_map(scene, Precision::single, {5000});
+  scene.pins[2].pose = Complex(350, 80) + 120.0 * std::polar(1.0, 3.0);
+  SampledMap map;
+  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+}
+
+double prepare_ms(int runs) {
+  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
+}
+
+double coordinates_ms(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  const Mesh mesh = domain_mesh(cage, {kAsked});
+  return median_ms(runs, [&] { planar_coordinates<float>(polygon_cage(cage), mesh.vertices); });
+}
+
+double frame_ms(int runs) {
+  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  const auto prepared = prepared_map(scene, Precision::single, {kAsked});
+  SampledMap map;
+  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+}
+
+double mesh_ms(int runs) {
+  const Points cage = wavy(100, {500, 500}, 350);
+  return median_ms(runs, [&] { domain_mesh(cage, {kAsked}); });
+}
+
+double add_pin_ms(int runs) {
+  Scene scene = scene_with(wavy(100, {500, 500}, 350));
+  scene.method = "pins";
+  for (int i = 0; i < 10; ++i)
+    scene.pins.push_back({Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
+  const auto before = prepared_map(scene, Precision::single, {kAsked});
+  scene.pins.push_back({{510, 520}, {510, 520}, {}, {}});
+  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}, before.get()); });
+}
+
+double export_ms(int runs, int threads) {
+  const Image image = gradient(2000);
+  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
+  return median_ms(runs, [&] {
+    SampledMap map;
+    prepared->deformer->deform(pose_of(scene), map, {});
+    RasterJob job;
+    job.mesh = prepared->mesh.get();
+    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.source = &image;
+    job.threads = threads;
+    rasterized(job);
+  });
+}
+
+double auto_cage_ms(int runs) {
+  Image image(2000, 2000);
+  const Points shape = wavy(400, {1000, 1000}, 700);
+  for (int r = 0; r < image.height; r += 1)
+    for (int c = 0; c < image.width; ++c) {
+      const Complex z = Complex(c, 2000 - r) - Complex(1000, 1000);
+      image.at(c, r)[3] = std::abs(z) < 700 * (1 + 0.25 * std::sin(5 * std::arg(z))) ? 255 : 0;
+    }
+  return median_ms(runs, [&] { auto_cage(image); });
+}
+
+double memory_mb(int) {
+  const Image image = gradient(2000);
+  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
+  SampledMap map;
+  prepared->deformer->deform(pose_of(scene), map, {true});
+  return resident_mb();
+}
+
+const Entry kEntries[] = {
+    {"open: 2000 x 2000 picture, 32-vertex cage, resident memory without a window", "MB", 300, 1,
+     memory_mb},
+    {"coordinates: degree 1, order 0, AVX2, 15k points x 100 edges, per point and edge", "ns", 4,
+     15,
+     [](int runs) {
+       return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 0, runs);
+     }},
+    {"coordinates: the same, widest instructions", "ns", 0, 15,
+     [](int runs) { return coordinates_ns(Kernel::automatic, 0, runs); }},
+    {"coordinates: the same, portable", "ns", 0, 9,
+     [](int runs) { return coordinates_ns(Kernel::portable, 0, runs); }},
+    {"coordinates: order 1, AVX2, per point and edge", "ns", 0, 9,
+     [](int runs) {
+       return coordinates_ns(has_avx2() ? Kernel::avx2 : Kernel::portable, 1, runs);
+     }},
+    {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0,
+     9, scalar_log_ns},
+    {"coordinates: degree 3 over degree 1, AVX2, the same edges", "times", 3, 9,
+     [](int runs) { return raised_coordinates_ns(3, runs) / raised_coordinates_ns(1, runs); }},
+    {"prepare: curved to curved, 20 cubic segments, 10k vertices, mesh and coordinates", "ms", 300,
+     5, curved_prepare_ms},
+    {"curved rest over a polygon, as Lin and Chen: 10k vertices, inverse alone (for comparison)",
+     "ms", 0, 1, [](int) { return polygon_route().milliseconds; }},
+    {"curved rest over a polygon: samples of the domain that it does not reach (for comparison)",
+     "%", 0, 1, [](int) { return polygon_route().missing_percent; }},
+    {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
+    {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
+    {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
+    {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
+    {"pins: one pin more at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
+    {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
+    {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",
+     "ms", 16, 1, [](int) { return bounded_drag(DragFigure::median); }},
+    {"bounded: the same, the longest frame", "ms", 33, 1,
+     [](int) { return bounded_drag(DragFigure::longest); }},
+    {"bounded: the same, frames that were not proved", "", 0, 1,
+     [](int) { return bounded_drag(DragFigure::unproved); }},
+    {"bounded: cold L1 solve and proof, 50 vertices, 300 samples, slowest of six maps", "ms", 16, 5,
+     [](int runs) {
+       return bounded_solve_ms({50, 300}, runs);
+     }},
+    {"bounded: the same, 150 vertices, 1000 samples", "ms", 150, 3,
+     [](int runs) {
+       return bounded_solve_ms({150, 1000}, runs);
+     }},
+    {"bounded: a folded pose from nothing, end to end", "ms", 0, 9, bounded_cold_ms},
+    {"outline: of 30 random pairs, not reached", "pairs", 1, 1,
+     [](int) { return kOutlinePairs - outline_figures(false).reached; }},
+    {"outline: the same, median time from nothing", "ms", 150, 1,
+     [](int) { return outline_figures(false).median_ms; }},
+    {"outline: the same as published, not reached (for comparison)", "pairs", 0, 1,
+     [](int) { return kOutlinePairs - outline_figures(true).reached; }},
+    {"outline: the same as published, median time", "ms", 0, 1,
+     [](int) { return outline_figures(true).median_ms; }},
+    {"outline: iterations to 1.01 of the last distance, 100 vertices, slowest of 30 pairs", "ms",
+     16, 3, outline_iterations_ms},
+    {"outline: hard pairs (disk to star, square to E and others), slowest of six", "ms", 2000, 1,
+     [](int) { return hard_outline_ms(); }},
+    {"strokes: drag, 5 strokes of 20 samples, without the map", "ms", 2, 101, strokes_drag_ms},
+    {"angles: prepare, 20 corners, 10k vertices", "ms", 500, 5, angles_prepare_ms},
+    {"angles: drag of a corner, 40 angles, 10k vertices", "ms", 2, 51, angles_drag_ms},
+    {"angles: the same, all angles anew", "ms", 0, 51, angles_pose_ms},
+    {"keyframes: a frame between two keys, 20k triangles, handles included", "ms", 16.6, 51,
+     playback_ms},
+    {"keyframes: a bar bent by 270 degrees, worst area in between", "%", 2.5, 1,
+     [](int) { return inbetween_loss_percent(false); }},
+    {"keyframes: the same, places blended (for comparison)", "%", 0, 1,
+     [](int) { return inbetween_loss_percent(true); }},
+    {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
+     [](int runs) { return export_ms(runs, 2); }},
+    {"export: the same, one core", "ms", 0, 9, [](int runs) { return export_ms(runs, 1); }},
+    {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
+};
+
+/// The same folded bar by everyone's projection: milliseconds, and what the map is like.
+constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
+
+std::vector<Result> comparison(const std::function<void(const Result&)>& report) {
+  std::vector<Result> results;
+  Scene scene = pulled_bar();
+  scene.pins[2].pose = {180, 110};
+  Rest rest = rest_of(scene, Precision::full);
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest, {800}));
+  compare(rest, pose_of(scene), [&](const ComparedMap& row) {
+    char detail[160];
+    std::snprintf(detail, sizeof detail,
+                  "max k %.4f, tau %.4f, %d flips, turning number %.3f, %d steps%s", row.max_k,
+                  row.max_tau, row.flips, row.turning_number, row.iterations,
+                  row.settled ? "" : ", not settled");
+    results.push_back({kCompared + row.label, "ms", row.milliseconds, 0, 1, detail});
+    report(results.back());
+  });
+  return results;
+}
+
+}  // namespace
+
+std::vector<Result> measured(const std::string& filter,
+                             const std::function<void(const Result&)>& report) {
+  std::vector<Result> results;
+  for (const Entry& entry : kEntries) {
+    if (std::string(entry.name).find(filter) == std::string::npos) continue;
+    results.push_back({entry.name, entry.unit, entry.measure(entry.runs), entry.goal, entry.runs});
+    report(results.back());
+  }
+  if (std::string(kCompared).find(filter) != std::string::npos)
+    for (Result& row : comparison(report)) results.push_back(std::move(row));
+  return results;
+}
+
+std::string line_of(const Result& result) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
+                result.unit.c_str());
+  std::string line = text;
+  if (result.goal > 0) {
+    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal,
+                  result.median <= result.goal ? "" : ", missed");
+    line += text;
+  }
+  if (!result.detail.empty()) line += "  " + result.detail;
+  return line;
+}
+
+std::string json_of(const std::vector<Result>& results) {
+  std::string json = "[\n";
+  for (size_t i = 0; i < results.size(); ++i) {
+    char text[640];
+    std::snprintf(
+        text, sizeof text,
+        "  {\"name\": \"%s\", \"unit\": \"%s\", \"median\": %.6g, \"goal\": %g, \"runs\": %d, "
+        "\"detail\": \"%s\"}%s\n",
+        results[i].name.c_str(), results[i].unit.c_str(), results[i].median, results[i].goal,
+        results[i].runs, results[i].detail.c_str(), i + 1 < results.size() ? "," : "");
+    json += text;
+  }
+  return json + "]\n";
+}
+
+}  // namespace holomorph::bench

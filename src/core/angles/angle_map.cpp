@@ -1,0 +1,122 @@
+// exp(i H) is integrated from the middle outwards, the cage's vertices last.
+#include "core/angles/angle_map.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/arithmetic.h"
+#include "core/mesh/antiderivative.h"
+#include "core/outline/outline_start.h"
+
+namespace holomorph {
+namespace {
+
+int deepest_vertex(const Mesh& mesh, const Cage& cage) {
+  const Complex middle = deepest_point(Polyline(flattened(cage).points, true));
+  const auto nearest =
+      std::ranges::min_element(mesh.vertices, {}, [&](Complex z) { return std::norm(z - middle); });
+  return static_cast<int>(nearest - mesh.vertices.begin());
+}
+
+}  // namespace
+
+AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
+                   const Points& samples, Precision precision)
+    : coordinates_(std::move(coordinates)), ways_(mesh, coordinates_->cage(), precision) {
+  const Cage& cage = coordinates_->cage();
+  const int root = deepest_vertex(mesh, cage);
+  anchor_ = mesh.vertices[static_cast<size_t>(root)];
+  at_anchor_ = coordinates_->at({&anchor_, 1}).imag();
+  const MeshTree tree(mesh, root);
+  if (samples == mesh.vertices) {
+    for (const MeshTree::Edge& edge : tree.edges()) ways_.add(edge.from, edge.to);
+    nodes_of_samples_.resize(samples.size());
+    std::iota(nodes_of_samples_.begin(), nodes_of_samples_.end(), 0);
+  } else {
+    std::vector<char> wanted(mesh.vertices.size(), 0);
+    for (const Complex& z : samples) wanted[static_cast<size_t>(ways_.vertex_near(z))] = 1;
+    for (auto edge = tree.edges().rbegin(); edge != tree.edges().rend(); ++edge)
+      if (wanted[static_cast<size_t>(edge->to)]) wanted[static_cast<size_t>(edge->from)] = 1;
+    for (const MeshTree::Edge& edge : tree.edges())
+      if (wanted[static_cast<size_t>(edge.to)]) ways_.add(edge.from, edge.to);
+    for (const Complex& z : samples) nodes_of_samples_.push_back(ways_.add_node(z));
+  }
+  angles_.resize(cage.size());
+  for (Index j = 0; j < cage.size(); ++j) angles_[j] = coordinates_->angle(j);
+  const MatrixXc h = rows(ways_.places());
+  const auto keep = [&]<class T>(Parts<T> parts) {
+    parts.re = h.real().template cast<T>();
+    parts.im = h.imag().template cast<T>();
+    h_ = std::move(parts);
+  };
+  if (precision == Precision::full)
+    keep(Parts<double>{});
+  else
+    keep(Parts<float>{});
+}
+
+void AngleMap::turn_to(const VectorXd& theta, bool draft) {
+  std::vector<Index> changed;
+  if (draft && theta_.size() == theta.size())
+    for (Index c = 0; c < theta.size(); ++c)
+      if (theta[c] != theta_[c]) changed.push_back(c);
+  const bool few = draft && theta_.size() == theta.size() &&
+                   2 * static_cast<Index>(changed.size()) < theta.size();
+  std::visit(
+      [&]<class T>(const Parts<T>& h) {
+        if (few) {
+          for (const Index c : changed) {
+            const double by = theta[c] - theta_[c];
+            turn_ += by * h.re.col(c).template cast<double>();
+            shrink_ += by * h.im.col(c).template cast<double>();
+          }
+        } else {
+          const auto by = theta.cast<T>().eval();
+          turn_ = (h.re * by).template cast<double>();
+          shrink_ = (h.im * by).template cast<double>();
+        }
+      },
+      h_);
+  theta_ = theta;
+}
+
+VectorXd AngleMap::exponents(const VectorXd& theta) const {
+  return -(coordinates_->parts().jumps * theta).cwiseQuotient(angles_);
+}
+
+VectorXc AngleMap::integral(const VectorXc& values) const {
+  VectorXc nodes = VectorXc::Zero(ways_.nodes());
+  ways_.integrate(values, exponents(theta_), nodes);
+  VectorXc f(static_cast<Index>(nodes_of_samples_.size()));
+  for (Index i = 0; i < f.size(); ++i) f[i] = nodes[nodes_of_samples_[static_cast<size_t>(i)]];
+  return f;
+}
+
+void AngleMap::map(const VectorXd& theta, VectorXc& f, bool draft) {
+  turn_to(theta, draft);
+  slopes_.resize(turn_.size());
+  for (Index i = 0; i < slopes_.size(); ++i)
+    slopes_[i] = std::polar(std::exp(-shrink_[i]), turn_[i]);
+  f = integral(slopes_);
+}
+
+MatrixXc AngleMap::changes() const {
+  MatrixXc by(static_cast<Index>(nodes_of_samples_.size()), theta_.size());
+  std::visit(
+      [&](const auto& h) {
+        for (Index c = 0; c < theta_.size(); ++c) {
+          VectorXc column(slopes_.size());
+          for (Index i = 0; i < column.size(); ++i)
+            column[i] = times(Complex(-h.im(i, c), h.re(i, c)), slopes_[i]);
+          by.col(c) = integral(column);
+        }
+      },
+      h_);
+  return by;
+}
+
+MatrixXc AngleMap::rows(std::span<const Complex> points) const {
+  return coordinates_->at(points).rowwise() - kI * at_anchor_.cast<Complex>();
+}
+
+}  // namespace holomorph

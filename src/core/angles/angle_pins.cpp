@@ -1,0 +1,153 @@
+// min |D (x - x_0)| where all pins are met: x = x_0 + S A^T lambda with A's rows the pins'
+// derivatives, again and again. Unknowns are the angles, the logarithm of the size, and the place.
+// Corners that come to the least angle are held there by rows of their own.
+#include "core/angles/angle_pins.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/angles/boundary_angles.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
+constexpr double kMostStep = 0.5;   ///< radians of any angle in one iteration
+constexpr double kSettled = 1e-9;   ///< of the size, or radians
+constexpr double kHeldTurn = 0.05;  ///< of all angles together, against jumps and bends
+constexpr double kHeldSize = 0.05, kHeldPlace = 0.05;
+
+/// (D^T D)^-1 for D that holds back jumps, bends and the whole.
+MatrixXd softness_of(Index corners, double size) {
+  const Index n = 2 * corners;
+  MatrixXd held = MatrixXd::Zero(n + 4, n + 3);
+  for (Index j = 0; j < corners; ++j) {
+    held(2 * j, 2 * j) = -1;  // its jump
+    held(2 * j, 2 * j + 1) = 1;
+    held(2 * j + 1, 2 * j + 1) = -1;  // the bend of the edge after it
+    held(2 * j + 1, (2 * j + 2) % n) = 1;
+  }
+  held.row(n).head(n).setConstant(kHeldTurn / static_cast<double>(n));
+  held(n + 1, n) = kHeldSize;
+  held(n + 2, n + 1) = held(n + 3, n + 2) = kHeldPlace / size;
+  return (held.transpose() * held).ldlt().solve(MatrixXd::Identity(n + 3, n + 3));
+}
+
+Points positions_of(const std::vector<RestPin>& pins, bool turning_only) {
+  Points positions;
+  for (const RestPin& pin : pins)
+    if (pin.turns || !turning_only) positions.push_back(pin.position);
+  return positions;
+}
+
+}  // namespace
+
+AnglePins::AnglePins(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
+                     std::vector<Index> corners, std::vector<RestPin> pins)
+    : coordinates_(std::move(coordinates)),
+      corners_(std::move(corners)),
+      pins_(std::move(pins)),
+      size_(box_of(mesh.vertices).diagonal()),
+      map_(mesh, coordinates_, positions_of(pins_, false), Precision::full),
+      rows_(map_.rows(positions_of(pins_, true))),
+      softness_(softness_of(static_cast<Index>(corners_.size()), size_)) {}
+
+double AnglePins::room(size_t corner) const {
+  const double inner = coordinates_->angle(corners_[corner]);
+  return inner - std::min(kLeastCornerAngle, inner);
+}
+
+AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<PosePin>& targets) {
+  const Index n = x.size() - 3, pins = static_cast<Index>(pins_.size()), turning = rows_.rows(),
+              held = std::ranges::count(held_, 1);
+  const VectorXd theta = x.head(n);
+  const double scale = std::exp(x[n]);
+  Linear linear{VectorXd(2 * (pins + turning) + held),
+                MatrixXd::Zero(2 * (pins + turning) + held, n + 3)};
+  auto& [off, by, missed] = linear;
+  VectorXc f;
+  map_.map(theta, f);
+  const MatrixXc changes = scale / size_ * map_.changes();
+  for (Index i = 0; i < pins; ++i) {
+    const Complex way =
+        targets[static_cast<size_t>(i)].position - (scale * f[i] + Complex(x[n + 1], x[n + 2]));
+    missed = std::max(missed, std::abs(way));
+    off.segment(2 * i, 2) << way.real() / size_, way.imag() / size_;
+    by.row(2 * i).head(n) = changes.row(i).real();
+    by.row(2 * i + 1).head(n) = changes.row(i).imag();
+    by(2 * i, n) = scale / size_ * f[i].real();
+    by(2 * i + 1, n) = scale / size_ * f[i].imag();
+    by(2 * i, n + 1) = by(2 * i + 1, n + 2) = 1 / size_;
+  }
+  // log f' = i H theta + log scale, which is linear.
+  for (Index i = 0, row = 2 * pins; i < pins; ++i) {
+    if (!pins_[static_cast<size_t>(i)].turns) continue;
+    const PosePin& target = targets[static_cast<size_t>(i)];
+    const Index number = (row - 2 * pins) / 2;
+    by.row(row).head(n) = rows_.row(number).real();
+    by.row(row + 1).head(n) = -rows_.row(number).imag();
+    by(row + 1, n) = 1;
+    off[row] = std::remainder(target.angle - by.row(row).dot(x), 2 * kPi);
+    off[row + 1] = std::log(target.scale) - by.row(row + 1).dot(x);
+    row += 2;
+  }
+  Index row = 2 * (pins + turning);
+  for (size_t j = 0; j < corners_.size(); ++j) {
+    if (!held_[j]) continue;
+    const Index before = 2 * static_cast<Index>(j);
+    by(row, before) = -1;
+    by(row, before + 1) = 1;
+    off[row++] = room(j) - (theta[before + 1] - theta[before]);
+  }
+  return linear;
+}
+
+AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draft,
+                                  PlacedAngles& placed) {
+  const Index n = placed.theta.size();
+  VectorXd start(n + 3);
+  start << placed.theta, std::log(placed.scale), placed.move.real(), placed.move.imag();
+  VectorXd x = draft && last_.size() == start.size() ? last_ : start, step;
+  held_.assign(corners_.size(), 0);
+  Answer answer;
+  double least = INFINITY;
+  for (int halved = 0;;) {
+    const Linear linear = linear_at(x, targets);
+    const double off = linear.off.cwiseAbs().maxCoeff();
+    // Far from an answer a whole step may lead away.
+    if (off > 1.2 * least && halved < kMostHalvings) {
+      ++halved;
+      step *= 0.5;
+      x -= step;
+      continue;
+    }
+    halved = 0;
+    least = std::min(least, off);
+    answer.missed = linear.missed;
+    answer.settled = off <= kSettled ||
+                     (answer.iterations > 0 && step.head(n + 1).cwiseAbs().maxCoeff() <= kSettled);
+    if (answer.settled || answer.iterations == (draft ? kDraftIterations : kMostIterations)) break;
+    ++answer.iterations;
+    const MatrixXd soft = softness_ * linear.by.transpose();
+    MatrixXd gram = linear.by * soft;
+    gram.diagonal().array() += 1e-13 * gram.diagonal().maxCoeff();
+    step = start + soft * gram.ldlt().solve(linear.off + linear.by * (x - start)) - x;
+    step *= std::min(1.0, kMostStep / std::max(1e-12, step.head(n + 1).cwiseAbs().maxCoeff()));
+    for (size_t j = 0; j < corners_.size(); ++j) {
+      const Index before = 2 * static_cast<Index>(j), after = before + 1;
+      const double over = x[after] - x[before] + step[after] - step[before] - room(j);
+      if (over <= 1e-12) continue;
+      held_[j] = 1;
+      step[after] -= over / 2;
+      step[before] += over / 2;
+    }
+    x += step;
+  }
+  if (x.allFinite()) last_ = x;
+  placed = {x.head(n), std::exp(x[n]), {x[n + 1], x[n + 2]}};
+  for (size_t j = 0; j < corners_.size(); ++j)
+    if (held_[j]) answer.limited.push_back(corners_[j]);
+  return answer;
+}
+
+}  // namespace holomorph

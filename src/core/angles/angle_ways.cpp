@@ -1,0 +1,157 @@
+// Gauss rules on straight ways.
+#include "core/angles/angle_ways.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/arithmetic.h"
+#include "core/cauchy/cauchy.h"
+#include "core/cauchy/quadrature.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
+constexpr double kRatio = 0.3;
+constexpr double kPower = 1e-8;  ///< of the shorter edge: nearer to a vertex there is only a power
+
+/// Gauss nodes for a way whose length is so many times its distance from the nearest corner.
+int nodes_for(double ratio) {
+  return ratio < 0.25 ? 2 : ratio < 0.7 ? 3 : ratio < 2 ? 5 : 9;
+}
+
+}  // namespace
+
+AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
+    : mesh_(&mesh),
+      cage_(&cage),
+      corners_(vertices_of(cage)),
+      nodes_(mesh.vertices),
+      more_nodes_(precision == Precision::full ? kMoreNodes : 0),
+      panels_(kPanels + (precision == Precision::full ? kMorePanels : 0)) {
+  vertex_at_.assign(nodes_.size(), -1);
+  for (const int node : mesh.cage_vertices) {
+    const auto vertex = std::ranges::find(corners_, nodes_[static_cast<size_t>(node)]);
+    check(vertex != corners_.end(), "angle ways: the mesh is one of the cage");
+    vertex_at_[static_cast<size_t>(node)] = static_cast<int>(vertex - corners_.begin());
+  }
+  on_boundary_ = boundary_marks(mesh);
+}
+
+void AngleWays::add(int from, int to) {
+  const size_t start = static_cast<size_t>(from), end = static_cast<size_t>(to);
+  const End a{nodes_[start], vertex_at_[start]}, b{nodes_[end], vertex_at_[end]};
+  const bool may_leave = on_boundary_[start] && on_boundary_[end] && !is_straight(*cage_);
+  if (!may_leave || !(add_inside({a, b}) || add_detour(a, b))) add_leg(a, b);
+  steps_.push_back({from, to, static_cast<Index>(places_.size())});
+}
+
+void AngleWays::add_leg(const End& a, const End& b) {
+  if (a.vertex < 0 && b.vertex < 0) {
+    const double ratio = std::abs(b.at - a.at) / distance_to_corner(a.at, b.at);
+    plain(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
+  } else if (a.vertex < 0) {
+    graded(a.at, b.vertex, 1);
+  } else if (b.vertex < 0) {
+    graded(b.at, a.vertex, -1);
+  } else {
+    const Complex middle = 0.5 * (a.at + b.at);
+    graded(middle, b.vertex, 1);
+    graded(middle, a.vertex, -1);
+  }
+}
+
+int AngleWays::vertex_near(Complex z) const {
+  const auto distance = [&](int node) {
+    return std::norm(mesh_->vertices[static_cast<size_t>(node)] - z);
+  };
+  if (const auto found = locate(*mesh_, mesh_->vertices, z))
+    return *std::ranges::min_element(mesh_->triangles[static_cast<size_t>(found->triangle)], {},
+                                     distance);
+  return *std::ranges::min_element(mesh_->boundary, {}, distance);
+}
+
+int AngleWays::add_node(Complex z) {
+  const int nearest = vertex_near(z);
+  if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
+  nodes_.push_back(z);
+  vertex_at_.push_back(-1);
+  on_boundary_.push_back(1);  // perhaps: asked before a leg is added
+  add(nearest, nodes() - 1);
+  return nodes() - 1;
+}
+
+void AngleWays::plain(Complex a, Complex b, int count, double sign) {
+  const GaussRule& rule = gauss_rule(count);
+  for (size_t g = 0; g < static_cast<size_t>(count); ++g) {
+    places_.push_back(a + rule.nodes[g] * (b - a));
+    weights_.push_back(sign * rule.weights[g] * (b - a));
+  }
+}
+
+void AngleWays::graded(Complex a, int vertex, double sign) {
+  const Complex corner = corners_[static_cast<size_t>(vertex)];
+  // Where the power is all that is left, or rounding takes over.
+  const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
+  const double edge = std::min(std::abs(corners_[(at + 1) % n] - corner),
+                               std::abs(corners_[(at + n - 1) % n] - corner)),
+               rounding = std::numeric_limits<double>::epsilon() * std::abs(corner),
+               least = std::max(kPower * edge, 1e4 * rounding);
+  for (int panel = 0; panel < panels_ && std::abs(a - corner) > least; ++panel) {
+    const Complex b = corner + kRatio * (a - corner);
+    plain(a, b, kPanelNodes + more_nodes_, sign);
+    a = b;
+  }
+  tails_.push_back({static_cast<Index>(steps_.size()), static_cast<Index>(places_.size()),
+                    sign * (corner - a), vertex});
+  places_.push_back(a);
+  weights_.push_back(0);
+}
+
+/// Along a chain of legs, unless one of their places is outside.
+bool AngleWays::add_inside(std::initializer_list<End> chain) {
+  const size_t places = places_.size(), tails = tails_.size();
+  for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
+  const auto is_inside = [&](Complex z) { return contains(*cage_, z); };
+  if (std::all_of(places_.begin() + static_cast<Index>(places), places_.end(), is_inside))
+    return true;
+  places_.resize(places);
+  weights_.resize(places);
+  tails_.resize(tails);
+  return false;
+}
+
+// Chords of curves that bend inwards run outside the cage, where the coordinates are different
+// functions. Inside, all paths between two nodes give the same integral.
+bool AngleWays::add_detour(const End& a, const End& b) {
+  const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
+  for (const double aside : {0.05, 0.15, 0.4, 0.8})
+    for (const double sign : {1, -1})
+      if (add_inside({a, {middle + sign * aside * across}, b})) return true;
+  return false;
+}
+
+double AngleWays::distance_to_corner(Complex a, Complex b) const {
+  double least = INFINITY;
+  for (const Complex& corner : corners_)
+    least = std::min(least, nearest_on_segment(a, b, corner).distance);
+  return least;
+}
+
+void AngleWays::integrate(const VectorXc& values, const VectorXd& exponents,
+                          VectorXc& integral) const {
+  Index place = 0;
+  size_t tail = 0;
+  for (size_t s = 0; s < steps_.size(); ++s) {
+    Complex sum = 0;
+    for (; place < steps_[s].end; ++place)
+      sum += times(weights_[static_cast<size_t>(place)], values[place]);
+    for (; tail < tails_.size() && tails_[tail].step == static_cast<Index>(s); ++tail) {
+      const Tail& t = tails_[tail];
+      sum += values[t.place] * t.way / (1 + exponents[t.vertex]);
+    }
+    integral[steps_[s].to] = integral[steps_[s].from] + sum;
+  }
+}
+
+}  // namespace holomorph

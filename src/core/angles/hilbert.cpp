@@ -1,0 +1,309 @@
+// Least squares for real parts at places along the boundary, denser towards corners.
+#include "core/angles/hilbert.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/cauchy/cauchy_array.h"
+#include "core/cauchy/quadrature.h"
+#include "core/solvers/dense.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kDegree = 3, kPlaces = 16;  ///< of each piece
+constexpr int kCornerPlaces = 4;
+constexpr int kMostRounds = 7, kRefinements = 3;
+constexpr double kHighestPower = 3.2, kFlat = 8 * kPi / 180;
+constexpr size_t kMostPowers = 6;
+
+/// How far a ray runs before it meets the polygon again; infinite when it never does.
+double free_length(const Points& polygon, Complex from, Complex direction) {
+  double nearest = INFINITY;
+  const double least = 1e-9 * box_of(polygon).diagonal();
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = polygon[i] - from, b = polygon[(i + 1) % polygon.size()] - from;
+    const double side_a = cross(direction, a), side_b = cross(direction, b);
+    if ((side_a > 0) == (side_b > 0)) continue;
+    const double along = dot(direction, a + side_a / (side_a - side_b) * (b - a));
+    if (along > least) nearest = std::min(nearest, along);
+  }
+  return nearest;
+}
+
+double distance_to(const Points& polygon, Complex z) {
+  double least = INFINITY;
+  for (size_t i = 0; i < polygon.size(); ++i)
+    least = std::min(least,
+                     nearest_on_segment(polygon[i], polygon[(i + 1) % polygon.size()], z).distance);
+  return least;
+}
+
+/// A point outside, on the bisector of a vertex and as far from it as the rest of the boundary
+/// leaves room.
+Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle) {
+  const double opening = std::sin(std::min(kPi - angle / 2, kPi / 2));
+  double length =
+      0.7 * std::min(free_length(polygon, at, outwards), 2 * box_of(polygon).diagonal());
+  for (int shorter = 0; shorter < 60; ++shorter, length *= 0.8)
+    if (distance_to(polygon, at + length * outwards) >= 0.6 * length * opening) break;
+  return at + length * outwards;
+}
+
+/// The exponents that harmonic functions with smooth values on the sides of a wedge have at its
+/// corner, but for whole ones.
+std::vector<double> powers_of(double angle) {
+  std::vector<double> powers;
+  if (std::abs(angle - kPi) <= kFlat) return powers;
+  for (double base = kPi / angle; base < kHighestPower; base += kPi / angle)
+    for (double power = base; power < kHighestPower; ++power)
+      if (std::abs(power - std::round(power)) > 1e-3) powers.push_back(power);
+  std::ranges::sort(powers);
+  powers.erase(std::unique(powers.begin(), powers.end(),
+                           [](double a, double b) { return std::abs(a - b) < 1e-6; }),
+               powers.end());
+  powers.resize(std::min(powers.size(), kMostPowers));
+  return powers;
+}
+
+/// A segment's length from its start to the parameter t.
+double length_to(const Points& controls, double t) {
+  constexpr int kNodes = 24;
+  if (controls.size() == 2) return t * std::abs(controls[1] - controls[0]);
+  const double degree = static_cast<double>(controls.size() - 1);
+  Points ways;
+  for (size_t i = 0; i + 1 < controls.size(); ++i) ways.push_back(controls[i + 1] - controls[i]);
+  const GaussRule& rule = gauss_rule(kNodes);
+  double length = 0;
+  for (size_t k = 0; k < kNodes; ++k)
+    length += rule.weights[k] * std::abs(bezier_point(ways, t * rule.nodes[k]));
+  return t * degree * length;
+}
+
+/// The part of a curve between two parameters.
+Points part_of(const Points& controls, double from, double to) {
+  const Points start = from > 0 ? split(controls, from).after : controls;
+  return to < 1 ? split(start, (to - from) / (1 - from)).before : start;
+}
+
+}  // namespace
+
+RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
+  if (corners.size() < 3)
+    throw Error(ErrorKind::bad_input, "angles need three corners of the cage at least");
+  check(std::ranges::is_sorted(corners) && corners.front() >= 0 && corners.back() < cage.size(),
+        "corner values: corners are vertices, in order");
+  const Index p = static_cast<Index>(corners.size());
+  std::vector<double> lengths{0};  // up to each vertex
+  for (Index e = 0; e < cage.size(); ++e)
+    lengths.push_back(lengths.back() + length_to(cage.controls(e), 1));
+  RealParts parts;
+  parts.values = [cage, corners, lengths, p](std::span<const BoundaryPoint> places) {
+    MatrixXd values = MatrixXd::Zero(static_cast<Index>(places.size()), 2 * p);
+    const auto length_at = [&](Index corner) {
+      return lengths[static_cast<size_t>(corners[static_cast<size_t>(corner)])];
+    };
+    for (size_t i = 0; i < places.size(); ++i) {
+      const auto& [segment, t] = places[i];
+      double here = lengths[static_cast<size_t>(segment)] + length_to(cage.controls(segment), t);
+      // The last corner at or before the segment.
+      const Index after = std::ranges::upper_bound(corners, segment) - corners.begin(),
+                  from = (after + p - 1) % p, to = (from + 1) % p;
+      if (here < length_at(from)) here += lengths.back();
+      const double whole = length_at(to) + (to <= from ? lengths.back() : 0) - length_at(from);
+      const double share = (here - length_at(from)) / whole;
+      values(static_cast<Index>(i), 2 * from + 1) = 1 - share;
+      values(static_cast<Index>(i), 2 * to) = share;
+    }
+    return values;
+  };
+  parts.jumps = MatrixXd::Zero(cage.size(), 2 * p);
+  parts.linear = MatrixXd::Ones(2 * p, p == cage.size() && is_straight(cage) ? 3 : 1);
+  for (Index j = 0; j < p; ++j) {
+    const Index vertex = corners[static_cast<size_t>(j)];
+    parts.jumps(vertex, 2 * j) = -1;
+    parts.jumps(vertex, 2 * j + 1) = 1;
+    if (parts.linear.cols() == 1) continue;
+    const Complex z = cage.vertex(vertex);
+    for (const Index row : {2 * j, 2 * j + 1}) parts.linear.row(row) << 1, z.real(), z.imag();
+  }
+  return parts;
+}
+
+HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolerance)
+    : cage_(std::move(cage)), parts_(std::move(parts)) {
+  take_vertices();
+  shares_ = (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
+  const auto bends = [&](Index vertex) {
+    return std::abs(angle(vertex % cage_.size()) - kPi) > kFlat;
+  };
+  for (Index e = 0; e < cage_.size(); ++e) {
+    if (bends(e) || bends(e + 1) || cage_.degree(e) > 1)
+      pieces_.insert(pieces_.end(), {{e, 0, 0.5}, {e, 0.5, 1}});
+    else
+      pieces_.push_back({e, 0, 1});
+  }
+  std::vector<double> errors = solve();
+  for (int round = 0; round < kMostRounds && error_ > tolerance; ++round) {
+    cut(errors, tolerance);
+    errors = solve();
+  }
+}
+
+void HilbertCoordinates::take_vertices() {
+  const Index n = cage_.size();
+  const Points outline = flattened(cage_).points;
+  steps_ = MatrixXc::Zero(n, parts_.jumps.cols());
+  for (Index j = 0; j < n; ++j) {
+    const Points before = cage_.controls((j + n - 1) % n), after = cage_.controls(j);
+    const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
+    Vertex vertex{after[0], 0, std::arg(-in / out), {}};
+    if (vertex.angle <= 0) vertex.angle += 2 * kPi;
+    vertex.tip = tip_of(outline, vertex.at,
+                        -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
+    vertex.powers = powers_of(vertex.angle);
+    // Along the boundary the logarithm's imaginary part falls by the inner angle at its vertex.
+    steps_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
+    vertices_.push_back(std::move(vertex));
+  }
+}
+
+void HilbertCoordinates::cut(const std::vector<double>& errors, double tolerance) {
+  const double most = std::max(tolerance / 2, error_ / 4);
+  std::vector<Piece> finer;
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const auto& [segment, from, to] = pieces_[i];
+    const double middle = 0.5 * (from + to);
+    if (errors[i] > most)
+      finer.insert(finer.end(), {{segment, from, middle}, {segment, middle, to}});
+    else
+      finer.push_back(pieces_[i]);
+  }
+  pieces_ = std::move(finer);
+}
+
+/// Fits all coordinates; returns each piece's largest error.
+std::vector<double> HilbertCoordinates::solve() {
+  boundary_ = {};
+  std::vector<BoundaryPoint> places, on_cage;
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    Points controls = part_of(cage_.controls(piece.segment), piece.from, piece.to);
+    controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
+    controls.pop_back();
+    boundary_.segments.push_back(std::move(controls));
+    const auto add = [&](double t) {
+      places.push_back({static_cast<Index>(i), t});
+      on_cage.push_back({piece.segment, piece.from + t * (piece.to - piece.from)});
+    };
+    for (int k = 0; k < kPlaces; ++k) add((k + 0.5) / kPlaces);
+    for (int k = 1; k <= kCornerPlaces; ++k) {
+      const double near = std::pow(10.0, -k) / 3;
+      if (piece.from == 0) add(near);
+      if (piece.to == 1) add(1 - near);
+    }
+  }
+  Points points;
+  for (const BoundaryPoint& place : places) points.push_back(position_of(boundary_, place));
+  const MatrixXc basis = this->basis(points, 0);
+  const MatrixXd wanted =
+      parts_.values(on_cage) - matrix_product(logarithms(points, 0), steps_).real();
+
+  MatrixXd rows(basis.rows(), 2 * basis.cols());
+  rows << basis.real(), -basis.imag();
+  const VectorXd norms = rows.colwise().norm().cwiseMax(1e-300);
+  rows *= norms.cwiseInverse().asDiagonal();
+  MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
+  add_gram(rows.transpose(), rows.rows(), 0, gram);
+  gram.diagonal().array() += 1e-14 * static_cast<double>(gram.rows());
+  Cholesky cholesky;
+  check(cholesky.factor(gram), "Hilbert coordinates: the normal equations are definite");
+  MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, wanted));
+  MatrixXd off = wanted - matrix_product(rows, x);
+  for (int refined = 0; refined < kRefinements; ++refined) {
+    x += cholesky.solve_all(transposed_matrix_product(rows, off));
+    off = wanted - matrix_product(rows, x);
+  }
+  std::vector<double> errors(pieces_.size(), 0);
+  for (Index i = 0; i < off.rows(); ++i) {
+    double& error = errors[static_cast<size_t>(places[static_cast<size_t>(i)].segment)];
+    error = std::max(error, off.row(i).cwiseAbs().maxCoeff());
+  }
+  x.array().colwise() /= norms.array();
+  coefficients_ = x.topRows(basis.cols()) + kI * x.bottomRows(basis.cols());
+  error_ = *std::ranges::max_element(errors);
+  return errors;
+}
+
+Complex HilbertCoordinates::logarithm(const Vertex& vertex, Complex z) const {
+  return std::log((z - vertex.at) / (z - vertex.tip));
+}
+
+Complex HilbertCoordinates::logarithmic_slope(const Vertex& vertex, Complex z) const {
+  return 1.0 / (z - vertex.at) - 1.0 / (z - vertex.tip);
+}
+
+MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int order) const {
+  MatrixXc values =
+      MatrixXc::Zero(static_cast<Index>(points.size()), static_cast<Index>(vertices_.size()));
+  for (size_t j = 0; j < vertices_.size(); ++j) {
+    const Index column = static_cast<Index>(j);
+    if (steps_.row(column).isZero(0)) continue;
+    for (size_t i = 0; i < points.size(); ++i)
+      values(static_cast<Index>(i), column) = order == 0
+                                                  ? logarithm(vertices_[j], points[i])
+                                                  : logarithmic_slope(vertices_[j], points[i]);
+  }
+  return values;
+}
+
+MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) const {
+  const MatrixXc cauchy = as_complex(planar_coordinates<double>(boundary_, points, order));
+  Index column = cauchy.cols(), powers = 0;
+  for (const Vertex& vertex : vertices_) powers += static_cast<Index>(vertex.powers.size());
+  MatrixXc basis(cauchy.rows(), cauchy.cols() + powers);
+  basis.leftCols(cauchy.cols()) = cauchy;
+  for (const Vertex& vertex : vertices_) {
+    for (size_t i = 0; i < points.size() && !vertex.powers.empty(); ++i) {
+      const Complex log = logarithm(vertex, points[i]),
+                    slope = logarithmic_slope(vertex, points[i]);
+      for (size_t k = 0; k < vertex.powers.size(); ++k) {
+        const double power = vertex.powers[k];
+        const Complex value = std::exp(power * log);
+        basis(static_cast<Index>(i), column + static_cast<Index>(k)) =
+            order == 0 ? value : power * slope * value;
+      }
+    }
+    column += static_cast<Index>(vertex.powers.size());
+  }
+  return basis;
+}
+
+MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
+  check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
+  constexpr size_t kBlock = 1024;  // rows of the basis that fit the cache
+  MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
+  for (size_t first = 0; first < points.size(); first += kBlock) {
+    const size_t count = std::min(kBlock, points.size() - first);
+    values.middleRows(static_cast<Index>(first), static_cast<Index>(count)) =
+        block(points.subspan(first, count), order);
+  }
+  return values;
+}
+
+MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
+  MatrixXc values = matrix_product(logarithms(points, order), steps_) +
+                    matrix_product(basis(points, order), coefficients_);
+  const Index sums = parts_.linear.cols();
+  MatrixXc missing(values.rows(), sums);
+  for (Index i = 0; i < values.rows(); ++i) {
+    const Complex z = points[static_cast<size_t>(i)];
+    const std::array<Complex, 3> exact =
+        order == 0 ? std::array<Complex, 3>{1, z, -kI * z} : std::array<Complex, 3>{0, 1, -kI};
+    for (Index k = 0; k < sums; ++k) missing(i, k) = exact[static_cast<size_t>(k)];
+  }
+  missing -= values * parts_.linear;
+  return values + missing * shares_;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,100 @@
+// The boundary is looked at from a little inside, where derivatives of references are not rough.
+#include "core/bounded/bounded_reference.h"
+
+#include "core/error.h"
+#include "core/maps/argument.h"
+
+namespace holomorph {
+namespace {
+
+constexpr size_t kInnerSamples = 300;
+/// The distance is measured at every so many samples; the bounds hold at all of them.
+constexpr size_t kFitStride = 2;
+
+}  // namespace
+
+Bounds bounds_of(const Parameters& values) {
+  const Method& method = method_named("bounded");
+  return {parameter(method, values, "k"), parameter(method, values, "sigma"),
+          parameter(method, values, "Sigma")};
+}
+
+ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
+                                   const BoundaryBasis& basis, const MapOnMesh& mesh)
+    : method_(method), basis_(basis), on_mesh_(mesh), mesh_(rest.mesh) {
+  take_points(*rest.mesh, basis);
+  fit_ = HolomorphicFit(basis, points_.boundary);
+  Rest followed = used_by(method, rest);
+  followed.parameters = parameters_of(rest, method);
+  followed.precision = Precision::full;  // the samples are few
+  followed.samples = points_.boundary;
+  for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
+  followed.derivative_samples.clear();
+  deformer_ = method.prepare(followed, nullptr);
+}
+
+void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis) {
+  const Points inset = basis.inset(kInset);
+  for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
+  const std::vector<char> outer = boundary_marks(mesh);
+  std::vector<int> inner;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (!outer[v]) inner.push_back(static_cast<int>(v));
+  const std::vector<int>& anchors = inner.empty() ? mesh.boundary : inner;
+  const size_t step = std::max<size_t>(1, anchors.size() / kInnerSamples);
+  for (size_t i = 0; i < anchors.size(); i += step) anchors_.push_back(anchors[i]);
+  if (inner.empty()) return;  // derivatives of references are rough on the boundary
+  for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
+}
+
+void ReferenceSampler::deform(const Pose& pose, bool draft) {
+  deformer_->deform(used_by(method_, pose), map_, {true, draft});
+  if (!map_.f.allFinite())
+    throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
+}
+
+bool ReferenceSampler::is_identity() const {
+  const Index m = static_cast<Index>(points_.boundary.size()),
+              inner = static_cast<Index>(points_.inner.size());
+  for (Index i = 0; i < m; ++i)
+    if (map_.f[i] != points_.boundary[static_cast<size_t>(i)]) return false;
+  for (size_t i = 0; i < anchors_.size(); ++i)
+    if (anchor_places()[i] != mesh_->vertices[static_cast<size_t>(anchors_[i])]) return false;
+  return map_.fz.head(m + inner) == VectorXc::Ones(m + inner) &&
+         map_.fzbar.head(m + inner).isZero(0);
+}
+
+BoundedReference ReferenceSampler::reference(Points& zeros) const {
+  const Index m = static_cast<Index>(points_.boundary.size()),
+              inner = static_cast<Index>(points_.inner.size());
+  const VectorXc fz = map_.fz.head(m);
+  // The nearest holomorphic function tells the turns and the zeros.
+  const auto [unknowns, fitted] = fit_(fz);
+  const VectorXc& gamma = method_.harmonic ? fz : fitted;
+  std::vector<Zero> found;
+  zeros.clear();
+  if (turns_of(gamma) != 0) {
+    found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
+    // The loop of samples does not turn around those between it and the boundary.
+    std::erase_if(
+        found, [&](const Zero& zero) { return winding_number(points_.boundary, zero.place) == 0; });
+    for (const Zero& zero : found) zeros.push_back(zero.place);
+  }
+  const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
+  BoundedReference target;
+  target.log_fz.resize(m);
+  const double least = 1e-6 * fz.cwiseAbs().maxCoeff();
+  for (Index i = 0; i < m; ++i)
+    target.log_fz[i] = {std::log(std::max(std::abs(fz[i]), least)), theta[i]};
+  target.psi = map_.fzbar.head(m).conjugate();
+  target.inner_psi = map_.fzbar.segment(m, inner).conjugate();
+  target.nu = (target.psi.array() / fz.array()).matrix();
+  target.inner_nu = (target.inner_psi.array() / map_.fz.segment(m, inner).array()).matrix();
+  return target;
+}
+
+std::span<const Complex> ReferenceSampler::anchor_places() const {
+  return {map_.f.data() + points_.boundary.size(), anchors_.size()};
+}
+
+}  // namespace holomorph

@@ -1,0 +1,263 @@
+// F'' = (1 / 2 pi i) sum of jump_j / (z_j - z), so that |F''| and |F'''| have simple bounds.
+#include "core/bounded/certificate.h"
+
+#include <algorithm>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+
+namespace holomorph {
+
+void Bounds::check_usable() const {
+  if (!(k >= 0) || !(k < 1))
+    throw Error(ErrorKind::bad_input, "the bound on angles, k, must be at least 0 and below 1");
+  if (!(sigma > 0) || !(sigma < Sigma) || !std::isfinite(Sigma))
+    throw Error(ErrorKind::bad_input,
+                "the smallest stretch must be above 0 and below the largest one");
+}
+
+Bounds Bounds::tightened(double share) const {
+  const double inwards = share * 0.5 * (std::log(Sigma) - std::log(sigma));
+  return {k * (1 - share), sigma * std::exp(inwards), Sigma * std::exp(-inwards)};
+}
+
+const char* bound_name(Bound bound) {
+  static constexpr const char* kNames[] = {"largest stretch", "smallest stretch", "angle"};
+  return kNames[static_cast<int>(bound)];
+}
+
+LogMap scaled(LogMap map, Complex factor) {
+  // Cauchy coordinates sum to one, conj(Psi) turns along.
+  map.l.array() += std::log(factor);
+  map.w *= map.second == LogMap::Second::nu ? std::conj(factor) / factor : std::conj(factor);
+  return map;
+}
+
+Derivatives derivatives_of(const LogMap& map, const VectorXc& l, const VectorXc& w) {
+  Derivatives d{l.array().exp(), w};
+  if (map.second == LogMap::Second::nu) d.psi = w.cwiseProduct(d.phi);
+  return d;
+}
+
+Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, const VectorXc& w,
+                                  const VectorXc& l1, const VectorXc& w1) {
+  Derivatives d{l1.cwiseProduct(first.phi), w1};
+  if (map.second == LogMap::Second::nu) d.psi = (w1 + w.cwiseProduct(l1)).cwiseProduct(first.phi);
+  return d;
+}
+
+namespace {
+
+/// What a piece of the boundary sees of the polygon's vertices.
+struct Sight {
+  VectorXc second;        ///< F'' at the middle from the slopes' jumps
+  VectorXd near, nearer;  ///< bounds of |F''| and |F'''| from their moduli
+};
+
+Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
+  const Index n = static_cast<Index>(polygon.size());
+  Sight sight{VectorXc(n), VectorXd(n), VectorXd(n)};
+  const Complex middle = 0.5 * (piece.start + piece.end);
+  for (Index j = 0; j < n; ++j) {
+    const Complex z = polygon[static_cast<size_t>(j)];
+    sight.second[j] = inverse(2 * kPi * kI * (z - middle));
+    // The piece stays within bend / 8 of its chord.
+    const double gap =
+        std::max(nearest_on_segment(piece.start, piece.end, z).distance - piece.bend / 8, 1e-300);
+    sight.near[j] = 1 / (2 * kPi * gap);
+    sight.nearer[j] = sight.near[j] / gap;
+  }
+  return sight;
+}
+
+/// How far a piece's points are from its middle.
+double reach_of(const BoundaryPiece& piece) {
+  return 0.5 * piece.length + piece.bend / 8;
+}
+
+}  // namespace
+
+Certifier::Function Certifier::function_of(const VectorXc& a) const {
+  const Points& z = basis_.polygon();
+  const Index n = a.size();
+  Function f{a, VectorXc(n), VectorXc(n), VectorXd(n)};
+  for (Index j = 0; j < n; ++j) {
+    const Index next = (j + 1) % n;
+    f.slopes[j] =
+        quotient(a[next] - a[j], z[static_cast<size_t>(next)] - z[static_cast<size_t>(j)]);
+  }
+  for (Index j = 0; j < n; ++j) f.jumps[j] = f.slopes[j] - f.slopes[(j + n - 1) % n];
+  f.moduli = f.jumps.cwiseAbs();
+  return f;
+}
+
+Certifier::Certifier(const BoundaryBasis& basis)
+    : basis_(basis), values_(basis.values(basis.samples())) {
+  const Index count = static_cast<Index>(basis.pieces().size());
+  second_.resize(count, basis.size());
+  near_.resize(count, basis.size());
+  nearer_.resize(count, basis.size());
+  for (Index i = 0; i < count; ++i) {
+    const Sight sight = sight_of(basis.polygon(), basis.pieces()[static_cast<size_t>(i)]);
+    second_.row(i) = sight.second.transpose();
+    near_.row(i) = sight.near.transpose();
+    nearer_.row(i) = sight.nearer.transpose();
+  }
+}
+
+// With s the slope of the coefficients along an edge and L = log (z_{e+1} - z) / (z_e - z):
+// 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the last two cancel in the sum.
+Certifier::Values Certifier::at(Complex z, const Function& l, const Function& w) const {
+  const Points& polygon = basis_.polygon();
+  const size_t n = polygon.size();
+  Complex sum_l = 0, sum_w = 0, p = polygon[0] - z;
+  for (size_t e = 0; e < n; ++e) {
+    const Complex q = polygon[(e + 1) % n] - z;
+    const Complex log(0.5 * std::log(std::norm(q) / std::norm(p)),
+                      std::atan2(cross(p, q), dot(p, q)));
+    const Index i = static_cast<Index>(e);
+    sum_l += times(l.values[i] - times(p, l.slopes[i]), log);
+    sum_w += times(w.values[i] - times(p, w.slopes[i]), log);
+    p = q;
+  }
+  const Complex factor = inverse(2 * kPi * kI);
+  return {times(sum_l, factor), times(sum_w, factor)};
+}
+
+/// One proof in progress.
+class Certifier::Proof {
+ public:
+  Proof(const Certifier& certifier, const LogMap& map, const Bounds& bounds)
+      : l(certifier.function_of(map.l)),
+        w(certifier.function_of(map.w)),
+        certifier_(certifier),
+        second_(map.second),
+        bounds_(bounds),
+        log_Sigma_(std::log(bounds.Sigma)) {}
+
+  /// A piece with the functions' values at its ends and bounds of |l''| and |w''| on it.
+  struct Leaf {
+    BoundaryPiece piece;
+    Values start, end;
+    double second_l = 0, second_w = 0;
+  };
+
+  /// Proves the bounds on a leaf, halving it up to `depth` times; notes where that fails.
+  void prove(const Leaf& leaf, int depth) {
+    const auto failed = open_bound(leaf);
+    if (!failed) return;
+    const BoundaryPiece& piece = leaf.piece;
+    if (result.open.empty()) result.failed = *failed;
+    // What an end breaks no halving proves.
+    const auto broken = broken_end(leaf);
+    if (broken || depth == 0) {
+      const Complex open = broken ? *broken : middle_of(piece);
+      if (result.open.empty()) result.where = open;
+      if (result.open.empty() || result.open.back() != open) result.open.push_back(open);
+      return;
+    }
+    // What bounds |F''| on a piece bounds it on its halves.
+    const Cage& domain = certifier_.basis_.domain();
+    const double middle = 0.5 * (piece.from + piece.to);
+    Leaf first = leaf, second = leaf;
+    first.piece = piece_of(domain, piece.segment, piece.from, middle);
+    second.piece = piece_of(domain, piece.segment, middle, piece.to);
+    first.end = second.start = certifier_.at(first.piece.end, l, w);
+    prove(first, depth - 1);
+    prove(second, depth - 1);
+  }
+
+  Function l, w;
+  Certificate result;
+
+ private:
+  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8, with |F'| from the chord's slope, which F'
+  /// equals on average.
+  static double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
+    double sum = second * piece.length * piece.length;
+    if (piece.bend > 0)
+      sum += piece.bend * (std::abs(to - from) / std::abs(piece.end - piece.start) +
+                           2 * second * reach_of(piece));
+    return sum / 8;
+  }
+
+  /// A bound that the leaf's ends and second derivatives do not prove.
+  std::optional<Bound> open_bound(const Leaf& leaf) const {
+    const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
+                 dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
+    if (second_ == LogMap::Second::nu)
+      return first_of(open_bound_of_nu(leaf.start, dl, dw), open_bound_of_nu(leaf.end, dl, dw));
+    // |f_z| = e^u lies below its chord, by no more than Delta u^2 / 8 max e^u.
+    const double from = leaf.start.l.real(), to = leaf.end.l.real(),
+                 below = (to - from) * (to - from) / 8 * std::exp(std::max(from, to));
+    return first_of(open_bound_of_psi(leaf.start, dl, dw, below),
+                    open_bound_of_psi(leaf.end, dl, dw, below));
+  }
+
+  /// An end that breaks a bound itself.
+  std::optional<Complex> broken_end(const Leaf& leaf) const {
+    const auto is_broken = [&](const Values& at) {
+      return second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0).has_value()
+                                           : open_bound_of_psi(at, 0, 0, 0).has_value();
+    };
+    if (is_broken(leaf.start)) return leaf.piece.start;
+    if (is_broken(leaf.end)) return leaf.piece.end;
+    return {};
+  }
+  Complex middle_of(const BoundaryPiece& piece) const {
+    return piece_of(certifier_.basis_.domain(), piece.segment, piece.from,
+                    0.5 * (piece.from + piece.to))
+        .end;
+  }
+
+  static std::optional<Bound> first_of(std::optional<Bound> a, std::optional<Bound> b) {
+    return a ? a : b;
+  }
+
+  /// The bound that is not kept where the functions may be so far from these values.
+  std::optional<Bound> open_bound_of_nu(const Values& at, double dl, double dw) const {
+    const double u = at.l.real(), w = std::abs(at.w) + dw;
+    if (!(w <= bounds_.k)) return Bound::k;
+    if (!(u + dl + w <= log_Sigma_)) return Bound::Sigma;
+    if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
+    return {};
+  }
+  std::optional<Bound> open_bound_of_psi(const Values& at, double dl, double dw,
+                                         double below) const {
+    const double size = std::exp(at.l.real()), w = std::abs(at.w) + dw;
+    const double least = std::exp(-dl) * (size - below);
+    if (!(w <= bounds_.k * least)) return Bound::k;
+    if (!(std::exp(dl) * size + w <= bounds_.Sigma)) return Bound::Sigma;
+    if (!(least - w >= bounds_.sigma)) return Bound::sigma;
+    return {};
+  }
+
+  const Certifier& certifier_;
+  LogMap::Second second_;
+  const Bounds& bounds_;
+  double log_Sigma_;
+};
+
+Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
+  Proof proof(*this, map, bounds);
+  const VectorXc l = values_ * map.l, w = values_ * map.w, l2 = second_ * proof.l.jumps,
+                 w2 = second_ * proof.w.jumps;
+  const VectorXd l3 = nearer_ * proof.l.moduli, w3 = nearer_ * proof.w.moduli,
+                 lb = near_ * proof.l.moduli, wb = near_ * proof.w.moduli;
+  const Index count = l.size();
+  for (Index i = 0; i < count; ++i) {
+    const Index next = (i + 1) % count;
+    const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
+    const double reach = reach_of(piece);
+    proof.prove({piece,
+                 {l[i], w[i]},
+                 {l[next], w[next]},
+                 std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
+                 std::min(std::abs(w2[i]) + w3[i] * reach, wb[i])},
+                depth);
+  }
+  proof.result.holds = proof.result.open.empty();
+  return std::move(proof.result);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,80 @@
+// Where a proof fails the functions leave their samples' chord: another sample binds them there.
+#include "core/bounded/certified_program.h"
+
+#include <algorithm>
+
+namespace holomorph {
+
+std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> solutions) {
+  constexpr double kNothing = 1e-2;  // multipliers left over from the interior
+  std::optional<Bound> hardest;
+  double most = kNothing;
+  for (const ConeSolution* solution : solutions)
+    for (size_t c = 0; c < solution->z.size(); ++c)
+      if (const double push = solution->z[c].row(0).sum(); push > most) {
+        most = push;
+        hardest = static_cast<Bound>(c);
+      }
+  return hardest;
+}
+
+namespace {
+
+/// A start that lies inside a system, from x towards its center if need be.
+ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& center) {
+  const VectorXd x = start.x;
+  for (double share = 0.02; !is_feasible(system, start.x) && share <= 1; share *= 2)
+    start.x = (1 - share) * x + share * center;
+  if (!is_feasible(system, start.x)) start.x = center;
+  return start;
+}
+
+}  // namespace
+
+BoundedMap CertifiedProgram::solved(const ConeTarget& target, const ConeSettings& settings,
+                                    const ConeSolution& start, const Points& cuts) const {
+  if (cuts.empty())
+    return proved(target, settings, holomorph::solved(system, target, settings, start));
+  ConeSystem cut = system;
+  append(cuts, cut);
+  return proved(target, settings,
+                holomorph::solved(cut, target, settings, inside(cut, start, center)), cuts);
+}
+
+BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings& settings,
+                                    ConeSolution solution, const Points& cuts) const {
+  BoundedMap best;
+  best.cuts = cuts;
+  const auto take = [&](ConeSolution candidate) {
+    best.solution = std::move(candidate);
+    best.iterations += best.solution.iterations;
+    best.map = map_of(best.solution.x);
+    best.certificate = certifier.certify(best.map, bounds);
+  };
+  take(std::move(solution));
+  constexpr int kMostRounds = 3;
+  ConeSystem cut;
+  for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
+    if (best.rounds == 0) {
+      cut = system;
+      append(best.cuts, cut);
+    }
+    const Points& open = best.certificate.open;
+    append(open, cut);
+    best.cuts.insert(best.cuts.end(), open.begin(), open.end());
+    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
+  }
+  // The center is certified, and on the way there every enclosure shrinks.
+  const VectorXd x = best.solution.x;
+  for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
+    best.blend = share;
+    ConeSolution nearer = best.solution;
+    nearer.iterations = 0;
+    nearer.x = (1 - share) * x + share * center;
+    take(std::move(nearer));
+    if (share == 1) break;
+  }
+  return best;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,75 @@
+// Panels are looked at some thousands at a time: the coordinates of all would fill the memory.
+#include "core/bounded/path_integral.h"
+
+#include <algorithm>
+
+#include "core/cauchy/quadrature.h"
+
+namespace holomorph {
+namespace {
+
+constexpr size_t kAtOnce = 2048;
+constexpr int kNodes = 12;
+
+/// The ends of a line's panels, as shares of it.
+std::vector<double> panels_of(const Points& polygon, const Line& line) {
+  const double length = std::abs(line.to - line.from);
+  constexpr int kMost = 2000;  // along a boundary that is a thousandth of the line away
+  std::vector<double> ends{0};
+  while (ends.back() < 1 && static_cast<int>(ends.size()) < kMost) {
+    const Complex here = line.from + ends.back() * (line.to - line.from);
+    // A panel's middle is at least half a panel nearer to the polygon than its start may be far.
+    const double room = nearest_on_polygon(polygon, here).distance, step = 0.7 * room / length;
+    ends.push_back(step > 0 ? std::min(1.0, ends.back() + step) : 1);
+  }
+  ends.back() = 1;
+  return ends;
+}
+
+}  // namespace
+
+Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const Complex> points) {
+  Slopes slopes{VectorXc(static_cast<Index>(points.size())),
+                VectorXc(static_cast<Index>(points.size()))};
+  for (size_t first = 0; first < points.size(); first += kAtOnce) {
+    const size_t count = std::min(kAtOnce, points.size() - first);
+    const MatrixXc c = basis.values(points.subspan(first, count));
+    const Derivatives d = derivatives_of(map, c * map.l, c * map.w);
+    slopes.fz.segment(static_cast<Index>(first), static_cast<Index>(count)) = d.phi;
+    slopes.fzbar.segment(static_cast<Index>(first), static_cast<Index>(count)) = d.psi.conjugate();
+  }
+  return slopes;
+}
+
+VectorXc growth_along(const BoundaryBasis& basis, const LogMap& map, std::span<const Line> lines) {
+  const GaussRule& rule = gauss_rule(kNodes);
+  Points points;
+  struct Node {
+    Index line;
+    Complex weight;
+  };
+  std::vector<Node> nodes;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const Complex way = lines[i].to - lines[i].from;
+    if (way == Complex(0)) continue;
+    const std::vector<double> ends = panels_of(basis.polygon(), lines[i]);
+    for (size_t p = 0; p + 1 < ends.size(); ++p)
+      for (int g = 0; g < kNodes; ++g) {
+        const double length = ends[p + 1] - ends[p],
+                     share = ends[p] + length * rule.nodes[static_cast<size_t>(g)];
+        points.push_back(lines[i].from + share * way);
+        nodes.push_back(
+            {static_cast<Index>(i), length * rule.weights[static_cast<size_t>(g)] * way});
+      }
+  }
+  const Slopes slopes = slopes_at(basis, map, points);
+  VectorXc growth = VectorXc::Zero(static_cast<Index>(lines.size()));
+  for (size_t k = 0; k < nodes.size(); ++k) {
+    const Index at = static_cast<Index>(k);
+    growth[nodes[k].line] +=
+        slopes.fz[at] * nodes[k].weight + slopes.fzbar[at] * std::conj(nodes[k].weight);
+  }
+  return growth;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,218 @@
+// The polygon is a mitred offset, halved until it is simple and keeps the domain inside.
+#include "core/cauchy/boundary_basis.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "core/cauchy/cauchy_array.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+/// A polygon's corners moved outwards by distances of their own from both their edges.
+Points mitred(const Points& polygon, const std::vector<double>& distances) {
+  const size_t n = polygon.size();
+  constexpr double kLongest = 12;  // of a mitre, in distances
+  Points outer;
+  for (size_t i = 0; i < n; ++i) {
+    const Complex before = polygon[i] - polygon[(i + n - 1) % n],
+                  after = polygon[(i + 1) % n] - polygon[i];
+    const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
+    Complex mitre = u + v;
+    const double size = std::norm(mitre);
+    // At a spike the mitre would be long; in a notch it must be, or the sides meet before it ends.
+    const bool spike = cross(before, after) >= 0;
+    if (spike && size < 4 / (kLongest * kLongest))
+      mitre = kLongest * before / std::abs(before);
+    else
+      mitre *= 2 / std::max(size, 1e-12);
+    outer.push_back(polygon[i] + distances[i] * mitre);
+  }
+  return outer;
+}
+
+/// How many equal parts each length gets, one at least, about `wanted` in all.
+std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
+  double total = 0;
+  for (const double length : lengths) total += length;
+  std::vector<int> parts;
+  for (const double length : lengths)
+    parts.push_back(std::max(1, static_cast<int>(std::lround(wanted * length / total))));
+  return parts;
+}
+
+/// The segments' lengths.
+std::vector<double> lengths_of(const Cage& domain) {
+  std::vector<double> lengths;
+  for (Index e = 0; e < domain.size(); ++e) {
+    const Points controls = domain.controls(e);
+    constexpr int kSteps = 32;
+    double length = 0;
+    const int steps = is_straight(domain, e) ? 1 : kSteps;
+    for (int k = 0; k < steps; ++k)
+      length += std::abs(bezier_point(controls, (k + 1.0) / steps) -
+                         bezier_point(controls, static_cast<double>(k) / steps));
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+/// A piece in equal parts of its parameter.
+std::vector<BoundaryPiece> parted(const Cage& domain, const BoundaryPiece& piece, int parts) {
+  std::vector<BoundaryPiece> pieces;
+  const double step = (piece.to - piece.from) / parts;
+  for (int k = 0; k < parts; ++k)
+    pieces.push_back(piece_of(domain, piece.segment, piece.from + k * step,
+                              k + 1 == parts ? piece.to : piece.from + (k + 1) * step));
+  return pieces;
+}
+
+/// How far a piece is from its chord at most.
+double sagitta(const BoundaryPiece& piece) {
+  return piece.bend / 8;
+}
+
+/// About `wanted` pieces of equal length, one for each segment at least, and more where they are
+/// bent by more than `flat`.
+std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
+  const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
+  std::vector<BoundaryPiece> pieces;
+  for (Index e = 0; e < domain.size(); ++e)
+    for (const BoundaryPiece& piece :
+         parted(domain, piece_of(domain, e, 0, 1), parts[static_cast<size_t>(e)])) {
+      constexpr double kMostParts = 6;
+      const double more = std::ceil(std::sqrt(sagitta(piece) / flat));
+      const auto finer = parted(domain, piece, static_cast<int>(std::clamp(more, 1.0, kMostParts)));
+      pieces.insert(pieces.end(), finer.begin(), finer.end());
+    }
+  return pieces;
+}
+
+Points starts_of(const std::vector<BoundaryPiece>& pieces) {
+  Points starts;
+  for (const BoundaryPiece& piece : pieces) starts.push_back(piece.start);
+  return starts;
+}
+
+bool crosses(Complex a, Complex b, Complex c, Complex d) {
+  return cross(b - a, c - a) * cross(b - a, d - a) <= 0 &&
+         cross(d - c, a - c) * cross(d - c, b - c) <= 0;
+}
+
+/// Whether a polygon is simple and lies around another one, nowhere nearer than `distance`.
+bool is_around(const Points& polygon, const Points& inner, double distance) {
+  if (self_crossing(polygon)) return false;
+  for (const Complex& z : inner)
+    if (winding_number(polygon, z) != 1 || nearest_on_polygon(polygon, z).distance <= distance)
+      return false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    if (winding_number(inner, a) != 0 || nearest_on_polygon(inner, a).distance <= distance)
+      return false;
+    for (size_t k = 0; k < inner.size(); ++k)
+      if (crosses(a, b, inner[k], inner[(k + 1) % inner.size()])) return false;
+  }
+  return true;
+}
+
+/// A polygon around the domain, and the piece that each of its edges lies along.
+struct Surrounding {
+  Points polygon;
+  std::vector<BoundaryPiece> pieces;
+};
+
+Surrounding surrounding(const Cage& domain, int wanted, double distance) {
+  const Points fine = flattened(domain).points;
+  for (int vertices = wanted; vertices <= 4 * wanted; vertices *= 2) {
+    const std::vector<BoundaryPiece> pieces = cut(domain, vertices, 1.5 * distance);
+    const Points inner = starts_of(pieces);
+    double off = distance;
+    for (int halving = 0; halving < 12; ++halving, off *= 0.5) {
+      std::vector<double> distances;  // chords of curves leave parts of the domain outside
+      for (size_t i = 0; i < pieces.size(); ++i) {
+        const BoundaryPiece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
+        distances.push_back(off + 1.5 * std::max(sagitta(pieces[i]), sagitta(before)));
+      }
+      const Points outer = mitred(inner, distances);
+      if (is_around(outer, fine, 0.3 * off)) return {outer, pieces};
+    }
+  }
+  throw Error(
+      ErrorKind::bad_input,
+      "no smooth boundary fits around the cage for this method: parts of it nearly touch each "
+      "other; move them apart");
+}
+
+}  // namespace
+
+BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to) {
+  BoundaryPiece piece{segment, from, to, 0, 0, 0, 0};
+  if (domain.degree(segment) == 1) {
+    const Complex a = domain.vertex(segment), b = domain.vertex(segment + 1);
+    piece.start = from == 0 ? a : a + from * (b - a);
+    piece.end = to == 1 ? b : a + to * (b - a);
+    piece.length = std::abs(piece.end - piece.start);
+    return piece;
+  }
+  Points controls = domain.controls(segment);
+  if (to < 1) controls = split(controls, to).before;
+  if (from > 0) controls = split(controls, from / to).after;
+  piece.start = controls.front();
+  piece.end = controls.back();
+  const double n = static_cast<double>(controls.size()) - 1;
+  for (size_t m = 0; m + 1 < controls.size(); ++m)
+    piece.length = std::max(piece.length, n * std::abs(controls[m + 1] - controls[m]));
+  if (is_straight(domain, segment)) return piece;
+  for (size_t m = 0; m + 2 < controls.size(); ++m)
+    piece.bend = std::max(
+        piece.bend, n * (n - 1) * std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
+  return piece;
+}
+
+BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
+    : domain_(counter_clockwise(domain)) {
+  check_rest_cage(domain);
+  const double around = perimeter(flattened(domain_).points);
+  const int vertices = std::max(basis, 25);
+  constexpr double kOffset = 0.05;  // of the mean edge: 0.1 % of the perimeter for 50 vertices
+  Surrounding around_domain = surrounding(domain_, vertices, kOffset * around / vertices);
+  polygon_ = std::move(around_domain.polygon);
+  const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));
+  for (const BoundaryPiece& piece : around_domain.pieces)
+    for (const BoundaryPiece& part : parted(domain_, piece, each)) pieces_.push_back(part);
+  samples_ = starts_of(pieces_);
+  const MatrixXc c = values(samples_);
+  check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
+  const Eigen::HouseholderQR<MatrixXc> qr(c);
+  const double root = std::sqrt(static_cast<double>(c.rows()));
+  const MatrixXc r = qr.matrixQR().topRows(c.cols()).triangularView<Eigen::Upper>();
+  coefficients_ =
+      root * r.triangularView<Eigen::Upper>().solve(MatrixXc::Identity(c.cols(), c.cols())).eval();
+  at_samples_ = root * (qr.householderQ() * MatrixXc::Identity(c.rows(), c.cols()));
+  one_ = r * VectorXc::Ones(c.cols()) / root;
+}
+
+Points BoundaryBasis::inset(double share) const {
+  const Points fine = flattened(domain_).points;
+  Points inner = samples_;
+  const size_t n = inner.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Complex in = samples_[(i + n - 1) % n] - samples_[i],
+                  out = samples_[(i + 1) % n] - samples_[i];
+    Complex step = share * std::min(std::abs(in), std::abs(out)) * inwards_between(out, in);
+    // Not beyond the middle of a thin part.
+    for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
+                                           winding_number(fine, samples_[i] + 2.0 * step) != 1);
+         ++halving)
+      step *= 0.5;
+    inner[i] += step;
+  }
+  return inner;
+}
+
+MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {
+  return as_complex(planar_coordinates<double>(polygon_cage(polygon_), points, order));
+}
+
+}  // namespace holomorph

@@ -1,0 +1,200 @@
+// Segments that meet at a vertex are looked at from the same place, as an offset from that vertex.
+#include "core/cauchy/cauchy_rows.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kNear = 0.05;     ///< of a vertex's reach: there the poles of its segments cancel
+constexpr double kPole = 1e-5;     ///< nearer, what is left of them would lose digits
+constexpr double kInside = 1e-12;  ///< of a vertex's reach
+/// What is on a cage must be on the finer boundaries along it, whose vertices are rounded, too.
+constexpr double kOutside = 3;
+constexpr double kRecovers = 1e10;  ///< so many roundings away a step of one does not matter
+
+}  // namespace
+
+CauchyRows::CauchyRows(const Cage& cage, int order, AtVertices at_vertices)
+    : cage_(cage), order_(order), at_vertices_(at_vertices) {
+  for (Index e = 0; e < cage.size(); ++e) {
+    offsets_.push_back(cage.control_offset(e));
+    segments_.emplace_back(cage.controls(e));
+    reach_.push_back(std::min(std::abs(cage.vertex(e + 1) - cage.vertex(e)),
+                              std::abs(cage.vertex(e) - cage.vertex(e - 1))));
+  }
+}
+
+Index CauchyRows::column(size_t segment, int m) const {
+  return m < cage_.degree(static_cast<Index>(segment)) ? offsets_[segment] + m
+                                                       : offsets_[(segment + 1) % segments_.size()];
+}
+
+Complex CauchyRows::inwards(size_t vertex) const {
+  const Complex in = -segments_[before(vertex)].derivative({1, 0}),
+                out = segments_[vertex].derivative({0, 1});
+  return kInside * reach_[vertex] * inwards_between(out, in);
+}
+
+CauchyRows::Stand CauchyRows::stand_on(const Contact& contact) const {
+  const size_t segment = static_cast<size_t>(contact.segment);
+  if (contact.is_vertex() && order_ > 0 && at_vertices_ == AtVertices::from_inside)
+    return {{segments_[segment].start(), inwards(segment)}, {}};
+  return {contact.point, contact};
+}
+
+CauchyRows::Stand CauchyRows::stand_at(Complex z) const {
+  const auto contact = contact_of(segments_, z, kOutside);
+  return contact ? stand_on(*contact) : Stand{z, {}};
+}
+
+bool CauchyRows::is_undefined(const Stand& stand) const {
+  return stand.on && stand.on->is_vertex() && order_ > 0;
+}
+
+/// The coordinates of one segment's control points.
+VectorXc CauchyRows::coordinates(const Stand& stand, size_t segment) const {
+  const size_t next = (segment + 1) % segments_.size();
+  const Index number = static_cast<Index>(segment);
+  const int degree = cage_.degree(number);
+  if (stand.on && stand.on->is_vertex()) {
+    const size_t vertex = static_cast<size_t>(stand.on->segment);
+    if (segment == vertex || next == vertex) {
+      const size_t last = before(vertex);
+      const VertexLimit limit =
+          vertex_limit(segments_[last], cage_.degree(static_cast<Index>(last)), segments_[vertex],
+                       cage_.degree(stand.on->segment));
+      return segment == vertex ? limit.own : limit.before;
+    }
+  }
+  const auto is_near = [&](size_t vertex) {
+    return order_ > 0 && std::abs(segments_[vertex].start() - stand.point) < kNear * reach_[vertex];
+  };
+  const bool own = stand.on && stand.on->segment == number;
+  return segment_coordinates(segments_[segment], degree, stand.point, order_,
+                             own ? &*stand.on : nullptr, {is_near(segment), is_near(next)});
+}
+
+VectorXc CauchyRows::whole_row(const Stand& stand) const {
+  VectorXc row = VectorXc::Zero(cage_.control_count());
+  if (is_undefined(stand)) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    row.setConstant(Complex(kNaN, kNaN));
+    return row;
+  }
+  for (size_t e = 0; e < segments_.size(); ++e) {
+    const VectorXc values = coordinates(stand, e);
+    for (Index m = 0; m < values.size(); ++m) row[column(e, static_cast<int>(m))] += values[m];
+  }
+  if (order_ == 2) set_second_derivatives(row, stand.point);
+  return row;
+}
+
+VectorXc CauchyRows::row(Complex z) const {
+  return whole_row(stand_at(z));
+}
+
+VectorXc CauchyRows::row(BoundaryPoint point) const {
+  return whole_row(stand_on(contact_at(segments_, point.segment, point.t)));
+}
+
+/// Between two straight edges the second derivative is rational: no cancellation at all.
+void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const {
+  for (Index v = 0; v < cage_.size(); ++v) {
+    const size_t vertex = static_cast<size_t>(v);
+    if (cage_.degree(v) != 1 || cage_.degree(static_cast<Index>(before(vertex))) != 1) continue;
+    const Complex last = cage_.vertex(v - 1), after = cage_.vertex(v + 1);
+    const Complex product = times(times(last - z, cage_.vertex(v) - z), after - z);
+    row[offsets_[vertex]] = times(after - last, inverse(2 * kPi * times(kI, product)));
+  }
+}
+
+std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
+  const auto contact = contact_of(segments_, z, kOutside);
+  const Stand stand = contact ? stand_on(*contact) : Stand{z, {}};
+  size_t own = contact ? static_cast<size_t>(contact->segment) : segments_.size();
+  if (!contact && order_ > 0)
+    for (size_t v = 0; v < segments_.size(); ++v)
+      if (std::abs(segments_[v].start() - z) < kPole * reach_[v]) own = v;
+  if (own == segments_.size()) return {};
+  // As far both ways along the boundary as a step by a rounding error would be felt.
+  const size_t n = segments_.size();
+  const double far = kRecovers * rounding_of(segments_[own], z, 0.5, 0.5);
+  const auto is_felt = [&](size_t vertex) {
+    return std::abs(segments_[vertex % n].start() - z) < far;
+  };
+  size_t from = own + n - 1, to = own + n + 1;
+  while (to - from < n && is_felt(from)) --from;
+  while (to - from < n && is_felt(to + 1)) ++to;
+  if (to - from + 3 >= n) return Patch{0, whole_row(stand)};
+  // Their columns, to which the next segments on both sides contribute, too.
+  Patch patch{column(from % n, 0), {}};
+  const Index all = cage_.control_count();
+  const Index count = (column((to + 1) % n, 0) - patch.first + all) % all + 1;
+  patch.values = VectorXc::Zero(count);
+  const auto add = [&](size_t segment, bool first, bool last, bool middle) {
+    const VectorXc values = coordinates(stand, segment % n);
+    for (Index m = 0; m < values.size(); ++m) {
+      if (!(m == 0 ? first : m + 1 == values.size() ? last : middle)) continue;
+      patch.values[(column(segment % n, static_cast<int>(m)) - patch.first + all) % all] +=
+          values[m];
+    }
+  };
+  add(from - 1, false, true, false);
+  for (size_t e = from; e <= to; ++e) add(e, true, true, true);
+  add(to + 1, true, false, false);
+  return patch;
+}
+
+namespace {
+
+template <class Place>
+MatrixXc rows(const Cage& cage, std::span<const Place> places, int order) {
+  if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
+  const bool clockwise = signed_area(outline_of(cage)) < 0;
+  const CauchyRows builder(clockwise ? reversed(cage) : cage, order,
+                           CauchyRows::AtVertices::not_a_number);
+  MatrixXc result(static_cast<Index>(places.size()), cage.control_count());
+  const std::vector<Index> turned = clockwise ? reversed_columns(cage) : std::vector<Index>{};
+  for (Index i = 0; i < result.rows(); ++i) {
+    Place place = places[static_cast<size_t>(i)];
+    if constexpr (std::is_same_v<Place, BoundaryPoint>)
+      if (clockwise)
+        place = place.t == 0 ? BoundaryPoint{(cage.size() - place.segment) % cage.size(), 0}
+                             : BoundaryPoint{cage.size() - 1 - place.segment, 1 - place.t};
+    const VectorXc row = builder.row(place);
+    for (Index c = 0; c < row.size(); ++c)
+      result(i, c) = row[clockwise ? turned[static_cast<size_t>(c)] : c];
+  }
+  return result;
+}
+
+}  // namespace
+
+MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order) {
+  return rows(cage, points, order);
+}
+
+MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order) {
+  return rows(cage, points, order);
+}
+
+bool contains(const Cage& cage, Complex z) {
+  std::vector<SegmentPolynomial> segments;
+  for (Index e = 0; e < cage.size(); ++e) segments.emplace_back(cage.controls(e));
+  if (contact_of(segments, z)) return true;
+  double turns = 0;
+  std::vector<Root> roots;
+  for (const SegmentPolynomial& segment : segments) {
+    roots.resize(static_cast<size_t>(segment.degree()));
+    segment.roots(z, roots);
+    for (const Root& root : roots) turns += angle_of(root);
+  }
+  return std::abs(turns) > kPi;
+}
+
+}  // namespace holomorph

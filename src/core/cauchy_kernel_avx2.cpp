@@ -1,4 +1,0 @@
-// The kernels for processors with AVX2 and FMA; the build compiles this file with those switched
-// on.
-#define HOLOMORPH_KERNEL_TABLE kAvx2
-#include "core/cauchy_kernel.inc"

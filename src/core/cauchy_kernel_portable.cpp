@@ -1,3 +1,0 @@
-// The kernels for any processor of the architecture.
-#define HOLOMORPH_KERNEL_TABLE kPortable
-#include "core/cauchy_kernel.inc"

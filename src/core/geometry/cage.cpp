@@ -1,0 +1,372 @@
+// Cages by index arithmetic over segments; the curves themselves are curve.h's.
+#include "core/geometry/cage.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/geometry/segment.h"
+
+namespace holomorph {
+
+Index Cage::control_count() const {
+  Index count = 0;
+  for (const Points& segment : segments) count += static_cast<Index>(segment.size());
+  return count;
+}
+
+Points Cage::controls(Index segment) const {
+  Points all = segments[segment];
+  all.push_back(vertex(segment + 1));
+  return all;
+}
+
+Index Cage::control_offset(Index segment) const {
+  Index offset = 0;
+  for (Index i = 0; i < segment; ++i) offset += degree(i);
+  return offset;
+}
+
+Cage polygon_cage(std::span<const Complex> vertices) {
+  Cage cage;
+  for (const Complex& z : vertices) cage.segments.push_back({z});
+  return cage;
+}
+
+Points vertices_of(const Cage& cage) {
+  Points vertices;
+  for (const Points& segment : cage.segments) vertices.push_back(segment[0]);
+  return vertices;
+}
+
+VectorXc controls_of(const Cage& cage) {
+  VectorXc all(cage.control_count());
+  Index i = 0;
+  for (const Points& segment : cage.segments)
+    for (const Complex& z : segment) all[i++] = z;
+  return all;
+}
+
+Cage elevated_to(const Cage& cage, const Cage& other) {
+  if (cage.size() != other.size())
+    throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
+                                          " segments and the posed one " +
+                                          std::to_string(other.size()) + "; they must agree");
+  Cage raised;
+  for (Index i = 0; i < cage.size(); ++i) {
+    Points curve = elevated(cage.controls(i), std::max(cage.degree(i), other.degree(i)));
+    curve.pop_back();
+    raised.segments.push_back(std::move(curve));
+  }
+  return raised;
+}
+
+Points outline_of(const Cage& cage, int per_curve) {
+  Points outline;
+  for (Index i = 0; i < cage.size(); ++i) {
+    outline.push_back(cage.vertex(i));
+    if (cage.degree(i) == 1) continue;
+    const Points controls = cage.controls(i);
+    for (int k = 1; k < per_curve; ++k)
+      outline.push_back(bezier_point(controls, static_cast<double>(k) / per_curve));
+  }
+  return outline;
+}
+
+Cage reversed(const Cage& cage) {
+  Cage backwards;
+  for (Index i = cage.size() - 1; i >= 0; --i) {
+    Points controls = cage.controls(i);
+    std::reverse(controls.begin(), controls.end());
+    controls.pop_back();
+    backwards.segments.push_back(std::move(controls));
+  }
+  return backwards;
+}
+
+Cage counter_clockwise(const Cage& cage) {
+  return signed_area(outline_of(cage)) < 0 ? reversed(cage) : cage;
+}
+
+Complex beside_vertex(const Cage& cage, Complex z) {
+  for (Index v = 0; v < cage.size(); ++v) {
+    if (cage.vertex(v) != z) continue;
+    const Points before = cage.controls((v + cage.size() - 1) % cage.size()),
+                 after = cage.controls(v);
+    const Complex in = before[before.size() - 2] - z, out = after[1] - z;
+    const double shorter = std::min(std::abs(before.front() - z), std::abs(after.back() - z)),
+                 rounding = std::numeric_limits<double>::epsilon() * std::abs(z);
+    return z + std::max(1e-9 * shorter, 64 * rounding) * inwards_between(out, in);
+  }
+  return z;
+}
+
+std::vector<Index> reversed_columns(const Cage& cage) {
+  Cage tagged = cage;
+  Index c = 0;
+  for (Points& segment : tagged.segments)
+    for (Complex& z : segment) z = static_cast<double>(c++);
+  const VectorXc order = controls_of(reversed(tagged));
+  std::vector<Index> column(c);
+  for (Index i = 0; i < c; ++i) column[static_cast<Index>(order[i].real())] = i;
+  return column;
+}
+
+void insert_vertex(Cage& cage, Index segment, double t) {
+  check(segment >= 0 && segment < cage.size() && t > 0 && t < 1, "insert_vertex: on a segment");
+  SplitCurve halves = split(cage.controls(segment), t);
+  halves.before.pop_back();
+  halves.after.pop_back();
+  cage.segments[segment] = std::move(halves.before);
+  cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
+}
+
+double joint_parameter(const Cage& cage, Index vertex) {
+  const Index before = (vertex + cage.size() - 1) % cage.size();
+  const Points left = cage.controls(before), right = cage.controls(vertex);
+  const double in = cage.degree(before) * std::abs(left.back() - left[left.size() - 2]),
+               out = cage.degree(vertex) * std::abs(right[1] - right[0]);
+  return in + out > 0 ? std::clamp(in / (in + out), 0.05, 0.95) : 0.5;
+}
+
+void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit) {
+  check(cage.size() > 3 && vertex >= 0 && vertex < cage.size(), "erase_vertex: more than three");
+  const Index before = (vertex + cage.size() - 1) % cage.size();
+  const int degree = std::max(cage.degree(before), cage.degree(vertex));
+  if (degree > 1 && refit == Refit::tangents) {
+    const Points left = elevated(cage.controls(before), std::max(3, cage.degree(before))),
+                 right = elevated(cage.controls(vertex), std::max(3, cage.degree(vertex)));
+    cage.segments[before] = {left[0], left[1], right[right.size() - 2]};
+  } else if (degree > 1) {
+    const Points left = cage.controls(before), right = cage.controls(vertex);
+    constexpr int kSamples = 24;
+    Points samples;
+    std::vector<double> parameters;
+    for (int k = 0; k <= 2 * kSamples; ++k) {
+      const bool first = k < kSamples;
+      const double t = static_cast<double>(first ? k : k - kSamples) / kSamples;
+      samples.push_back(bezier_point(first ? left : right, t));
+      parameters.push_back(first ? joint * t : joint + (1 - joint) * t);
+    }
+    Points curve = fitted(samples, parameters, degree);
+    curve.pop_back();
+    cage.segments[before] = std::move(curve);
+  }
+  cage.segments.erase(cage.segments.begin() + vertex);
+}
+
+bool is_straight(const Cage& cage, Index segment) {
+  return cage.degree(segment) == 1 || SegmentPolynomial(cage.controls(segment)).degree() <= 1;
+}
+
+bool is_straight(const Cage& cage) {
+  for (Index i = 0; i < cage.size(); ++i)
+    if (!is_straight(cage, i)) return false;
+  return true;
+}
+
+Complex position_of(const Cage& cage, BoundaryPoint point) {
+  return bezier_point(cage.controls(point.segment), point.t);
+}
+
+FlatCage flattened(const Cage& cage) {
+  constexpr double kFlat = 5e-5;
+  const double tolerance = kFlat * box_of(controls_of(cage)).diagonal();
+  FlatCage flat;
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    double bend = 0;  // the largest second difference bounds c'' / (n (n - 1))
+    for (size_t m = 0; m + 2 < controls.size(); ++m)
+      bend = std::max(bend, std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
+    const double n = cage.degree(i), sagitta = n * (n - 1) * bend / 8;
+    const int pieces =
+        is_straight(cage, i)
+            ? 1
+            : static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / tolerance)), 2.0, 1024.0));
+    for (int k = 0; k < pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      flat.points.push_back(k == 0 ? cage.vertex(i) : bezier_point(controls, t));
+      flat.places.push_back({i, t});
+    }
+  }
+  return flat;
+}
+
+BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z) {
+  const NearestPoint near = nearest_on_polygon(flat.points, z);
+  const size_t from = static_cast<size_t>(near.edge), to = (from + 1) % flat.places.size();
+  const auto [segment, start] = flat.places[from];
+  const double end = flat.places[to].segment == segment && to > 0 ? flat.places[to].t : 1;
+  double t = start + near.t * (end - start);
+  if (!is_straight(cage, segment)) {
+    const SegmentPolynomial curve(cage.controls(segment));
+    constexpr int kSteps = 6;  // of Gauss and Newton, from 5e-5 of the size
+    for (int step = 0; step < kSteps; ++step) {
+      const Root at{t, 1 - t};
+      const Complex slope = curve.derivative(at);
+      if (slope == 0.0) break;
+      t = std::clamp(t - dot(slope, curve.at(at) - z) / std::norm(slope), 0.0, 1.0);
+    }
+  }
+  return t < 1 ? BoundaryPoint{segment, t} : BoundaryPoint{(segment + 1) % cage.size(), 0};
+}
+
+std::string point_text(Complex z) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g)", z.real(), z.imag());
+  return text;
+}
+
+namespace {
+
+/// Vertices must keep a distance from the edges beside which they lie that survives rounding, also
+/// of what a mesher inserts between them: a needle's angle is at least kNeedle. Otherwise which
+/// side they are on is nobody's to say.
+std::optional<Error> gap_fault(const FlatCage& flat) {
+  constexpr double kNeedle = 1e-7;
+  const Points& polygon = flat.points;
+  const Index n = static_cast<Index>(polygon.size());
+  std::vector<double> along(polygon.size() + 1, 0);  // arc length up to each vertex
+  for (Index e = 0; e < n; ++e)
+    along[e + 1] = along[e] + std::abs(polygon[(e + 1) % n] - polygon[e]);
+  // The shorter way along the boundary between a vertex and an edge.
+  const auto way = [&](Index vertex, Index edge) {
+    const double forward = along[vertex] - along[edge + 1], back = along[edge] - along[vertex];
+    return forward >= 0 ? std::min(forward, along[n] - along[vertex] + along[edge])
+                        : std::min(back, along[n] - along[edge + 1] + along[vertex]);
+  };
+  double largest = 0;
+  for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
+  const double gap =
+      64 * std::numeric_limits<double>::epsilon() * (largest + box_of(polygon).diagonal());
+  std::vector<Index> by_x(polygon.size());
+  std::iota(by_x.begin(), by_x.end(), Index{0});
+  std::ranges::sort(by_x, {}, [&](Index v) { return polygon[v].real(); });
+  const double most = std::max(gap, kNeedle * along[n]);
+  for (Index e = 0; e < n; ++e) {
+    const Complex a = polygon[e], b = polygon[(e + 1) % n];
+    const auto [left, right] = std::minmax({a.real(), b.real()});
+    const auto [low, high] = std::minmax({a.imag(), b.imag()});
+    auto v =
+        std::ranges::lower_bound(by_x, left - most, {}, [&](Index i) { return polygon[i].real(); });
+    for (; v != by_x.end() && polygon[*v].real() <= right + most; ++v) {
+      const Complex z = polygon[*v];
+      if (*v == e || *v == (e + 1) % n || z.imag() < low - most || z.imag() > high + most) continue;
+      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(*v, e)))
+        return Error(ErrorKind::bad_input,
+                     "the rest cage touches itself: point " +
+                         std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
+                         " lies on segment " + std::to_string(flat.places[e].segment + 1) +
+                         "; move one of them away",
+                     z);
+    }
+  }
+  return {};
+}
+
+/// A curve must not stop: where c' = 0 there is a cusp, and the map's derivative has no limit.
+std::optional<Error> speed_fault(const Cage& cage, Index segment) {
+  if (is_straight(cage, segment)) return {};
+  const Points controls = cage.controls(segment);
+  Points slopes;
+  for (size_t m = 0; m + 1 < controls.size(); ++m) slopes.push_back(controls[m + 1] - controls[m]);
+  const SegmentPolynomial speed(slopes);
+  std::vector<Root> stops(std::max(speed.degree(), 0));
+  if (speed.degree() > 0) speed.roots(Complex(0), stops);
+  constexpr double kNear = 1e-5;
+  for (const Root& stop : stops) {
+    const double t = stop.s.real();
+    if (std::abs(stop.s.imag()) > kNear || t < -kNear || t > 1 + kNear) continue;
+    const Complex z = bezier_point(controls, std::clamp(t, 0.0, 1.0));
+    const bool at_end = t < kNear || t > 1 - kNear;
+    return Error(ErrorKind::bad_input,
+                 "rest cage segment " + std::to_string(segment + 1) +
+                     (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
+                     point_text(z) + "; pull its handles apart",
+                 z);
+  }
+  return {};
+}
+
+/// Two segments must not leave their common vertex in the same direction: rounding cannot tell an
+/// angle of 0 from one of 2 pi there.
+std::optional<Error> tip_fault(const Cage& cage) {
+  constexpr double kTip = 1e-7;  // radians
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points before = cage.controls((i + cage.size() - 1) % cage.size()),
+                 own = cage.controls(i);
+    const Complex z = own[0], in = before[before.size() - 2] - z, out = own[1] - z;
+    if (dot(in, out) > 0 && std::abs(cross(in, out)) <= kTip * std::abs(in) * std::abs(out))
+      return Error(ErrorKind::bad_input,
+                   "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
+                       point_text(z) + ": its two segments run in the same direction; open them",
+                   z);
+  }
+  return {};
+}
+
+/// What would be no polynomial, or overflow when areas are multiplied.
+std::optional<Error> numbers_fault(const Cage& cage) {
+  const auto fault = [](Index i, const std::string& what) {
+    return Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) + " " + what);
+  };
+  for (Index i = 0; i < cage.size(); ++i) {
+    if (cage.degree(i) < 1) return fault(i, "has no control point");
+    if (cage.degree(i) > kHighestDegree)
+      return fault(i, "is of degree " + std::to_string(cage.degree(i)) + "; the highest one is " +
+                          std::to_string(kHighestDegree));
+    for (const Complex& z : cage.segments[i]) {
+      if (!is_finite(z)) return fault(i, "has a coordinate that is not a finite number");
+      if (!is_moderate(z)) return fault(i, "has a coordinate above 1e70");
+    }
+  }
+  return {};
+}
+
+std::optional<Error> length_fault(const Cage& cage) {
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Points controls = cage.controls(i);
+    const bool moves =
+        std::any_of(controls.begin(), controls.end(), [&](Complex z) { return z != controls[0]; });
+    if (!moves || (cage.vertex(i) == cage.vertex(i + 1) && is_straight(cage, i)))
+      return Error(ErrorKind::bad_input,
+                   "rest cage segment " + std::to_string(i + 1) + " at " +
+                       point_text(cage.vertex(i)) + " has no length; delete one of its two points",
+                   cage.vertex(i));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Error> rest_fault(const Cage& cage) {
+  if (cage.size() < 3)
+    return Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
+                                           " segments; a cage needs at least three");
+  if (auto fault = numbers_fault(cage)) return fault;
+  if (auto fault = length_fault(cage)) return fault;
+  for (Index i = 0; i < cage.size(); ++i)
+    if (auto fault = speed_fault(cage, i)) return fault;
+  if (auto fault = tip_fault(cage)) return fault;
+  const FlatCage flat = flattened(cage);
+  if (const auto crossing = self_crossing(flat.points))
+    return Error(ErrorKind::bad_input,
+                 "the rest cage crosses itself: segments " +
+                     std::to_string(flat.places[crossing->first].segment + 1) + " and " +
+                     std::to_string(flat.places[crossing->second].segment + 1) + " meet near " +
+                     point_text(crossing->point) + "; move one of their points",
+                 crossing->point);
+  if (auto fault = gap_fault(flat)) return fault;
+  const Box box = box_of(flat.points);
+  if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
+    return Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+  return {};
+}
+
+void check_rest_cage(const Cage& cage) {
+  if (const auto fault = rest_fault(cage)) throw *fault;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,16 @@
+// The falloff of soft selection: smooth, and exactly 0 at the radius.
+#include "core/geometry/stiffness.h"
+
+#include <algorithm>
+
+namespace holomorph {
+
+double stiffness_level(std::span<const Dab> dabs, Complex z) {
+  double level = 0;
+  for (const Dab& dab : dabs)
+    if (const double rest = 1 - std::norm(z - dab.at) / (dab.radius * dab.radius); rest > 0)
+      level += dab.level * rest * rest;
+  return std::clamp(level, kLeastStiffness, kMostStiffness);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,122 @@
+// Winding numbers over triangles are sums of increments over edges, so that they add up to the
+// boundary's.
+#include "core/maps/argument.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+/// arg(b / a) in (-pi, pi], the exact opposite from b to a.
+double increment(Complex a, Complex b) {
+  return std::atan2(cross(a, b), dot(a, b));
+}
+
+/// The increment along an undirected edge, found from its lower vertex to its higher.
+double edge_increment(const VectorXc& values, int from, int to) {
+  return from < to ? increment(values[from], values[to]) : -increment(values[to], values[from]);
+}
+
+}  // namespace
+
+int turns_of(const VectorXc& values) {
+  double turn = 0;
+  for (Index i = 0; i < values.size(); ++i)
+    turn += increment(values[i], values[(i + 1) % values.size()]);
+  return static_cast<int>(std::lround(turn / (2 * kPi)));
+}
+
+std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
+  std::vector<Zero> zeros;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double turn =
+        edge_increment(values, a, b) + edge_increment(values, b, c) + edge_increment(values, c, a);
+    const int winding = static_cast<int>(std::lround(turn / (2 * kPi)));
+    if (winding != 0)
+      zeros.push_back({(mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0, winding});
+  }
+  return zeros;
+}
+
+namespace {
+
+/// The samples where a zero's jump may be: the nearest one, and the nearest one across the domain,
+/// with a stretch of the boundary between them on both sides.
+std::vector<Index> jump_places(std::span<const Complex> samples, Complex zero) {
+  const Index m = static_cast<Index>(samples.size());
+  const auto distance = [&](Index i) { return std::norm(samples[static_cast<size_t>(i)] - zero); };
+  Index nearest = 0;
+  for (Index i = 1; i < m; ++i)
+    if (distance(i) < distance(nearest)) nearest = i;
+  Index across = -1;
+  const Index apart = m / 20;
+  for (Index i = 0; i < m; ++i) {
+    const Index way = std::abs(i - nearest);
+    if (std::min(way, m - way) <= apart) continue;
+    if (distance(i) > distance((i + 1) % m) || distance(i) > distance((i + m - 1) % m)) continue;
+    if (across < 0 || distance(i) < distance(across)) across = i;
+  }
+  if (across < 0) return {nearest};
+  return {nearest, across};
+}
+
+VectorXd summed(double first, const VectorXd& steps) {
+  VectorXd theta(steps.size());
+  theta[0] = first;
+  for (Index i = 1; i < steps.size(); ++i) theta[i] = theta[i - 1] + steps[i - 1];
+  return theta;
+}
+
+}  // namespace
+
+VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& values,
+                           const std::vector<Zero>& zeros) {
+  const Index m = values.size();
+  check(m > 2 && static_cast<Index>(samples.size()) == m, "boundary_argument: sizes agree");
+  VectorXd steps(m);
+  for (Index i = 0; i < m; ++i) {
+    if (values[i] == Complex(0) || !is_finite(values[i]))
+      throw Error(ErrorKind::failed, "the reference map has no direction at a boundary sample",
+                  samples[static_cast<size_t>(i)]);
+    steps[i] = increment(values[i], values[(i + 1) % m]);
+  }
+  int turns = turns_of(values);
+  std::vector<std::vector<Index>> places;
+  for (const Zero& zero : zeros) {
+    places.push_back(jump_places(samples, zero.place));
+    turns -= zero.multiplicity;
+  }
+  std::vector<Index> order(static_cast<size_t>(m));  // for zeros that are not in the list
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::sort(order, {}, [&](Index i) { return std::norm(values[i]); });
+  for (size_t i = 0; turns != 0; ++i) {
+    const int sign = turns > 0 ? 1 : -1;
+    steps[order[i % order.size()]] -= 2 * kPi * sign;
+    turns -= sign;
+  }
+  // Which side of a narrow part a jump is on decides which way the part is turned: the way that
+  // turns all of the boundary least, when it is clearly less than with the nearest sides.
+  constexpr size_t kMostChoices = 6;
+  constexpr double kClearly = 0.9;
+  VectorXd best;
+  double least = 0;
+  const size_t choices = size_t{1} << std::min(zeros.size(), kMostChoices);
+  for (size_t choice = 0; choice < choices; ++choice) {
+    VectorXd jumped = steps;
+    for (size_t i = 0; i < zeros.size(); ++i) {
+      const bool across = places[i].size() > 1 && i < kMostChoices && (choice >> i & 1);
+      jumped[places[i][across ? 1 : 0]] -= 2 * kPi * zeros[i].multiplicity;
+    }
+    VectorXd theta = summed(std::arg(values[0]), jumped);
+    const double spread = (theta.array() - theta.mean()).square().sum();
+    if (choice > 0 && spread >= least) continue;
+    best = std::move(theta);
+    least = choice == 0 ? kClearly * spread : spread;
+  }
+  return best;
+}
+
+}  // namespace holomorph

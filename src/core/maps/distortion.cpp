@@ -1,0 +1,111 @@
+// Singular values of the Jacobian from the Wirtinger derivatives; zeros of f_z by winding numbers.
+#include "core/maps/distortion.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+Distortion distortion_of(const SampledMap& map) {
+  check(map.fz.size() == map.f.size(), "distortion_of: the map was sampled with its derivatives");
+  const Index n = map.fz.size();
+  Distortion result{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < n; ++i) {
+    const double a = std::abs(map.fz[i]), b = std::abs(map.fzbar[i]);
+    const double most = a + b, least = a - b;
+    result.k[i] = a > 0 ? b / a : 1.0;
+    result.area[i] = least > 0 ? std::log2(most * least) : -kInfinity;
+    result.stretch[i] = least > 0 ? std::max(most, 1 / least) : kInfinity;
+  }
+  return result;
+}
+
+int flipped_triangles(const Mesh& mesh, const VectorXc& f) {
+  int count = 0;
+  for (const auto& [i, j, k] : mesh.triangles) count += !(cross(f[j] - f[i], f[k] - f[i]) > 0);
+  return count;
+}
+
+bool MapReport::locally_injective() const {
+  return zeros.empty() && flipped_triangles == 0 && std::abs(turning_number - 1) < 0.01;
+}
+
+MapReport report_of(const Mesh& mesh, const SampledMap& map) {
+  check(map.fz.size() == static_cast<Index>(mesh.vertices.size()),
+        "report_of: derivatives per vertex");
+  MapReport report;
+  const Eigen::ArrayXd a = map.fz.cwiseAbs(), b = map.fzbar.cwiseAbs();
+  report.max_k = a.minCoeff() > 0 ? (b / a).maxCoeff() : 1.0;
+  report.max_sigma = (a + b).maxCoeff();
+  report.min_sigma = (a - b).minCoeff();
+
+  const auto increment = [&](int from, int to) {
+    const Complex x = map.fz[from], y = map.fz[to];
+    return std::atan2(cross(x, y), dot(x, y));
+  };
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const double winding = (increment(i, j) + increment(j, k) + increment(k, i)) / (2 * kPi);
+    if (std::abs(winding) > 0.5)
+      report.zeros.push_back((mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]) / 3.0);
+  }
+  report.flipped_triangles = flipped_triangles(mesh, map.f);
+  Points image;
+  for (const int v : mesh.boundary) image.push_back(map.f[v]);
+  report.turning_number = turning_number(image);
+  report.simple_boundary = !self_crossing(image).has_value();
+  return report;
+}
+
+LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f) {
+  const auto corner = [&](size_t k) { return mesh.vertices[static_cast<size_t>(t[k % 3])]; };
+  LinearDerivatives at{};  // times four areas
+  for (size_t a = 0; a < 3; ++a) {
+    const Complex opposite = corner(a + 2) - corner(a + 1);
+    at.fz += -kI * std::conj(opposite) * f[t[a]];
+    at.fzbar += kI * opposite * f[t[a]];
+  }
+  const double doubled = cross(corner(1) - corner(0), corner(2) - corner(0));
+  return {at.fz / (2 * doubled), at.fzbar / (2 * doubled)};
+}
+
+VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f) {
+  const Index n = f.size();
+  VertexDerivatives at{VectorXc::Zero(n), VectorXc::Zero(n)};
+  VectorXd areas = VectorXd::Zero(n);
+  const auto place = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
+  for (const Triangle& t : mesh.triangles) {
+    const LinearDerivatives here = derivatives_in(mesh, t, f);
+    const double area = cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]));
+    for (const int v : t) {
+      at.fz[v] += area * here.fz;
+      at.fzbar[v] += area * here.fzbar;
+      areas[v] += area;
+    }
+  }
+  at.fz.array() /= areas.array();
+  at.fzbar.array() /= areas.array();
+  return at;
+}
+
+MapReport report_of_linear(const Mesh& mesh, const VectorXc& f) {
+  SampledMap map;
+  map.f = f;
+  VertexDerivatives at = vertex_derivatives(mesh, f);
+  map.fz = std::move(at.fz);
+  map.fzbar = std::move(at.fzbar);
+  MapReport report = report_of(mesh, map);
+  report.max_k = report.max_sigma = 0;
+  report.min_sigma = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles) {
+    const LinearDerivatives here = derivatives_in(mesh, t, f);
+    const double a = std::abs(here.fz), b = std::abs(here.fzbar);
+    report.max_k = std::max(report.max_k, a > 0 ? b / a : 1.0);
+    report.max_sigma = std::max(report.max_sigma, a + b);
+    report.min_sigma = std::min(report.min_sigma, a - b);
+  }
+  return report;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,52 @@
+// What a map does to lengths, angles and areas, and whether it folds.
+#pragma once
+
+#include "core/maps/deformer.h"
+#include "core/mesh/mesh.h"
+
+namespace holomorph {
+
+/// Distortion at the samples of a map: sigma_max = |f_z| + |f_zbar|, sigma_min = |f_z| - |f_zbar|.
+struct Distortion {
+  Eigen::VectorXd k;        ///< angle: |f_zbar| / |f_z|, 0 for conformal, 1 where it collapses
+  Eigen::VectorXd area;     ///< log2 of sigma_max * sigma_min; -inf where orientation is lost
+  Eigen::VectorXd stretch;  ///< max(sigma_max, 1 / sigma_min)
+};
+/// Needs the map's derivatives. Cost: linear.
+Distortion distortion_of(const SampledMap& map);
+
+/// How many of a mesh's triangles are turned over, or nowhere, with vertices at f.
+int flipped_triangles(const Mesh& mesh, const VectorXc& f);
+
+/// Measures of a whole map on a mesh.
+struct MapReport {
+  double max_k = 0, min_sigma = 0, max_sigma = 0;
+  Points zeros;               ///< centers of the rest triangles around which f_z winds
+  double turning_number = 0;  ///< of the image of the boundary
+  bool simple_boundary = true;
+  int flipped_triangles = 0;
+  /// No zeros of f_z, turning number one, no flipped triangle: no fold was found. A measurement at
+  /// the samples, not a proof.
+  bool locally_injective() const;
+};
+/// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle
+/// on every triangle. Cost: linear, but for the crossing test of the boundary.
+MapReport report_of(const Mesh& mesh, const SampledMap& map);
+/// The same of the map that is f at the mesh's vertices and linear in each triangle: k and sigma
+/// are the extremes over the triangles.
+MapReport report_of_linear(const Mesh& mesh, const VectorXc& f);
+
+/// f_z and f_zbar of the map that is f at a mesh's vertices and linear in triangle t.
+struct LinearDerivatives {
+  Complex fz, fzbar;
+};
+LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f);
+
+/// f_z and f_zbar at a mesh's vertices of the map that is f there and linear in each triangle:
+/// means over the triangles around each vertex, by area. Cost: linear.
+struct VertexDerivatives {
+  VectorXc fz, fzbar;
+};
+VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f);
+
+}  // namespace holomorph

@@ -1,0 +1,99 @@
+// A chord turns around w as its arc does unless w lies between the two.
+#include "core/maps/image_winding.h"
+
+#include <cmath>
+
+namespace holomorph {
+namespace {
+
+/// What the map's rounding is at most, near w.
+double rounding_at(Complex w, Complex f) {
+  return 1e-13 * (std::abs(w) + std::abs(f));
+}
+
+/// w is clear of an arc when its squared distance from the arc's start exceeds this many times the
+/// sum of the squared chord and the squared bulge.
+constexpr double kFar = 9;
+
+/// Whether w is farther from the piece's chord than its arc may be.
+bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
+  return nearest_on_segment(piece.from, piece.to, w).distance >
+         piece.bulge + rounding_at(w, piece.from);
+}
+
+}  // namespace
+
+Complex ImageWinding::point(const Arc& arc, double share) const {
+  if (share == 0) return arc.from;
+  if (share == 1) return arc.to;
+  if (arc.segment < 0) return (1 - share) * arc.from + share * arc.to;
+  return position_of(cage_, {arc.segment, (1 - share) * arc.start + share * arc.end});
+}
+
+std::array<Arc, 2> ImageWinding::cut(const Arc& arc, double share) const {
+  const Complex middle = point(arc, share);
+  const double parameter = (1 - share) * arc.start + share * arc.end;
+  return {Arc{arc.from, middle, arc.segment, arc.start, parameter},
+          Arc{middle, arc.to, arc.segment, parameter, arc.end}};
+}
+
+ImageWinding::Piece ImageWinding::piece_between(const Arc& arc, Complex from, Complex to) const {
+  Piece piece{arc, from, to, 0};
+  for (const double share : {0.25, 0.5, 0.75})
+    piece.bulge = std::max(piece.bulge,
+                           2 * nearest_on_segment(from, to, map_.at(point(arc, share)).f).distance);
+  return piece;
+}
+
+ImageWinding::Piece ImageWinding::piece(const Arc& arc) const {
+  return piece_between(arc, map_.at(arc.from).f, map_.at(arc.to).f);
+}
+
+std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int depth) const {
+  const Complex a = piece.from - w, b = piece.to - w;
+  if (is_clear_of(piece, w)) return std::atan2(cross(a, b), dot(a, b));
+  constexpr int kDeepest = 50;
+  const double least = 10 * rounding_at(w, piece.from);
+  if (depth == kDeepest || std::abs(piece.to - piece.from) + piece.bulge <= least) return {};
+  const auto [first, second] = cut(piece.arc, 0.5);
+  const Complex middle = map_.at(first.to).f;
+  const auto before = turn(piece_between(first, piece.from, middle), w, depth + 1);
+  if (!before) return {};
+  const auto after = turn(piece_between(second, middle, piece.to), w, depth + 1);
+  if (!after) return {};
+  return *before + *after;
+}
+
+// The polygon of the chords winds as often as it crosses the ray from w to the right; arcs that w
+// is not clear of turn by more or less than their chords.
+std::optional<int> ImageWinding::turns(std::span<const Piece> loop, Complex w) const {
+  int crossings = 0;
+  double more = 0;
+  for (const Piece& piece : loop) {
+    const Complex a = piece.from - w, b = piece.to - w;
+    if ((a.imag() <= 0) != (b.imag() <= 0)) {
+      const double side = cross(a, b);
+      if (side == 0) return turns_by_angles(loop, w);
+      if ((side > 0) == (b.imag() > 0)) crossings += side > 0 ? 1 : -1;
+    }
+    if (std::norm(a) > kFar * (std::norm(b - a) + piece.bulge * piece.bulge) &&
+        std::norm(a) > kFar * rounding_at(w, piece.from) * rounding_at(w, piece.from))
+      continue;
+    const auto part = turn(piece, w);
+    if (!part) return {};
+    more += *part - std::atan2(cross(a, b), dot(a, b));
+  }
+  return crossings + static_cast<int>(std::lround(more / (2 * kPi)));
+}
+
+std::optional<int> ImageWinding::turns_by_angles(std::span<const Piece> loop, Complex w) const {
+  double sum = 0;
+  for (const Piece& piece : loop) {
+    const auto part = turn(piece, w);
+    if (!part) return {};
+    sum += *part;
+  }
+  return static_cast<int>(std::lround(sum / (2 * kPi)));
+}
+
+}  // namespace holomorph

@@ -1,0 +1,149 @@
+// Next to corners of a basis on the boundary, where derivatives have poles, a few specks always
+// turn; they are no fold.
+#include "core/maps/injectivity.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+
+namespace holomorph {
+namespace {
+
+/// The parts that are turned over, the largest first, each by the middle of its largest triangle;
+/// none when all of them together are less than can be seen.
+Points visible_folds(const Mesh& mesh, const VectorXc& f) {
+  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // of the whole, and of one part
+  double turned = 0, total = 0;
+  std::vector<std::pair<double, const Triangle*>> over;
+  for (const Triangle& t : mesh.triangles) {
+    const auto [i, j, k] = t;
+    const double twice = cross(f[j] - f[i], f[k] - f[i]);
+    total += std::abs(twice);
+    if (twice >= 0) continue;
+    turned -= twice;
+    over.push_back({-twice, &t});
+  }
+  if (turned <= kVisible * total) return {};
+  // Triangles with a vertex in common are of one part.
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [area, t] : over)
+    for (const int v : *t) parent[root(v)] = root((*t)[0]);
+  struct Part {
+    double area = 0, largest = 0;
+    Complex at;
+  };
+  std::map<int, Part> parts;
+  for (const auto& [area, t] : over) {
+    const auto [i, j, k] = *t;
+    Part& part = parts[root(i)];
+    part.area += area;
+    if (area > part.largest) part.largest = area, part.at = (f[i] + f[j] + f[k]) / 3.0;
+  }
+  std::vector<Part> sorted;
+  for (const auto& [v, part] : parts) sorted.push_back(part);
+  std::ranges::sort(sorted, std::greater(), &Part::area);
+  Points places;
+  for (const Part& part : sorted)
+    if (places.empty() || part.area > kSpeck * total) places.push_back(part.at);
+  return places;
+}
+
+/// |f_z| - |f_zbar| of the linear map of a triangle, z being its place at rest.
+double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
+  const Complex twice_area = z1 * std::conj(z2) - z2 * std::conj(z1);
+  const Complex fz = (f1 * std::conj(z2) - f2 * std::conj(z1)) / twice_area,
+                fzbar = (z1 * f2 - z2 * f1) / twice_area;
+  return std::abs(fz) - std::abs(fzbar);
+}
+
+struct Shrunken {
+  double least = 1;
+  Complex at;  ///< posed
+};
+
+Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
+  constexpr double kSpecks = 1e-3;
+  struct Part {
+    double stretch, area;
+    const Triangle* triangle;
+  };
+  std::vector<Part> parts;
+  double total = 0;
+  const Points& z = mesh.vertices;
+  for (const Triangle& t : mesh.triangles) {
+    const auto [i, j, k] = t;
+    const double area = cross(z[j] - z[i], z[k] - z[i]);
+    parts.push_back({stretch(z[j] - z[i], z[k] - z[i], f[j] - f[i], f[k] - f[i]), area, &t});
+    total += area;
+  }
+  if (parts.empty()) return {};
+  // A heap: only the least of them are looked at.
+  const auto later = [](const Part& a, const Part& b) { return a.stretch > b.stretch; };
+  std::ranges::make_heap(parts, later);
+  for (double left = kSpecks * total; parts.size() > 1 && parts.front().area < left;) {
+    left -= parts.front().area;
+    std::ranges::pop_heap(parts, later);
+    parts.pop_back();
+  }
+  const auto [i, j, k] = *parts.front().triangle;
+  return {parts.front().stretch, (f[i] + f[j] + f[k]) / 3.0};
+}
+
+/// The vertices of a closed polygon without which it would be off by more than a tolerance, first
+/// and farthest ones among them (Douglas, Peucker 1973).
+class Drawn {
+ public:
+  Drawn(const Points& polygon, double tolerance) : polygon_(polygon), tolerance_(tolerance) {
+    const auto farthest = std::ranges::max_element(
+        polygon, {}, [&](Complex z) { return std::abs(z - polygon.front()); });
+    const size_t middle = static_cast<size_t>(farthest - polygon.begin());
+    points_.push_back(polygon.front());
+    keep_between(0, middle);
+    points_.push_back(polygon[middle]);
+    keep_between(middle, polygon.size());
+  }
+  const Points& points() const { return points_; }
+
+ private:
+  void keep_between(size_t from, size_t to) {
+    const Complex a = polygon_[from], b = polygon_[to % polygon_.size()];
+    double farthest = tolerance_;
+    size_t at = 0;
+    for (size_t i = from + 1; i < to; ++i)
+      if (const double off = nearest_on_segment(a, b, polygon_[i]).distance; off > farthest)
+        farthest = off, at = i;
+    if (at == 0) return;
+    keep_between(from, at);
+    points_.push_back(polygon_[at]);
+    keep_between(at, to);
+  }
+
+  const Points& polygon_;
+  double tolerance_;
+  Points points_;
+};
+
+}  // namespace
+
+Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
+  Injectivity found;
+  found.folds_at = visible_folds(mesh, f);
+  Points image;
+  for (const int v : mesh.boundary) image.push_back(f[v]);
+  if (image.empty()) return found;
+  constexpr double kVisible = 3e-4;
+  found.boundary_turns = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
+  const Shrunken shrunken = most_shrunken(mesh, f);
+  found.least_stretch = shrunken.least;
+  if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};
+  if (const auto crossing = self_crossing(image)) found.crossing = crossing->point;
+  return found;
+}
+
+}  // namespace holomorph

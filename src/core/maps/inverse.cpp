@@ -1,0 +1,359 @@
+// A grid over the posed triangles finds the starts; a step of Newton's method is shortened until it
+// brings the point nearer.
+#include "core/maps/inverse.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/cauchy/cauchy.h"
+#include "core/maps/distortion.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kNear = 1e-4;  ///< of the control points' box: twice the error of `flattened`
+constexpr double kSame = 1e-7;  ///< of the size: nearer to each other, preimages are one
+constexpr double kOn = 1e-12;
+constexpr double kBranch = 1e-5;
+constexpr double kOnCurve = 8;  ///< roundings that a mesh's boundary is off its curve
+
+int oriented(const std::vector<Preimage>& found) {
+  int sum = 0;
+  for (const Preimage& preimage : found) sum += preimage.orientation;
+  return sum;
+}
+
+}  // namespace
+
+InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
+                       const PointMap& map)
+    : rest_(counter_clockwise(rest)),
+      mesh_(mesh),
+      positions_(positions.begin(), positions.end()),
+      map_(map),
+      winding_(rest_, map) {
+  size_ = box_of(mesh.vertices).diagonal();
+  flat_ = flattened(rest_);
+  near_ = kNear * std::max(size_, box_of(controls_of(rest_)).diagonal());
+  box_ = box_of(positions_);
+  const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
+                                static_cast<double>(mesh.triangles.size() + 1));
+  columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
+  rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
+  cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  outer_ = boundary_marks(mesh);
+  fill_cells();
+  take_boundary();
+}
+
+template <class Visit>
+void InverseMap::for_each_cell(const Box& box, Visit visit) {
+  const size_t columns = static_cast<size_t>(columns_), low = cell_of({box.left, box.bottom}),
+               high = cell_of({box.right, box.top});
+  for (size_t r = low / columns; r <= high / columns; ++r)
+    for (size_t c = low % columns; c <= high % columns; ++c) visit(cells_[r * columns + c]);
+}
+
+/// Twice over the triangles: how many a cell has, then which.
+void InverseMap::fill_cells() {
+  const auto box_of_triangle = [&](int t) {
+    Box box;
+    for (const int v : mesh_.triangles[t]) box.include(positions_[v]);
+    return box;
+  };
+  const int count = static_cast<int>(mesh_.triangles.size());
+  for (int t = 0; t < count; ++t)
+    for_each_cell(box_of_triangle(t), [](Cell& cell) { ++cell.count; });
+  int total = 0;
+  for (Cell& here : cells_) {
+    here.first = total;
+    total += std::exchange(here.count, 0);
+  }
+  triangles_.resize(static_cast<size_t>(total));
+  for (int t = 0; t < count; ++t)
+    for_each_cell(box_of_triangle(t),
+                  [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
+  constexpr double kSheared = 0.7;  // abs(f_zbar) / abs(f_z) of a triangle next to a fold
+  const VectorXc f =
+      Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
+  for (int t = 0; t < count; ++t) {
+    const auto [fz, fzbar] = derivatives_in(mesh_, mesh_.triangles[t], f);
+    if (std::abs(fzbar) <= kSheared * std::abs(fz)) continue;
+    Box box = box_of_triangle(t);
+    const Complex around = 0.5 * Complex(box.width(), box.height());
+    box.include(Complex(box.left, box.bottom) - around);
+    box.include(Complex(box.right, box.top) + around);
+    for_each_cell(box, [](Cell& cell) { cell.may_fold = true; });
+  }
+}
+
+void InverseMap::take_boundary() {
+  std::vector<SegmentPolynomial> loop;
+  for (Index e = 0; e < rest_.size(); ++e) loop.emplace_back(rest_.controls(e));
+  piece_at_.assign(mesh_.vertices.size(), -1);
+  for (size_t i = 0; i < mesh_.boundary.size(); ++i) {
+    const int v = mesh_.boundary[i], next = mesh_.boundary[(i + 1) % mesh_.boundary.size()];
+    boundary_.push_back(positions_[v]);
+    Arc arc{mesh_.vertices[v], mesh_.vertices[next]};
+    const auto from = contact_of(loop, arc.from, kOnCurve), to = contact_of(loop, arc.to, kOnCurve);
+    if (from && to && !loop[static_cast<size_t>(from->segment)].is_straight()) {
+      const bool ends = to->is_vertex();
+      arc = {arc.from, arc.to, from->segment, from->s, ends ? 1 : to->s};
+    }
+    piece_at_[v] = static_cast<int>(pieces_.size());
+    pieces_.push_back(winding_.piece(arc));
+    const ImageWinding::Piece& piece = pieces_.back();
+    reach_ = std::max(reach_, std::abs(piece.to - piece.from));
+    Box box;
+    for (const Complex& z : {piece.from, piece.to})
+      for (const Complex& by : {Complex(1, 1), Complex(-1, -1)}) box.include(z + piece.bulge * by);
+    for_each_cell(box, [](Cell& cell) { cell.on_boundary = true; });
+  }
+}
+
+size_t InverseMap::cell_of(Complex w) const {
+  const auto index = [](double x, double low, double width, int cells) {
+    return static_cast<size_t>(
+        std::clamp((x - low) / std::max(width, 1e-300) * cells, 0.0, cells - 1.0));
+  };
+  return index(w.imag(), box_.bottom, box_.height(), rows_) * columns_ +
+         index(w.real(), box_.left, box_.width(), columns_);
+}
+
+std::optional<int> InverseMap::winding(Complex w) const {
+  if (box_.contains(w) && !cells_[cell_of(w)].on_boundary) return winding_number(boundary_, w);
+  return winding_.turns(pieces_, w);
+}
+
+bool InverseMap::improve(Complex w, Preimage& at) const {
+  PointMap::Value value = map_.at(at.z);
+  at.residual = std::abs(w - value.f);
+  const double scale = std::abs(w) + size_, enough = 1e-15 * scale, good = 1e-11 * scale;
+  for (int step = 0; step < 40 && at.residual > enough; ++step) {
+    // f_z d + f_zbar conj(d) = w - f.
+    const Complex miss = w - value.f;
+    const double area = std::norm(value.fz) - std::norm(value.fzbar);
+    Complex move = (std::conj(value.fz) * miss - value.fzbar * std::conj(miss)) / area;
+    if (!is_finite(move)) return false;
+    if (std::abs(move) > 0.1 * size_) move *= 0.1 * size_ / std::abs(move);
+    bool nearer = false;
+    const int halves = at.residual <= good ? 1 : 8;  // rounding is not fought
+    for (int half = 0; half < halves && !nearer; ++half, move *= 0.5) {
+      const PointMap::Value next = map_.at(at.z + move);
+      if (!(std::abs(w - next.f) < at.residual)) continue;
+      nearer = true;
+      value = next;
+      at.z += move;
+      at.residual = std::abs(w - next.f);
+      break;
+    }
+    if (!nearer) break;
+  }
+  at.orientation = std::norm(value.fz) < std::norm(value.fzbar) ? -1 : 1;
+  return at.residual <= good;
+}
+
+/// Between a curve and a chord of the mesh there may be no map to start from.
+Complex InverseMap::pulled_inside(Complex start, int triangle) const {
+  if (triangle < 0) return start;
+  const auto [a, b, c] = mesh_.triangles[triangle];
+  if ((!outer_[a] && !outer_[b] && !outer_[c]) || is_straight(rest_)) return start;
+  const Complex middle = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3.0;
+  for (int half = 0; half < 8 && !contains(rest_, start); ++half) start = 0.5 * (start + middle);
+  return start;
+}
+
+void InverseMap::add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const {
+  Preimage preimage{pulled_inside(start, triangle), 0, triangle};
+  if (!improve(w, preimage)) return;
+  for (const Preimage& other : found)
+    if (std::abs(other.z - preimage.z) < kSame * size_) return;
+  if (is_in_inner_triangle(preimage) || is_inside(preimage.z)) found.push_back(preimage);
+}
+
+/// Whether a preimage is in its own triangle and that is away from the boundary: then it is inside.
+bool InverseMap::is_in_inner_triangle(const Preimage& preimage) const {
+  if (preimage.triangle < 0) return false;
+  const auto [i, j, k] = mesh_.triangles[preimage.triangle];
+  if (outer_[i] || outer_[j] || outer_[k]) return false;
+  const Complex a = mesh_.vertices[i] - preimage.z, b = mesh_.vertices[j] - preimage.z,
+                c = mesh_.vertices[k] - preimage.z;
+  return cross(a, b) >= 0 && cross(b, c) >= 0 && cross(c, a) >= 0;
+}
+
+bool InverseMap::is_inside(Complex z) const {
+  const Points& outline = flat_.points;
+  const NearestPoint near = nearest_on_polygon(outline, z);
+  if (near.distance > near_) return winding_number(outline, z) != 0;
+  // On the boundary rounding decides: a little inwards counts.
+  const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
+  return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
+}
+
+std::vector<Preimage> InverseMap::at(Complex w) const {
+  if (!is_finite(w)) return {};
+  const std::optional<int> wanted = winding(w);
+  std::vector<Preimage> found = quickly(w, wanted);
+  if (!wanted || oriented(found) == *wanted) return found;
+  // Points slightly outside were counted. On the boundary itself the count is not defined.
+  std::vector<Preimage> inner;
+  for (const Preimage& preimage : found) {
+    if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
+    if (contains(rest_, preimage.z)) inner.push_back(preimage);
+  }
+  if (oriented(inner) == *wanted) return inner;
+  std::vector<Preimage> all = thoroughly(w, *wanted);
+  const auto off = [&](const std::vector<Preimage>& some) {
+    return std::abs(oriented(some) - *wanted);
+  };
+  return off(all) < off(found) ? all : found;
+}
+
+/// From the triangles whose images are around w, or near it.
+std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) const {
+  std::vector<Preimage> found;
+  constexpr double kSlack = 0.3;  // a triangle's image is not the image's triangle
+  constexpr int kAll = std::numeric_limits<int>::max();
+  const auto try_cell = [&](size_t cell, double slack, int enough) {
+    for (int i = cells_[cell].count; i-- > 0 && static_cast<int>(found.size()) < enough;) {
+      const int t = triangles_[cells_[cell].first + i];
+      const auto [a, b, c] = mesh_.triangles[t];
+      const Complex p = positions_[a] - w, q = positions_[b] - w, r = positions_[c] - w;
+      const double wa = cross(q, r), wb = cross(r, p), wc = cross(p, q), area = wa + wb + wc;
+      if (area == 0 || std::min({wa / area, wb / area, wc / area}) < -slack) continue;
+      add(w, (wa * mesh_.vertices[a] + wb * mesh_.vertices[b] + wc * mesh_.vertices[c]) / area, t,
+          found);
+    }
+  };
+  // Next to a fold, preimages of opposite orientation cancel in the count, so all starts are tried.
+  const size_t cell = cell_of(w);
+  const bool may_fold = cells_[cell].may_fold;
+  const auto is_enough = [&] {
+    return !may_fold && (wanted ? oriented(found) == *wanted : !found.empty());
+  };
+  try_cell(cell, 1e-9, kAll);
+  if (is_enough()) return found;
+  // Between the mesh's edge and the map's, or where triangles are too coarse: look around.
+  const int column = static_cast<int>(cell) % columns_, row = static_cast<int>(cell) / columns_;
+  const int enough = may_fold ? kAll : wanted ? std::max(std::abs(*wanted), 1) : 1;
+  for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
+    for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
+      try_cell(static_cast<size_t>(r * columns_ + c), kSlack, enough);
+  if (is_enough()) return found;
+  std::vector<std::pair<double, int>> near;
+  for (const int v : mesh_.boundary) near.push_back({std::norm(positions_[v] - w), v});
+  const size_t starts = std::min<size_t>(near.size(), 6);
+  std::partial_sort(near.begin(), near.begin() + static_cast<long>(starts), near.end());
+  for (size_t i = 0; i < starts; ++i) add(w, mesh_.vertices[near[i].second], -1, found);
+  return found;
+}
+
+Arc InverseMap::side(int from, int to) const {
+  const int own = piece_at_[from], back = piece_at_[to];
+  if (own >= 0 && pieces_[own].arc.to == mesh_.vertices[to]) return pieces_[own].arc;
+  if (back >= 0 && pieces_[back].arc.to == mesh_.vertices[from]) {
+    const Arc& arc = pieces_[back].arc;
+    return {arc.to, arc.from, arc.segment, arc.end, arc.start};
+  }
+  return {mesh_.vertices[from], mesh_.vertices[to]};
+}
+
+std::optional<int> InverseMap::turns(const Region& region, Complex w) const {
+  std::array<ImageWinding::Piece, 3> loop;
+  for (size_t k = 0; k < 3; ++k) loop[k] = winding_.piece(region[k]);
+  return winding_.turns(loop, w);
+}
+
+/// Triangle by triangle by the argument principle, those near w first.
+std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
+  std::vector<Preimage> found;
+  std::vector<std::pair<double, int>> order;
+  for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh_.triangles[t];
+    Box box;
+    for (const int v : {a, b, c}) box.include(positions_[v]);
+    const double slack = box.diagonal() + (outer_[a] || outer_[b] || outer_[c] ? reach_ : 0);
+    order.emplace_back(std::abs(w - box.center()) / std::max(slack, 1e-300), static_cast<int>(t));
+  }
+  std::ranges::sort(order);
+  constexpr double kFarthest = 8;  // of a triangle's reach: its image is not as large
+  for (const auto& [distance, t] : order) {
+    if (distance > 1 && (distance > kFarthest || oriented(found) == wanted)) break;
+    const auto [a, b, c] = mesh_.triangles[t];
+    const Region region{side(a, b), side(b, c), side(c, a)};
+    const auto count = turns(region, w);
+    const size_t before = found.size();
+    if (count && *count != 0) take_region(region, *count, w, 0, found);
+    for (size_t i = before; i < found.size(); ++i) found[i].triangle = t;
+  }
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
+  return found;
+}
+
+/// What Newton's method finds in a region from a few starts.
+std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const {
+  const Complex a = region[0].from, b = region[1].from, c = region[2].from;
+  const double area = cross(b - a, c - a), sign = area < 0 ? -1 : 1;
+  const bool curved = std::ranges::any_of(region, [](const Arc& arc) { return arc.segment >= 0; });
+  const double beyond = -(curved ? 0.2 : 1e-9) * std::abs(area);
+  const auto is_in = [&](Complex z) {
+    return sign * cross(b - a, z - a) >= beyond && sign * cross(c - b, z - b) >= beyond &&
+           sign * cross(a - c, z - c) >= beyond && (!curved || is_inside(z));
+  };
+  std::vector<Preimage> here;
+  for (const Complex start : {(a + b + c) / 3.0, (4.0 * a + b + c) / 6.0, (a + 4.0 * b + c) / 6.0,
+                              (a + b + 4.0 * c) / 6.0}) {
+    Preimage preimage{start};
+    if (!improve(w, preimage) || !is_in(preimage.z)) continue;
+    if (std::ranges::none_of(here, [&](const Preimage& other) {
+          return std::abs(other.z - preimage.z) < kSame * size_;
+        }))
+      here.push_back(preimage);
+  }
+  return here;
+}
+
+/// The preimages in a region around which the image turns so often.
+void InverseMap::take_region(const Region& region, int count, Complex w, int depth,
+                             std::vector<Preimage>& found) const {
+  const std::vector<Preimage> here = inside(region, w);
+  if (oriented(here) == count) {
+    found.insert(found.end(), here.begin(), here.end());
+    return;
+  }
+  const Complex a = region[0].from, b = region[1].from, c = region[2].from;
+  const double size = std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
+  constexpr int kDeepest = 40;
+  // Cut in four; elsewhere where a cut would go through a preimage.
+  for (const double share : {0.5, 0.43, 0.59, 0.37}) {
+    if (size < kBranch * size_ || depth == kDeepest) break;
+    std::array<std::array<Arc, 2>, 3> halves;
+    for (size_t k = 0; k < 3; ++k) halves[k] = winding_.cut(region[k], share);
+    const Complex p = halves[0][0].to, q = halves[1][0].to, r = halves[2][0].to;
+    const std::array<Region, 4> parts{Region{halves[0][0], Arc{p, r}, halves[2][1]},
+                                      Region{halves[0][1], halves[1][0], Arc{q, p}},
+                                      Region{halves[1][1], halves[2][0], Arc{r, q}},
+                                      Region{Arc{p, q}, Arc{q, r}, Arc{r, p}}};
+    std::array<int, 4> counts{};
+    int sum = 0;
+    bool known = true;
+    for (size_t k = 0; k < 4 && known; ++k) {
+      const auto turned = turns(parts[k], w);
+      known = turned.has_value();
+      if (known) sum += counts[k] = *turned;
+    }
+    if (!known || sum != count) continue;
+    for (size_t k = 0; k < 4; ++k)
+      if (counts[k] != 0) take_region(parts[k], counts[k], w, depth + 1, found);
+    return;
+  }
+  // Sheets meet here, or are closer together than rounding can separate. If Newton's method does
+  // not converge to a point inside, no preimage is reported.
+  Preimage branch{here.empty() ? (a + b + c) / 3.0 : here[0].z};
+  if (!improve(w, branch) || !is_inside(branch.z)) return;
+  branch.orientation = count < 0 ? -1 : 1;
+  found.insert(found.end(), static_cast<size_t>(std::abs(count)), branch);
+}
+
+}  // namespace holomorph

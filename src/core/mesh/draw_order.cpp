@@ -1,0 +1,54 @@
+// Dijkstra's algorithm from all places at once: each vertex takes the height of whose wave comes
+// first.
+#include "core/mesh/draw_order.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace holomorph {
+
+std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths) {
+  struct Step {
+    double way;
+    int vertex, height;
+    bool operator>(const Step& other) const { return way > other.way; }
+  };
+  const size_t n = mesh.vertices.size();
+  std::vector<std::vector<int>> beside(n);
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      beside[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
+      beside[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
+    }
+  const auto way = [&](int a, Complex to) {
+    return std::abs(mesh.vertices[static_cast<size_t>(a)] - to);
+  };
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> waves;
+  for (const Depth& depth : depths)
+    if (const auto at = locate(mesh, mesh.vertices, depth.at))
+      for (const int v : mesh.triangles[static_cast<size_t>(at->triangle)])
+        waves.push({way(v, depth.at), v, depth.depth});
+  std::vector<bool> reached(n);
+  std::vector<int> heights(n, 0);
+  while (!waves.empty()) {
+    const Step step = waves.top();
+    waves.pop();
+    const size_t v = static_cast<size_t>(step.vertex);
+    if (reached[v]) continue;
+    reached[v] = true;
+    heights[v] = step.height;
+    for (const int next : beside[v])
+      if (!reached[static_cast<size_t>(next)])
+        waves.push({step.way + way(next, mesh.vertices[v]), next, step.height});
+  }
+  std::vector<Triangle> order = mesh.triangles;
+  // A triangle between two regions goes with the higher one.
+  const auto height = [&](const Triangle& t) {
+    return std::max({heights[static_cast<size_t>(t[0])], heights[static_cast<size_t>(t[1])],
+                     heights[static_cast<size_t>(t[2])]});
+  };
+  std::ranges::stable_sort(order, {}, height);
+  return order;
+}
+
+}  // namespace holomorph

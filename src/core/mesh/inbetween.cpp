@@ -1,0 +1,167 @@
+// The energy is the sum over triangles of area (|f_z - a|^2 + |f_zbar - b|^2), whose matrix is the
+// cotangent Laplacian.
+#include "core/mesh/inbetween.h"
+
+#include <map>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+
+namespace holomorph {
+
+Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {
+  const Index n = static_cast<Index>(mesh_->vertices.size()),
+              count = static_cast<Index>(mesh_->triangles.size());
+  areas_.resize(count);
+  std::vector<Eigen::Triplet<double>> entries;
+  std::map<std::pair<int, int>, int> triangle_left_of;
+  for (Index i = 0; i < count; ++i) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
+    areas_[i] = 0.5 * cross(opposite(t, 2), opposite(t, 0));
+    for (int a = 0; a < 3; ++a) {
+      triangle_left_of[{t[a], t[(a + 1) % 3]}] = static_cast<int>(i);
+      for (int b = 0; b < 3; ++b)
+        entries.push_back({t[a], t[b], dot(opposite(t, a), opposite(t, b)) / (8 * areas_[i])});
+    }
+  }
+  entries.push_back({0, 0, entries.front().value()});  // the first vertex stays at 0
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  laplacian_ = std::make_shared<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(matrix);
+  check(laplacian_->info() == Eigen::Success, "inbetween: the Laplacian is definite");
+
+  std::vector<char> seen(static_cast<size_t>(count), 0);
+  order_.push_back({0, -1});
+  seen[0] = 1;
+  for (size_t at = 0; at < order_.size(); ++at) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(order_[at].triangle)];
+    for (int a = 0; a < 3; ++a) {
+      const auto beside = triangle_left_of.find({t[(a + 1) % 3], t[a]});
+      if (beside == triangle_left_of.end() || seen[static_cast<size_t>(beside->second)]) continue;
+      seen[static_cast<size_t>(beside->second)] = 1;
+      order_.push_back({beside->second, order_[at].triangle});
+    }
+  }
+}
+
+namespace {
+
+Inbetween::Shape turned(Inbetween::Shape shape, int turns) {
+  shape.logarithm.array() += Complex(0, 2 * kPi * turns);
+  shape.turns = turns;
+  return shape;
+}
+
+}  // namespace
+
+Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
+                                     const ExpectedTurn& expected) const {
+  const Index count = areas_.size();
+  Shape shape{f, VectorXc(count), VectorXc(count), 0};
+  constexpr double kLeast = 1e-9;  // of f_z
+  for (const auto& [triangle, from] : order_) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
+    Complex fz = 0, fzbar = 0;
+    for (int a = 0; a < 3; ++a) {
+      const Complex e = opposite(t, a);
+      fz += times(-kI * std::conj(e), f[t[a]]);
+      fzbar += times(kI * e, f[t[a]]);
+    }
+    fz /= 4 * areas_[triangle];
+    fzbar /= 4 * areas_[triangle];
+    const double size = std::max(std::abs(fz), kLeast);
+    double angle = fz == 0.0 ? 0 : std::arg(fz);
+    if (from >= 0) {
+      const double near = shape.logarithm[from].imag();
+      angle += 2 * kPi * std::round((near - angle) / (2 * kPi));
+    }
+    shape.logarithm[triangle] = {std::log(size), angle};
+    shape.nu[triangle] = std::conj(fzbar) / std::polar(size, angle);
+  }
+  if (!before) return shape;
+  constexpr double kMostTurns = 1e6;
+  const VectorXd between = (shape.logarithm - before->logarithm).imag();
+  std::optional<Location> at;
+  if (expected.at) at = locate(*mesh_, mesh_->vertices, *expected.at);
+  const double now = at ? between[at->triangle] : between.dot(areas_) / areas_.sum();
+  return turned(std::move(shape),
+                static_cast<int>(std::clamp(std::round((expected.radians - now) / (2 * kPi)),
+                                            -kMostTurns, kMostTurns)));
+}
+
+Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {
+  return turned(shape_of(f), turns);
+}
+
+VectorXc Inbetween::slopes(const Shape* before, const Shape& here, const Shape* after,
+                           double to_before, double to_after) const {
+  VectorXc slopes = VectorXc::Zero(here.logarithm.size());
+  if (!before || !after) return slopes;
+  const double w1 = 2 * to_after + to_before, w2 = to_after + 2 * to_before;
+  const auto slope = [&](double left, double right) {
+    return left * right > 0 ? (w1 + w2) / (w1 / left + w2 / right) : 0.0;
+  };
+  for (Index i = 0; i < slopes.size(); ++i) {
+    const Complex left = (here.logarithm[i] - before->logarithm[i]) / to_before,
+                  right = (after->logarithm[i] - here.logarithm[i]) / to_after;
+    slopes[i] = {slope(left.real(), right.real()), slope(left.imag(), right.imag())};
+  }
+  return slopes;
+}
+
+void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
+  const auto& [a, b, duration, slopes_a, slopes_b] = interval;
+  if (u <= 0 || u >= 1) {
+    f = u <= 0 ? a.f : b.f;
+    return;
+  }
+  const bool cubic = slopes_a && slopes_b;
+  const double share = cubic ? u * u * (3 - 2 * u) : u;
+  const double from_a = duration * u * (1 - u) * (1 - u), from_b = -duration * u * u * (1 - u);
+  VectorXc right = VectorXc::Zero(a.f.size());
+  for (Index i = 0; i < areas_.size(); ++i) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
+    Complex logarithm = (1 - share) * a.logarithm[i] + share * b.logarithm[i];
+    if (cubic) logarithm += from_a * (*slopes_a)[i] + from_b * (*slopes_b)[i];
+    const Complex nu = (1 - share) * a.nu[i] + share * b.nu[i];
+    const Complex fz = 0.25 * std::polar(std::exp(logarithm.real()), logarithm.imag()),
+                  fzbar = std::conj(times(nu, fz));
+    for (int c = 0; c < 3; ++c) {
+      const Complex e = opposite(t, c);
+      right[t[c]] += times(kI * e, fz) + times(-kI * std::conj(e), fzbar);
+    }
+  }
+  f.resize(right.size());
+  f.real() = laplacian_->solve(right.real().eval());
+  f.imag() = laplacian_->solve(right.imag().eval());
+  const Location still = stillest(a.f, b.f);
+  const auto at = [&](const VectorXc& map) {
+    return still.in(*mesh_, {map.data(), static_cast<size_t>(map.size())});
+  };
+  f.array() += (1 - share) * at(a.f) + share * at(b.f) - at(f);
+}
+
+/// The place that two maps agree about, or the vertex that they take to the nearest places.
+Location Inbetween::stillest(const VectorXc& a, const VectorXc& b) const {
+  Location best;
+  double least = INFINITY;
+  for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
+    const Triangle& t = mesh_->triangles[i];
+    const std::array<Complex, 3> way{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]], b[t[2]] - a[t[2]]};
+    const Complex u = way[1] - way[0], v = way[2] - way[0];
+    if (const double area = cross(u, v); area != 0) {
+      const double second = cross(-way[0], v) / area, third = cross(u, -way[0]) / area;
+      if (second >= 0 && third >= 0 && second + third <= 1)
+        return {static_cast<int>(i), {1 - second - third, second, third}};
+    }
+    for (size_t k = 0; k < 3; ++k)
+      if (std::abs(way[k]) < least) {
+        least = std::abs(way[k]);
+        best = {static_cast<int>(i), {}};
+        best.weights[k] = 1;
+      }
+  }
+  return best;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,387 @@
+// The domain mesh by CGAL's Delaunay refinement; nothing else includes the mesher.
+//
+// Most vertices are laid out first, a graded triangular lattice inserted in one go, which is
+// several times faster than refining; refinement then finishes the seam between lattice and
+// boundary.
+//
+// CGAL's assertions stay on in optimised builds (CGAL_DEBUG): between edges that nearly touch,
+// midpoints that are rounded to the wrong side break the mesher's invariants, and a broken one has
+// to end in an Error.
+#include "core/mesh/mesher.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex =
+    CGAL::Triangulation_vertex_base_with_info_2<int, Geometry,
+                                                CGAL::Delaunay_mesh_vertex_base_2<Geometry>>;
+using Face = CGAL::Delaunay_mesh_face_base_2<Geometry>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>, CGAL::Exact_predicates_tag>;
+using Point = Geometry::Point_2;
+
+Point point_of(Complex z) {
+  return {z.real(), z.imag()};
+}
+Complex complex_of(const Point& p) {
+  return {p.x(), p.y()};
+}
+
+/// The wanted edge length at each place: `finest` at the boundary, growing to four times that
+/// inside. Distances to the boundary come from a grid, exact at its nodes and interpolated between.
+class Sizing {
+ public:
+  Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
+    cell_ = std::max(box_.width(), box_.height()) / kNodes;
+    columns_ = static_cast<int>(box_.width() / cell_) + 2;
+    rows_ = static_cast<int>(box_.height() / cell_) + 2;
+    distance_.resize(static_cast<size_t>(columns_) * rows_);
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c)
+        distance_[static_cast<size_t>(r) * columns_ + c] = static_cast<float>(
+            nearest_on_polygon(polygon, Complex(box_.left + c * cell_, box_.bottom + r * cell_))
+                .distance);
+    set_scale(scale);
+  }
+
+  void set_scale(double finest) { finest_ = finest; }
+  double finest() const { return finest_; }
+
+  double distance(Complex z) const {
+    const double x = std::clamp((z.real() - box_.left) / cell_, 0.0, columns_ - 1.001);
+    const double y = std::clamp((z.imag() - box_.bottom) / cell_, 0.0, rows_ - 1.001);
+    const int c = static_cast<int>(x), r = static_cast<int>(y);
+    const double u = x - c, v = y - r;
+    const float* at = &distance_[static_cast<size_t>(r) * columns_ + c];
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
+           v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
+  }
+  double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
+  /// The lattice's step at z in units of the finest: the power of two below size.
+  int level(Complex z) const {
+    const double h = size(z) / finest_;
+    return h >= 4 ? 4 : h >= 2 ? 2 : 1;
+  }
+
+  /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex). Its
+  /// mean is taken at the cells' centers and the area from the polygon: thin parts lie between
+  /// centers.
+  double expected_vertices(std::span<const Complex> polygon) const {
+    double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
+    int inside = 0;
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c) {
+        const Complex z(box_.left + (c + 0.5) * cell_, box_.bottom + (r + 0.5) * cell_);
+        if (winding_number(polygon, z) == 0) continue;
+        const double h = level(z) * finest_;
+        sum += 1 / (0.866 * h * h);
+        ++inside;
+      }
+    if (inside > 0) mean = sum / inside;
+    return mean * std::abs(signed_area(polygon)) + 0.5 * perimeter(polygon) / finest_;
+  }
+
+  const Box& box() const { return box_; }
+
+ private:
+  static constexpr int kNodes = 48;
+  static constexpr double kGrading = 0.08;
+  Box box_;
+  double cell_ = 1, finest_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> distance_;
+};
+
+/// Refinement criteria: CGAL's angle bound, and the sizing at each triangle's center.
+class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
+  using Base = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
+
+ public:
+  explicit Criteria(const Sizing& sizing) : Base(0.125, 0.0), sizing_(&sizing) {}
+
+  class Is_bad : public Base::Is_bad {
+   public:
+    Is_bad(double aspect, const Sizing& sizing)
+        : Base::Is_bad(aspect, 0.0, Geometry()), sizing_(&sizing) {}
+
+    CGAL::Mesh_2::Face_badness operator()(const Quality q) const {
+      if (q.size() > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
+      return q.sine() < this->B ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
+    }
+    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face,
+                                          Quality& q) const {
+      const Complex a = complex_of(face->vertex(0)->point()),
+                    b = complex_of(face->vertex(1)->point()),
+                    c = complex_of(face->vertex(2)->point());
+      double ab = std::norm(b - a), bc = std::norm(c - b), ca = std::norm(a - c);
+      const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
+      const double middle = ab + bc + ca - longest - shortest;
+      const double h = kSlack * sizing_->size((a + b + c) / 3.0);
+      q.second = longest / (h * h);  // Quality's size: above 1 is too large
+      const double area = cross(b - a, c - a);
+      q.first = area * area / (longest * middle);  // squared sine of the smallest angle
+      return operator()(q);
+    }
+
+   private:
+    static constexpr double kSlack = 1.6;  // the lattice's own triangles must pass
+    const Sizing* sizing_;
+  };
+  Is_bad is_bad_object() const { return Is_bad(this->bound(), *sizing_); }
+
+ private:
+  const Sizing* sizing_;
+};
+
+/// Points of a triangular lattice, thinned by powers of two where the sizing allows, that keep
+/// their distance from the boundary.
+std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
+  std::vector<Point> points;
+  const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
+  const Box& box = sizing.box();
+  const int rows = static_cast<int>(box.height() / row_height);
+  std::vector<double> crossings;
+  for (int r = 1; r <= rows; ++r) {
+    const double y = box.bottom + r * row_height;
+    crossings.clear();
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      if ((a.imag() <= y) != (b.imag() <= y))
+        crossings.push_back(a.real() +
+                            (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (size_t inside = 0; inside + 1 < crossings.size(); inside += 2) {
+      const auto column = [&](double x) { return (x - box.left) / step - 0.5 * (r % 2); };
+      const int last = static_cast<int>(std::floor(column(crossings[inside + 1])));
+      for (int c = static_cast<int>(std::ceil(column(crossings[inside]))); c <= last; ++c) {
+        const Complex z(box.left + (c + 0.5 * (r % 2)) * step, y);
+        const int level = sizing.level(z);
+        // A sub-lattice of even rows and columns is again a triangular lattice.
+        if (level > 1 &&
+            (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
+          continue;
+        if (sizing.distance(z) < 0.7 * step) continue;
+        points.push_back(point_of(z));
+      }
+    }
+  }
+  return points;
+}
+
+/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: near numbers are near places.
+unsigned hilbert_key(unsigned x, unsigned y) {
+  unsigned key = 0;
+  for (unsigned s = 1u << 15; s > 0; s >>= 1) {
+    const unsigned rx = (x & s) ? 1 : 0, ry = (y & s) ? 1 : 0;
+    key += s * s * ((3 * rx) ^ ry);
+    if (ry == 0) {
+      if (rx == 1) x = 65535 - x, y = 65535 - y;
+      std::swap(x, y);
+    }
+  }
+  return key;
+}
+
+[[noreturn]] void nearly_touches_itself() {
+  throw Error(ErrorKind::bad_input,
+              "the rest cage nearly touches itself and cannot be meshed; move its points apart");
+}
+
+/// Copies the inside of the triangulation, vertices in Hilbert order. Throws when it has a triangle
+/// without an area, or an outline that is not closed.
+Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners) {
+  std::vector<Triangulation::Vertex_handle> used;
+  for (const auto& v : cdt.finite_vertex_handles()) v->info() = -1;
+  for (const auto& face : cdt.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    for (int k = 0; k < 3; ++k)
+      if (face->vertex(k)->info() == -1) {
+        face->vertex(k)->info() = 0;
+        used.push_back(face->vertex(k));
+      }
+  }
+  Box box;
+  for (const auto& v : used) box.include(complex_of(v->point()));
+  const double scale = 65535 / std::max({box.width(), box.height(), 1e-300});
+  std::vector<std::pair<unsigned, size_t>> order;
+  for (size_t i = 0; i < used.size(); ++i) {
+    const Complex z = complex_of(used[i]->point());
+    order.push_back({hilbert_key(static_cast<unsigned>((z.real() - box.left) * scale),
+                                 static_cast<unsigned>((z.imag() - box.bottom) * scale)),
+                     i});
+  }
+  std::sort(order.begin(), order.end());
+  Mesh mesh;
+  for (const auto& [key, i] : order) {
+    used[i]->info() = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.push_back(complex_of(used[i]->point()));
+  }
+  std::vector<int> next(mesh.vertices.size(), -1);
+  for (const auto& face : cdt.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    const Triangle t = {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+    if (cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+              mesh.vertices[t[2]] - mesh.vertices[t[0]]) <= 0)
+      nearly_touches_itself();
+    mesh.triangles.push_back(t);
+    for (int k = 0; k < 3; ++k)
+      if (!face->neighbor(k)->is_in_domain() || cdt.is_infinite(face->neighbor(k)))
+        next[face->vertex((k + 1) % 3)->info()] = face->vertex((k + 2) % 3)->info();
+  }
+  std::sort(mesh.triangles.begin(), mesh.triangles.end(), [](const Triangle& a, const Triangle& b) {
+    return *std::ranges::min_element(a) < *std::ranges::min_element(b);
+  });
+  for (const auto& corner : corners) mesh.cage_vertices.push_back(corner->info());
+  int v = mesh.cage_vertices[0];
+  do {
+    mesh.boundary.push_back(v);
+    v = next[v];
+  } while (v >= 0 && v != mesh.cage_vertices[0] && mesh.boundary.size() <= mesh.vertices.size());
+  if (v != mesh.cage_vertices[0]) nearly_touches_itself();
+  return mesh;
+}
+
+/// Moves the vertices that refinement put on the chords of a flattened cage onto the curve.
+void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
+  std::vector<int> corner(mesh.vertices.size(), -1);
+  for (size_t i = 0; i < flat.points.size(); ++i)
+    corner[mesh.cage_vertices[i]] = static_cast<int>(i);
+  int last = -1;
+  for (const int v : mesh.boundary) {
+    if (corner[v] >= 0) {
+      last = corner[v];
+      continue;
+    }
+    // The boundary runs counter-clockwise, a clockwise cage the other way: the chord is the one
+    // between the last corner and the next one in either direction.
+    const size_t n = flat.points.size();
+    const size_t next = (static_cast<size_t>(last) + 1) % n, before = (last + n - 1) % n;
+    const auto off = [&](size_t other) {
+      return nearest_on_segment(flat.points[last], flat.points[other], mesh.vertices[v]);
+    };
+    const bool forward = off(next).distance <= off(before).distance;
+    const size_t from = forward ? static_cast<size_t>(last) : before;
+    const size_t to = (from + 1) % n;
+    const Index segment = flat.places[from].segment;
+    if (is_straight(cage, segment)) continue;
+    const double t0 = flat.places[from].t,
+                 t1 = flat.places[to].segment == segment ? flat.places[to].t : 1.0;
+    const double share = nearest_on_segment(flat.points[from], flat.points[to], mesh.vertices[v]).t;
+    mesh.vertices[v] = position_of(cage, {segment, t0 + share * (t1 - t0)});
+  }
+}
+
+/// Moves inner vertices of triangles that settling turned over to the mean of their neighbors.
+void untangle(Mesh& mesh) {
+  const std::vector<char> outer = boundary_marks(mesh);
+  constexpr int kMostRounds = 50;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<char> moves(mesh.vertices.size(), 0);
+    bool any = false;
+    for (const auto& [a, b, c] : mesh.triangles)
+      if (cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]) <= 0)
+        moves[a] = moves[b] = moves[c] = 1, any = true;
+    if (!any) return;
+    Points sum(mesh.vertices.size(), 0);
+    std::vector<int> count(mesh.vertices.size(), 0);
+    for (const auto& [a, b, c] : mesh.triangles)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        sum[from] += mesh.vertices[to], ++count[from];
+        sum[to] += mesh.vertices[from], ++count[to];
+      }
+    for (size_t v = 0; v < sum.size(); ++v)
+      if (moves[v] && !outer[v]) mesh.vertices[v] = sum[v] / static_cast<double>(count[v]);
+  }
+}
+
+/// Throws CGAL::Failure_exception when CGAL's invariants break, Error when the mesh does not fill
+/// the polygon.
+Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  Sizing sizing(polygon, 1.0);
+  const double wanted = std::max(options.vertices, 16);
+  double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
+  // A few steps settle ordinary polygons; a needle's finest length is one of its perimeter's parts.
+  for (int step = 0; step < 60; ++step) {
+    sizing.set_scale(finest);
+    const double ratio = std::sqrt(sizing.expected_vertices(polygon) / wanted);
+    finest *= std::clamp(ratio, 0.3, 3.0);
+    if (std::abs(ratio - 1) < 0.05 && step >= 6) break;
+  }
+  sizing.set_scale(finest);
+
+  Triangulation cdt;
+  std::vector<Triangulation::Vertex_handle> corners;
+  for (const Complex& z : polygon) corners.push_back(cdt.insert(point_of(z)));
+  for (size_t i = 0; i < corners.size(); ++i) {
+    check(corners[i] != corners[(i + 1) % corners.size()], "cage vertices are distinct");
+    cdt.insert_constraint(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  const std::vector<Point> inner = lattice(polygon, sizing);
+  cdt.insert(inner.begin(), inner.end());
+
+  CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(cdt, Criteria(sizing));
+  mesher.init();
+  const size_t limit = static_cast<size_t>(3 * wanted) + 4 * polygon.size();
+  size_t steps = 20 * limit;  // a step may also do nothing
+  while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
+    mesher.step_by_step_refine_mesh();
+  Mesh mesh = extract(cdt, corners);
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+  constexpr double kMissing = 1e-10;  // of the square of the polygon's size
+  const double size = box_of(polygon).diagonal();
+  if (std::abs(area - std::abs(signed_area(polygon))) > kMissing * size * size)
+    nearly_touches_itself();
+  return mesh;
+}
+
+Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  // The exception says enough; the default handler prints, too.
+  static const auto printing =
+      CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  static_cast<void>(printing);
+  try {
+    return refined_mesh(polygon, options);
+  } catch (const CGAL::Failure_exception&) {
+    nearly_touches_itself();
+  }
+}
+
+}  // namespace
+
+Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
+  check_rest_cage(cage);  // in terms of its own segments
+  const FlatCage flat = flattened(cage);
+  Mesh mesh = polygon_mesh(flat.points, options);
+  if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
+  settle_on(cage, flat, mesh);
+  untangle(mesh);
+  std::vector<int> vertices;
+  for (size_t i = 0; i < flat.points.size(); ++i)
+    if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
+  mesh.cage_vertices = std::move(vertices);
+  return mesh;
+}
+
+Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+  check_rest_cage(polygon_cage(polygon));
+  return polygon_mesh(polygon, options);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,65 @@
+// A disk: one part, one boundary loop, V - E + F = 1.
+#include "core/mesh/surface.h"
+
+#include <map>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+using Edge = std::pair<int, int>;
+
+/// The representative of i's part.
+int root(std::vector<int>& parent, int i) {
+  while (parent[static_cast<size_t>(i)] != i)
+    i = parent[static_cast<size_t>(i)] =
+        parent[static_cast<size_t>(parent[static_cast<size_t>(i)])];
+  return i;
+}
+
+}  // namespace
+
+std::vector<int> disk_boundary(const Surface& surface) {
+  return disk_boundary(static_cast<int>(surface.vertices.size()), surface.triangles, "the surface");
+}
+
+std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
+                               const std::string& what) {
+  const auto refuse = [&what](const std::string& why) {
+    throw Error(ErrorKind::bad_input,
+                what + " is no disk: " + why + "; it must be one piece with one boundary");
+  };
+  if (triangles.empty()) refuse("it has no triangles");
+  std::map<Edge, int> directed;
+  std::vector<int> parent(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) parent[static_cast<size_t>(i)] = i;
+  for (const auto& t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[static_cast<size_t>(k)], b = t[static_cast<size_t>((k + 1) % 3)];
+      if (a < 0 || a >= count) refuse("a triangle names a vertex that does not exist");
+      if (a == b) refuse("a triangle has the same vertex twice");
+      if (++directed[{a, b}] > 1)
+        refuse("an edge has more than two triangles, or two of opposite orientation");
+      parent[static_cast<size_t>(root(parent, a))] = root(parent, b);
+    }
+  for (int i = 1; i < count; ++i)
+    if (root(parent, i) != root(parent, 0)) refuse("it is in several parts");
+  std::map<int, int> next;  // along the boundary
+  size_t edges = 0;
+  for (const auto& [edge, times] : directed) {
+    const bool inner = directed.contains({edge.second, edge.first});
+    if (!inner || edge.first < edge.second) ++edges;
+    if (!inner && !next.emplace(edge).second) refuse("its boundary touches itself at a vertex");
+  }
+  if (next.empty()) refuse("it is closed");
+  std::vector<int> loop;
+  for (int at = next.begin()->first; loop.empty() || at != loop.front(); at = next.at(at))
+    loop.push_back(at);
+  if (loop.size() < next.size()) refuse("it has a hole");
+  const long euler = count - static_cast<long>(edges) + static_cast<long>(triangles.size());
+  if (euler != 1) refuse("it has a handle");
+  return loop;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,76 @@
+// THE table of methods.
+#include "core/error.h"
+#include "core/maps/deformer.h"
+#include "core/methods/check_rest.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> table = [] {
+    std::vector<Method> rows{cage_method(),     pins_method(),     arap_method(),
+                             har_arap_method(), outline_method(),  strokes_method(),
+                             angles_method(),   harmonic_method(), mean_value_method()};
+    rows.push_back(bounded_method(rows));
+    return rows;
+  }();
+  return table;
+}
+
+const Method& method_named(const std::string& id) {
+  std::string known;
+  for (const Method& method : methods()) {
+    if (method.id == id) return method;
+    known += (known.empty() ? "" : ", ") + method.id;
+  }
+  throw Error(ErrorKind::bad_input,
+              "method '" + id + "' is not available in this version; choose one of: " + known);
+}
+
+std::unique_ptr<Deformer> Method::prepare(const Rest& rest, const Deformer* previous) const {
+  check_rest(*this, rest);
+  return make(rest, previous);
+}
+
+Rest used_by(const Method& method, Rest rest) {
+  if (!method.uses_pins) rest.pins.clear();
+  if (!method.uses_strokes) rest.strokes.clear();
+  if (!method.uses_outline) rest.outline.clear();
+  if (!method.uses_corners) rest.corners.clear();
+  if (!method.uses_stiffness) rest.stiffness.clear();
+  return rest;
+}
+
+Pose used_by(const Method& method, Pose pose) {
+  if (!method.uses_pins) pose.pins.clear();
+  if (!method.uses_strokes) pose.strokes.clear();
+  if (!method.uses_corners) pose.corners.clear();
+  return pose;
+}
+
+Parameters parameters_of(const Rest& rest, const Method& followed) {
+  const auto found = rest.other_parameters.find(followed.id);
+  return found == rest.other_parameters.end() ? Parameters{} : found->second;
+}
+
+double parameter(const Method& method, const Parameters& values, const std::string& key) {
+  if (const auto found = values.find(key); found != values.end()) return found->second;
+  for (const ParameterSpec& spec : method.parameters)
+    if (spec.key == key) return spec.fallback;
+  check(false, "a method asks for a parameter that its row names");
+  return 0;
+}
+
+bool is_used(const Method& method, const Parameters& values, const ParameterSpec& spec) {
+  return !spec.used_when || parameter(method, values, spec.used_when->key) == spec.used_when->value;
+}
+
+std::string choice(const Method& method, const Parameters& values, const std::string& key) {
+  for (const ParameterSpec& spec : method.parameters)
+    if (spec.key == key)
+      return spec.options[static_cast<size_t>(parameter(method, values, key))].id;
+  check(false, "a method asks for a choice that its row names");
+  return "";
+}
+
+}  // namespace holomorph

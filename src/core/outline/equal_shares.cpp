@@ -1,0 +1,73 @@
+// One number, the shift of one start against the other, tried at all of 200 places.
+#include "core/outline/equal_shares.h"
+
+namespace holomorph {
+namespace {
+
+constexpr Index kShifts = 200;
+
+/// Equal shares of both lengths, the source's start being `shift` / kShifts of the target's length
+/// after the target's.
+Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
+  const double offset = target.length() * static_cast<double>(shift) / kShifts;
+  return {{{0, 0.5 * source.length()},
+           {offset, offset + 0.5 * target.length()},
+           source.length(),
+           target.length()}};
+}
+
+Complex mean(const Points& points) {
+  Complex sum = 0;
+  for (const Complex& z : points) sum += z;
+  return sum / static_cast<double>(points.size());
+}
+
+/// By how much a curve has turned at equal shares of its length, once around.
+std::vector<double> turning(const Polyline& curve) {
+  const Points points = at_equal_lengths(curve, kShifts);
+  const auto way = [&](Index i) {
+    const auto at = [&](Index k) { return points[static_cast<size_t>(k % kShifts)]; };
+    return at(i + 1) - at(i);
+  };
+  std::vector<double> turned{0};
+  for (Index i = 1; i < kShifts; ++i)
+    turned.push_back(turned.back() + std::arg(way(i) / way(i - 1)));
+  return turned;
+}
+
+}  // namespace
+
+Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
+  const Points from = at_equal_lengths(source, kShifts), to = at_equal_lengths(target, kShifts);
+  const Complex center_from = mean(from), center_to = mean(to);
+  Index best = 0;
+  double least = INFINITY;
+  for (Index shift = 0; shift < kShifts; ++shift) {
+    double sum = 0;
+    for (Index i = 0; i < kShifts; ++i)
+      sum += std::norm(from[static_cast<size_t>(i)] - center_from -
+                       to[static_cast<size_t>((i + shift) % kShifts)] + center_to);
+    if (sum < least) least = sum, best = shift;
+  }
+  return by_equal_shares(source, target, best);
+}
+
+Correspondence by_turning(const Polyline& source, const Polyline& target) {
+  const std::vector<double> from = turning(source), to = turning(target);
+  Index best = 0;
+  double least = INFINITY;
+  for (Index shift = 0; shift < kShifts; ++shift) {
+    double sum = 0, squares = 0;
+    for (Index i = 0; i < kShifts; ++i) {
+      const Index k = i + shift;
+      const double off = to[static_cast<size_t>(k % kShifts)] + (k < kShifts ? 0 : 2 * kPi) -
+                         from[static_cast<size_t>(i)];
+      sum += off, squares += off * off;
+    }
+    const double variance = squares - sum * sum / kShifts;
+    if (variance < least) least = variance, best = shift;
+  }
+  return by_equal_shares(source, target, best);
+}
+
+}  // namespace holomorph

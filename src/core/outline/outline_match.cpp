@@ -1,0 +1,367 @@
+// Rows once, then targets and map in turn.
+#include "core/outline/outline_match.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/cauchy/cauchy.h"
+#include "core/outline/equal_shares.h"
+#include "core/outline/inner_loop.h"
+#include "core/outline/outline_basis.h"
+#include "core/outline/outline_samples.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kSamplesPerUnknown = 4;
+constexpr size_t kPinTerm = 1;
+constexpr double kInset = 7e-4;      ///< of the loop that zeros are counted in, in diagonals
+constexpr double kSoftInset = 5e-3;  ///< where angles may give way: corners are flattened roughly
+constexpr double kRoughlySettled = 1e-2;
+constexpr int kMostRough = 4;
+constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
+
+/// A frame of the shape's own: its first vertex at 0, its first chord along the real axis, its
+/// perimeter 1. What is computed there does not depend on where the drawing stands.
+Similarity frame_of(const Cage& cage) {
+  const Complex way = cage.vertex(1) - cage.vertex(0);
+  return {1.0 / (way / std::abs(way) * perimeter(flattened(cage).points)), cage.vertex(0), 0};
+}
+
+Points in(const Similarity& frame, Points points) {
+  for (Complex& z : points) z = frame(z);
+  return points;
+}
+
+Cage in(const Similarity& frame, Cage cage) {
+  for (Points& segment : cage.segments) segment = in(frame, std::move(segment));
+  return cage;
+}
+
+/// Rows of C phi + conj(C) psi.
+MatrixXc with_conjugate(const MatrixXc& c, bool soft) {
+  if (!soft) return c;
+  MatrixXc both(c.rows(), 2 * c.cols());
+  both << c, c.conjugate();
+  return both;
+}
+
+/// Counter-clockwise. Throws Error as check_outline does.
+Points checked(Points points) {
+  check_outline(points);
+  if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+/// How far two correspondences of the same outlines lie apart, in turns of the target.
+double difference(const Correspondence& a, const Correspondence& b) {
+  double most = 0;
+  for (const double s : a.lengths.x) {
+    const double off = (a(s) - b(s)) / a.target_length();
+    most = std::max(most, std::abs(off - std::round(off)));
+  }
+  return most;
+}
+
+}  // namespace
+
+OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& pins,
+                       const OutlineSettings& settings)
+    : settings_(settings),
+      given_(counter_clockwise(source)),
+      frame_(frame_of(given_)),
+      cage_(in(frame_, given_)),
+      flat_(flattened(cage_)),
+      source_(flat_.points, true),
+      target_(in(frame_, checked(outline)), true),
+      pins_(in(frame_, pins)),
+      loop_(inner_loop(flat_.points,
+                       (settings.stiffness > 0 ? kSoftInset : kInset) * source_.diagonal())),
+      unit_(source_.length() / (2 * kPi)),
+      center_(box_of(target_.points()).center()) {
+  if (!settings_.published)
+    start_ = std::make_unique<ConformalStart>(source_, target_, settings_.upright, pins_);
+  if (start_ && start_->is_crowded()) start_.reset();
+  build(start_                ? start_->best()
+        : settings_.published ? by_arc_length(source_, target_)
+                              : by_turning(source_, target_));
+}
+
+void OutlineFit::build(const Correspondence& start) {
+  built_ = start;
+  ++builds_;
+  refined_ = false;
+  take_basis(start);
+  take_samples();
+  fit_.emplace(terms());
+}
+
+void OutlineFit::solve(const Points& pinned) {
+  pinned_ = in(frame_, pinned);
+  const Points wanted = held(pinned_);
+  before_ = {};
+  if (start_ && !pins_.empty())
+    build(start_->best(wanted));
+  else if (refined_)
+    build(built_);
+  fit_->reset();
+  begin(built_, wanted);
+  run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
+      kSettled, settings_.most_iterations);
+  if (may_refine() && !is_met()) refine();
+}
+
+void OutlineFit::follow(const Points& pinned) {
+  if (now_.iterates.empty() || (refined_ && pins_.empty())) return solve(pinned);
+  before_ = {};
+  pinned_ = in(frame_, pinned);
+  const Points wanted = held(pinned_);
+  if (start_ && !pins_.empty()) {
+    const Correspondence start = start_->follow(wanted);
+    if (refined_) return follow_start(start);
+    if (difference(start, built_) > kFar) build(start);
+    begin(start, wanted);
+    run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
+    // One pin chooses; more of them may want what no conformal map does.
+    if (pins_.size() == 1 && may_refine() && !is_met()) follow_start(start);
+    return;
+  }
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  fit_->resume();
+  run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
+}
+
+void OutlineFit::begin(const Correspondence& start, const Points& wanted) {
+  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  std::ranges::fill(hints_, 0);
+  fit_->start(start_targets(start));
+}
+
+void OutlineFit::run(AlternatingFit::Mode mode, double settled, int most) {
+  now_.iterates.clear();
+  now_.energies.clear();
+  fit_->run(mode, settled, most, [this] {
+    now_.iterates.push_back(fit_->unknowns());
+    now_.energies.push_back(fit_->energy() / (unit_ * unit_));
+  });
+}
+
+OutlineMatch OutlineFit::after(int iteration) const {
+  OutlineMatch match;
+  const size_t number = static_cast<size_t>(iteration), earlier = before_.iterates.size();
+  const Stage& stage = number < earlier ? before_ : now_;
+  const Cage& basis = stage.basis;
+  const VectorXc& x = stage.iterates.at(number < earlier ? number : number - earlier);
+  match.basis = stage.given_basis;
+  match.iterations = iteration;
+  match.energies = before_.energies;
+  match.energies.insert(match.energies.end(), now_.energies.begin(), now_.energies.end());
+  const Index n = basis.control_count();
+  const VectorXc phi = x.head(n).array() + center_, psi = x.tail(x.size() - n);
+  const auto sum_of = [&](const MatrixXc& c) -> VectorXc {
+    if (psi.size() == 0) return c * phi;
+    return c * phi + c.conjugate() * psi;
+  };
+  const Complex axis = 1.0 / frame_.factor;
+  const double size = std::abs(axis);
+  match.phi = axis * phi.array() + frame_.from;
+  match.psi = axis * psi;
+  const Points wanted = held(pinned_);
+  const VectorXc pins = sum_of(cauchy_coordinates(basis, pins_));
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    match.pins_held += wanted[i] != pinned_[i];
+    match.pins_missed =
+        std::max(match.pins_missed, size * std::abs(pins[static_cast<Index>(i)] - wanted[i]));
+  }
+  const VectorXc values = sum_of(stage.at_samples);
+  double sum = 0;
+  for (const Complex& z : values) sum += std::norm(z - target_.nearest(z).point);
+  match.rms = size * std::sqrt(sum / static_cast<double>(values.size()));
+  const Polyline image(Points(values.begin(), values.end()), true);
+  match.hausdorff =
+      size * std::max(one_sided_distance(image, target_), one_sided_distance(target_, image));
+  const auto slopes = [&](const Points& places) {
+    return product(planar_coordinates<double>(basis, places, 1), phi);
+  };
+  match.zeros = zeros_inside(loop_, product(stage.slopes_inside, phi), slopes);
+  return match;
+}
+
+// Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
+// own, which stay, so that each of its segments is cut into parts of its own, and for those that
+// come to the target's corners: f' is a power there.
+void OutlineFit::take_basis(const Correspondence& start) {
+  const double own = settings_.published ? 1 : 0.3;
+  const auto share = [&](double s) {
+    return own * s / start.source_length() +
+           (1 - own) * (start(s) - start(0)) / start.target_length();
+  };
+  std::vector<double> ends, cuts;
+  for (size_t i = 0; i < flat_.places.size(); ++i)
+    if (flat_.places[i].t == 0) ends.push_back(source_.length_at(static_cast<Index>(i), 0));
+  ends.push_back(source_.length());
+  for (size_t e = 0; e + 1 < ends.size(); ++e) {
+    const double from = share(ends[e]), to = share(ends[e + 1]);
+    const int parts =
+        std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices /
+                                                 cage_.degree(static_cast<Index>(e)))));
+    for (int k = 1; k < parts; ++k) {
+      const double wanted = from + (to - from) * k / parts;
+      double low = ends[e], high = ends[e + 1];
+      for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (share(middle) < wanted ? low : high) = middle;
+      }
+      cuts.push_back(0.5 * (low + high));
+    }
+  }
+  const Correspondence back = start.inverse();
+  const double length = start.source_length();
+  for (const double corner : corners_of(target_)) {
+    const double at = back(corner), once = at - std::floor(at / length) * length;
+    const auto nearest =
+        std::ranges::min_element(cuts, {}, [&](double cut) { return std::abs(cut - once); });
+    if (nearest != cuts.end()) *nearest = once;
+  }
+  const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
+  constexpr double kLeast = 1e-3;  // of a segment: shorter pieces are none
+  now_.basis = cut(cage_, places, kLeast);
+  now_.given_basis = cut(given_, places, kLeast);
+}
+
+void OutlineFit::take_samples() {
+  samples_.clear();
+  middles_.clear();
+  sizes_.clear();
+  for (Index e = 0; e < now_.basis.size(); ++e) {
+    const Complex way = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
+    // A curve has as many unknowns as its degree, so it gets as many times the places.
+    const int degree = now_.basis.degree(e), count = kSamplesPerUnknown * degree;
+    for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});
+    for (int k = 0; k < degree; ++k) {
+      middles_.push_back({e, (k + 0.5) / degree});
+      sizes_.push_back(std::abs(way) / degree);
+    }
+  }
+  hints_.assign(samples_.size(), 0);
+  now_.at_samples = coordinates_at(now_.basis, samples_, 0);
+  now_.slopes_inside = planar_coordinates<double>(now_.basis, loop_, 1);
+}
+
+std::vector<FitTerm> OutlineFit::terms() {
+  const bool soft = settings_.stiffness > 0;
+  const Index n = now_.basis.control_count();
+  std::vector<FitTerm> terms;
+  FitTerm fit{with_conjugate(now_.at_samples, soft)};
+  fit.project = [this](const VectorXc& values, VectorXc& targets) { project(values, targets); };
+  fit.normals = [this](const VectorXc& values, const VectorXc& targets, VectorXc& normals) {
+    take_normals(values, targets, normals);
+  };
+  terms.push_back(std::move(fit));
+  if (!pins_.empty())
+    terms.push_back(
+        {with_conjugate(cauchy_coordinates(now_.basis, pins_), soft), settings_.pin_weight});
+  if (settings_.smoothness > 0 && !settings_.published) {
+    MatrixXc rows = with_conjugate(coordinates_at(now_.basis, middles_, 2), soft);
+    for (Index e = 0; e < rows.rows(); ++e)
+      rows.row(e) *= sizes_[static_cast<size_t>(e)] * sizes_[static_cast<size_t>(e)];
+    terms.push_back({std::move(rows), settings_.smoothness});
+  }
+  if (soft) {
+    MatrixXc rows = MatrixXc::Zero(static_cast<Index>(middles_.size()), 2 * n);
+    rows.rightCols(n) = unit_ * coordinates_at(now_.basis, middles_, 1).conjugate();
+    terms.push_back({std::move(rows), settings_.stiffness});
+    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
+    constant.rightCols(n).setConstant(1 / static_cast<double>(n));
+    terms.push_back({std::move(constant)});
+  }
+  return terms;
+}
+
+void OutlineFit::project(const VectorXc& values, VectorXc& targets) {
+  for (Index i = 0; i < values.size(); ++i) {
+    Index& hint = hints_[static_cast<size_t>(i)];
+    const Polyline::Nearest nearest = target_.nearest(values[i] + center_, hint);
+    hint = nearest.segment;
+    targets[i] = nearest.point - center_;
+  }
+}
+
+void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
+                              VectorXc& normals) const {
+  const double near = 1e-9 * target_.diagonal();
+  for (Index i = 0; i < values.size(); ++i) {
+    Complex across = values[i] - targets[i];
+    if (std::abs(across) <= near) {
+      const size_t s = static_cast<size_t>(hints_[static_cast<size_t>(i)]);
+      across = kI * (target_.points()[(s + 1) % target_.points().size()] - target_.points()[s]);
+    }
+    normals[i] = across / std::abs(across);
+  }
+}
+
+Points OutlineFit::held(const Points& pinned) const {
+  constexpr int kWays = 16, kMostHalvings = 40;
+  if (settings_.published) return pinned;
+  Points inside = pinned;
+  for (Complex& z : inside) {
+    if (winding_number(target_.points(), z) != 0) continue;
+    const Complex nearest = target_.nearest(z).point;
+    // A little inside, less where the outline is thin: of the places around, the deepest one. They
+    // turn from ring to ring, so that a needle narrower than the ways between is found, too.
+    double depth = 0, step = 0.05 * target_.diagonal();
+    for (int ring = 0; ring < kMostHalvings && depth == 0; ++ring, step /= 2)
+      for (int k = 0; k < kWays; ++k) {
+        const double way = k + 0.38 * ring;
+        const Complex place = nearest + std::polar(step, 2 * kPi * way / kWays);
+        if (winding_number(target_.points(), place) == 0) continue;
+        if (const double here = target_.nearest(place).distance; here > depth)
+          depth = here, z = place;
+      }
+    if (depth == 0) z = deepest_point(target_);
+  }
+  return inside;
+}
+
+VectorXc OutlineFit::pin_targets(const Points& pinned) const {
+  VectorXc targets(static_cast<Index>(pinned.size()));
+  for (Index i = 0; i < targets.size(); ++i) targets[i] = pinned[static_cast<size_t>(i)] - center_;
+  return targets;
+}
+
+VectorXc OutlineFit::start_targets(const Correspondence& start) const {
+  VectorXc targets(static_cast<Index>(samples_.size()));
+  for (Index i = 0; i < targets.size(); ++i) {
+    const Polyline::Nearest at =
+        source_.nearest(position_of(now_.basis, samples_[static_cast<size_t>(i)]));
+    targets[i] = target_.at(start(source_.length_at(at.segment, at.parameter))) - center_;
+  }
+  return targets;
+}
+
+void check_outline(std::span<const Complex> outline) {
+  if (outline.size() < 3)
+    throw Error(ErrorKind::bad_input, "the outline needs three points at least");
+  for (const Complex& z : outline)
+    if (!std::isfinite(z.real()) || !std::isfinite(z.imag()))
+      throw Error(ErrorKind::bad_input, "the outline has a point that is not finite");
+  for (size_t i = 0; i < outline.size(); ++i)
+    if (outline[i] == outline[(i + 1) % outline.size()])
+      throw Error(ErrorKind::bad_input,
+                  "the outline has the same point twice at " + point_text(outline[i]), outline[i]);
+  if (const auto crossing = self_crossing(outline)) {
+    const Complex where = crossing->point;
+    throw Error(ErrorKind::bad_input, "the outline crosses itself near " + point_text(where),
+                where);
+  }
+  if (signed_area(outline) == 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
+}
+
+OutlineMatch matched(const OutlineTask& task, const OutlineSettings& settings) {
+  check(task.pins.size() == task.pinned.size(), "outline: a place for each pin");
+  OutlineFit fit(task.source, task.outline, task.pins, settings);
+  fit.solve(task.pinned);
+  return fit.after(fit.iterations());
+}
+
+}  // namespace holomorph

@@ -1,0 +1,141 @@
+// Between corners, samples are at equal steps of the integral of one over the wanted spacing.
+#include "core/outline/outline_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace holomorph {
+namespace {
+
+constexpr Index kThicknessPoints = 600;
+constexpr double kThicknessShare = 0.5;  ///< of the radius of the largest disk that touches
+
+struct CornerPlace {
+  double length = 0, sharpness = 0;  ///< |pi / interior angle - 1|
+  double least = 0;  ///< where a convex corner's power is lost to rounding, in lengths
+};
+
+std::vector<CornerPlace> corners_from(const Polyline& outline, double start) {
+  constexpr double kLeastTurn = kPi / 9, kSeen = 1e-13;
+  std::vector<CornerPlace> corners;
+  for (Index i = 0; i < outline.segments(); ++i) {
+    const double turn = turn_at(outline, i);
+    if (std::abs(turn) < kLeastTurn) continue;
+    double length = outline.length_at(i, 0);
+    if (length < start) length += outline.length();
+    const double sharpness = std::abs(turn) / std::max(kPi - turn, 0.05);
+    corners.push_back({length, sharpness, turn > 0 ? std::pow(kSeen, 1 / (1 + sharpness)) : 0});
+  }
+  std::ranges::sort(corners, {}, &CornerPlace::length);
+  return corners;
+}
+
+/// The wanted distance between samples.
+class Spacing {
+ public:
+  Spacing(const Polyline& outline, Index count, double least)
+      : thickness_(outline),
+        length_(outline.length()),
+        most_(length_ / static_cast<double>(count)),
+        least_(least * length_) {}
+
+  /// At an arc length between two corners.
+  double operator()(double length, const CornerPlace& before, const CornerPlace& after) const {
+    double spacing = std::min(most_, kThicknessShare * thickness_(length));
+    spacing = std::min(spacing, share(before) * (length - before.length));
+    spacing = std::min(spacing, share(after) * (after.length - length));
+    constexpr double kEverywhere = 1e-5;  // this near, the map to the disk is always followed
+    const double lost = std::min(std::max(before.least, after.least), kEverywhere) * length_;
+    return std::max({spacing, least_, lost});
+  }
+
+ private:
+  /// Of the distance from a corner.
+  static double share(const CornerPlace& corner) {
+    constexpr double kOfRightAngle = 0.3, kFinest = 0.12;
+    if (corner.sharpness <= 0) return INFINITY;
+    return std::max(kOfRightAngle / corner.sharpness, kFinest);
+  }
+
+  Thickness thickness_;
+  double length_, most_, least_;
+};
+
+/// Appends the lengths from one corner, or from the start, to the next one, which is left out.
+void append(const Spacing& spacing, const CornerPlace& from, const CornerPlace& to,
+            std::vector<double>& lengths) {
+  constexpr double kStep = 0.25;  // of the spacing, for the integral
+  std::vector<double> at{from.length}, sum{0};
+  while (at.back() < to.length) {
+    const double h = spacing(at.back(), from, to),
+                 step = std::min(kStep * h, to.length - at.back());
+    sum.push_back(sum.back() + step / spacing(at.back() + 0.5 * step, from, to));
+    at.push_back(step < kStep * h ? to.length : at.back() + step);
+  }
+  const int parts = std::max(1, static_cast<int>(std::ceil(sum.back())));
+  size_t i = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double wanted = sum.back() * k / parts;
+    while (i + 2 < sum.size() && sum[i + 1] <= wanted) ++i;
+    lengths.push_back(at[i] + (wanted - sum[i]) / (sum[i + 1] - sum[i]) * (at[i + 1] - at[i]));
+  }
+}
+
+}  // namespace
+
+std::vector<double> corners_of(const Polyline& curve) {
+  std::vector<double> corners;
+  for (Index i = 0; i < curve.segments(); ++i)
+    if (std::abs(turn_at(curve, i)) > kCorner) corners.push_back(curve.length_at(i, 0));
+  return corners;
+}
+
+Thickness::Thickness(const Polyline& outline) : length_(outline.length()) {
+  const size_t n = kThicknessPoints;
+  const Points points = at_equal_lengths(outline, kThicknessPoints);
+  for (size_t i = 0; i < n; ++i) {
+    const Complex way = points[(i + 1) % n] - points[(i + n - 1) % n];
+    const Complex normal = kI * way / std::max(std::abs(way), 1e-300);
+    double least = INFINITY;
+    for (const Complex& point : points) {
+      const double across = std::abs(dot(normal, point - points[i])),
+                   square = std::norm(point - points[i]);
+      if (square < 2 * least * across) least = 0.5 * square / across;
+    }
+    radii_.push_back(least);
+  }
+}
+
+double Thickness::operator()(double length) const {
+  const double turn = length / length_, place = (turn - std::floor(turn)) * kThicknessPoints;
+  const size_t i = static_cast<size_t>(place) % kThicknessPoints;
+  return std::min(radii_[i], radii_[(i + 1) % kThicknessPoints]);
+}
+
+double turn_at(const Polyline& outline, Index vertex) {
+  const Points& points = outline.points();
+  const size_t n = points.size(), k = static_cast<size_t>(vertex);
+  return std::arg((points[(k + 1) % n] - points[k]) / (points[k] - points[(k + n - 1) % n]));
+}
+
+std::vector<double> graded_lengths(const Polyline& outline, double start, Index count,
+                                   double least) {
+  const Spacing spacing(outline, count, least);
+  std::vector<CornerPlace> ends{{start, 0}};
+  const double tiny = 0.1 * least * outline.length();
+  for (const CornerPlace& corner : corners_from(outline, start)) {
+    if (corner.length - ends.back().length > tiny)
+      ends.push_back(corner);
+    else
+      ends.back().sharpness = std::max(ends.back().sharpness, corner.sharpness);
+  }
+  ends.push_back(ends.front());
+  ends.back().length += outline.length();
+  if (ends.size() > 2 && ends.back().length - ends[ends.size() - 2].length <= tiny)
+    ends.erase(ends.end() - 2);
+  std::vector<double> lengths;
+  for (size_t i = 0; i + 1 < ends.size(); ++i) append(spacing, ends[i], ends[i + 1], lengths);
+  return lengths;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,467 @@
+// The disk's own map is given by three pairs of arc lengths, improved by Nelder and Mead's simplex.
+#include "core/outline/outline_start.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+#include "core/geometry/curve.h"
+#include "core/outline/outline_samples.h"
+#include "core/outline/riemann.h"
+
+namespace holomorph {
+namespace {
+
+/// Points of each outline, more where it is thin; and the least distance between them, of the
+/// length.
+struct Sampling {
+  Index points;
+  double least;
+};
+constexpr Sampling kUsual{600, 1e-5}, kSharp{1000, 1e-9};
+constexpr Index kSearched = 120;  ///< equally spaced places of each that the search looks at
+constexpr double kPinWeight = 1000;
+constexpr size_t kPinsTried = 3;
+constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
+
+/// An outline seen from the disk: angles of arc lengths, and back.
+struct Seen {
+  const Polyline* line;
+  RiemannMap map;
+  PeriodicCurve angle_at, length_at;
+  std::vector<double> lengths;         ///< equally spaced
+  Points places = {}, on_circle = {};  ///< of those: in the plane, and e^(i angle)
+
+  double length() const { return line->length(); }
+
+  /// In the disk; what is outside the outline is just inside its nearest place.
+  Complex in_disk(Complex z) const {
+    constexpr double kMost = 1 - 1e-9, kInside = 0.98;
+    if (winding_number(line->points(), z) != 0) {
+      const Complex w = map.at(z);
+      return w * std::min(1.0, kMost / std::abs(w));
+    }
+    const Polyline::Nearest at = line->nearest(z);
+    return std::polar(kInside, angle_at(line->length_at(at.segment, at.parameter)));
+  }
+};
+
+/// The inner point where a function of it and of its distance from the outline is largest, by
+/// finer and finer grids.
+template <class Merit>
+Complex best_inside(const Polyline& outline, const Merit& merit) {
+  const Box box = box_of(outline.points());
+  const Complex corner(box.left, box.bottom), size(box.width(), box.height());
+  constexpr int kFirstCells = 24, kCells = 12;
+  Complex best;
+  double most = -1;
+  for (double reach = 1; reach > 1e-13; reach /= kCells / 4.0) {
+    const int cells = reach == 1 ? kFirstCells : kCells;
+    const Complex from = most < 0 ? corner : best - 0.5 * reach * size, step = reach / cells * size;
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const Complex z = from + Complex((i + 0.5) * step.real(), (j + 0.5) * step.imag());
+        const double here = merit(z, outline.nearest(z).distance);
+        if (here > most && winding_number(outline.points(), z) != 0) most = here, best = z;
+      }
+  }
+  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
+  return best;
+}
+
+/// The center of a polygon's area.
+Complex centroid(const Points& polygon) {
+  Complex sum = 0;
+  double area = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    sum += cross(a, b) * (a + b) / 3.0;
+    area += cross(a, b);
+  }
+  return polygon[0] + sum / area;
+}
+
+/// The arc length of the boundary's place nearest to a point. A deepest point has several: the
+/// first one, so that rounding does not choose.
+double nearest_length(const Polyline& outline, Complex z) {
+  constexpr double kEqual = 1 + 1e-6;
+  const double least = outline.nearest(z).distance;
+  const Points& points = outline.points();
+  for (Index i = 0; i < outline.segments(); ++i) {
+    const auto on = nearest_on_segment(points[static_cast<size_t>(i)],
+                                       points[static_cast<size_t>(i + 1) % points.size()], z);
+    if (on.distance <= kEqual * least) return outline.length_at(i, on.t);
+  }
+  return 0;
+}
+
+/// Starts a list of arc lengths, once around, where the zipper is best: near the middle, and with a
+/// long step, because all else is as good as its first step is long.
+std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& outline,
+                                   Complex center) {
+  constexpr double kNear = 1.4, kLonger = 1.001;
+  const double near = kNear * outline.nearest(center).distance;
+  size_t best = 0;
+  double longest = 0;
+  for (size_t i = 0; i + 1 < lengths.size(); ++i) {
+    const double step = lengths[i + 1] - lengths[i];
+    if (step > kLonger * longest && std::abs(outline.at(lengths[i]) - center) <= near)
+      best = i, longest = step;
+  }
+  std::rotate(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(best), lengths.end());
+  for (size_t i = lengths.size() - best; i < lengths.size(); ++i) lengths[i] += outline.length();
+  return lengths;
+}
+
+Seen seen(const Polyline& outline, Sampling sampling) {
+  const Complex center = middle_point(outline);
+  std::vector<double> lengths = from_long_step(
+      graded_lengths(outline, nearest_length(outline, center), sampling.points, sampling.least),
+      outline, center);
+  Points points;
+  for (const double length : lengths) points.push_back(outline.at(length));
+  RiemannMap map(points, center);
+  std::vector<double> angles(map.angles().begin(), map.angles().end());
+  const PeriodicCurve angle_at{std::move(lengths), std::move(angles), outline.length(), 2 * kPi};
+  Seen result{&outline, std::move(map), angle_at, angle_at.through_inverse(), {}};
+  for (Index i = 0; i < kSearched; ++i) {
+    const double length = angle_at.x[0] + outline.length() * static_cast<double>(i) / kSearched;
+    result.lengths.push_back(length);
+    result.places.push_back(outline.at(length));
+    result.on_circle.push_back(std::polar(1.0, angle_at(length)));
+  }
+  return result;
+}
+
+/// The map of the disk to itself that takes three points of the circle to three others, on angles.
+class DiskMap {
+ public:
+  DiskMap(const std::array<double, 3>& from, const std::array<double, 3>& to) {
+    const Eigen::Matrix2cd a = to_line(from), b = to_line(to);
+    Eigen::Matrix2cd inverse;
+    inverse << b(1, 1), -b(0, 1), -b(1, 0), b(0, 0);
+    m_ = inverse * a;
+  }
+  Complex operator()(Complex z) const {
+    return (m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1));
+  }
+  /// Of a point of the circle.
+  double angle(Complex z) const {
+    const Complex above = m_(0, 0) * z + m_(0, 1), below = m_(1, 0) * z + m_(1, 1);
+    return std::arg(above * std::conj(below));
+  }
+  DiskMap inverse() const {
+    DiskMap other = *this;
+    other.m_ << m_(1, 1), -m_(0, 1), -m_(1, 0), m_(0, 0);
+    return other;
+  }
+
+ private:
+  /// Takes three points of the circle to 0, 1 and infinity.
+  static Eigen::Matrix2cd to_line(const std::array<double, 3>& angles) {
+    const Complex p = std::polar(1.0, angles[0]), q = std::polar(1.0, angles[1]),
+                  r = std::polar(1.0, angles[2]);
+    Eigen::Matrix2cd m;
+    m << (q - r), -p * (q - r), (q - p), -r * (q - p);
+    return m;
+  }
+  Eigen::Matrix2cd m_;
+};
+
+/// In the unit disk, squared.
+double hyperbolic_square(Complex z, Complex w) {
+  constexpr double kFarthest = 1 - 1e-9;
+  const double rho = std::abs((z - w) / (1.0 - std::conj(w) * z));
+  const double distance = 2 * std::atanh(std::min(rho, kFarthest));
+  return distance * distance;
+}
+
+}  // namespace
+
+struct ConformalStart::Search {
+  Seen source, target;
+  double upright = 0;                 ///< weight of the turn's square
+  Points given_pins;                  ///< in the plane
+  std::vector<Complex> pins, pinned;  ///< in the disks of source and target
+
+  /// Where three arc lengths of the source go.
+  struct Pairs {
+    std::array<double, 3> from, to;
+  };
+  Pairs chosen{};
+
+  DiskMap disk_map(const Pairs& pairs) const {
+    std::array<double, 3> from{}, to{};
+    for (size_t k = 0; k < 3; ++k) {
+      from[k] = source.angle_at(pairs.from[k]);
+      to[k] = target.angle_at(pairs.to[k]);
+    }
+    return {from, to};
+  }
+
+  /// Where places of one circle go on the other outline, in their order.
+  static std::vector<double> lengths_on(const Seen& to, const DiskMap& map,
+                                        const Points& on_circle) {
+    std::vector<double> lengths;
+    for (const Complex& place : on_circle) {
+      const double length = to.length_at(map.angle(place));
+      lengths.push_back(lengths.empty() ? length - std::floor(length / to.length()) * to.length()
+                                        : next_in_turn(lengths.back(), length, to.length()));
+    }
+    return lengths;
+  }
+
+  /// The mean square of ln of the relative stretch between equal steps and these.
+  static double stretch(const std::vector<double>& lengths, double total) {
+    double sum = 0;
+    for (size_t i = 0; i < lengths.size(); ++i) {
+      const double step =
+          (i + 1 < lengths.size() ? lengths[i + 1] : lengths[0] + total) - lengths[i];
+      constexpr double kLeast = 1e-15;  // of a turn: points that coincide
+      const double log =
+          std::log(std::max(step / total, kLeast) * static_cast<double>(lengths.size()));
+      sum += log * log;
+    }
+    return sum / static_cast<double>(lengths.size());
+  }
+
+  /// The mean square of ln of the relative stretch, along either outline, and the turn's; infinite
+  /// for pairs in the wrong order.
+  double cost(const Pairs& pairs) const {
+    for (size_t k = 0; k < 3; ++k) {
+      const double gap =
+          k < 2 ? pairs.to[k + 1] - pairs.to[k] : pairs.to[0] + target.length() - pairs.to[2];
+      if (!(gap > 0)) return std::numeric_limits<double>::infinity();
+    }
+    const DiskMap map = disk_map(pairs);
+    const std::vector<double> t = lengths_on(target, map, source.on_circle),
+                              s = lengths_on(source, map.inverse(), target.on_circle);
+    double missed = 0;
+    for (size_t i = 0; i < pinned.size(); ++i) missed += hyperbolic_square(map(pins[i]), pinned[i]);
+    const double turned = upright > 0 ? turn(t) : 0;
+    return 0.5 * (stretch(t, target.length()) + stretch(s, source.length())) +
+           upright * turned * turned + kPinWeight * missed;
+  }
+
+  /// Nelder and Mead's simplex in the three target lengths.
+  Pairs refined(const Pairs& start) const {
+    struct Corner {
+      Eigen::Vector3d x;
+      double cost;
+    };
+    const auto at = [&](const Eigen::Vector3d& x) {
+      Pairs pairs = start;
+      std::copy(x.begin(), x.end(), pairs.to.begin());
+      return Corner{x, cost(pairs)};
+    };
+    const Eigen::Vector3d origin(start.to[0], start.to[1], start.to[2]);
+    std::array<Corner, 4> simplex{at(origin), at(origin), at(origin), at(origin)};
+    for (int k = 0; k < 3; ++k)
+      simplex[static_cast<size_t>(k + 1)] =
+          at(origin + 0.03 * target.length() * Eigen::Vector3d::Unit(k));
+    for (int step = 0; step < kSimplexSteps; ++step) {
+      std::ranges::sort(simplex, {}, &Corner::cost);
+      const Eigen::Vector3d middle = (simplex[0].x + simplex[1].x + simplex[2].x) / 3;
+      const Corner reflected = at(2 * middle - simplex[3].x);
+      if (reflected.cost < simplex[0].cost) {
+        const Corner expanded = at(3 * middle - 2 * simplex[3].x);
+        simplex[3] = expanded.cost < reflected.cost ? expanded : reflected;
+      } else if (reflected.cost < simplex[2].cost) {
+        simplex[3] = reflected;
+      } else if (const Corner contracted = at(0.5 * (middle + simplex[3].x));
+                 contracted.cost < simplex[3].cost) {
+        simplex[3] = contracted;
+      } else {
+        for (size_t k = 1; k < 4; ++k) simplex[k] = at(0.5 * (simplex[0].x + simplex[k].x));
+      }
+    }
+    const Corner& best = *std::ranges::min_element(simplex, {}, &Corner::cost);
+    Pairs pairs = start;
+    std::copy(best.x.begin(), best.x.end(), pairs.to.begin());
+    return pairs;
+  }
+
+  /// By how much a picture is turned of whose boundary the searched places go there.
+  double turn(const std::vector<double>& lengths) const {
+    Complex from_sum = 0, to_sum = 0, both = 0;
+    const double n = static_cast<double>(lengths.size());
+    for (size_t i = 0; i < lengths.size(); ++i) {
+      const Complex from = source.places[i], to = target.line->at(lengths[i]);
+      from_sum += from, to_sum += to, both += std::conj(from) * to;
+    }
+    return std::arg(both - std::conj(from_sum) * to_sum / n);
+  }
+
+  /// Three thirds of the source to three thirds of the target, from different places.
+  std::vector<Pairs> by_thirds() const {
+    std::vector<Pairs> starts;
+    for (int offset = 0; offset < kOffsets; ++offset)
+      for (int shift = 0; shift < kShifts; ++shift) {
+        Pairs& pairs = starts.emplace_back();
+        for (size_t k = 0; k < 3; ++k) {
+          const double third = static_cast<double>(k) / 3;
+          pairs.from[k] = source.length() * (third + offset / 6.0);
+          pairs.to[k] = target.length() * (third + static_cast<double>(shift) / kShifts);
+        }
+      }
+    return starts;
+  }
+
+  /// The disk's maps that take a pin to its place, by their turn.
+  std::vector<Pairs> through_pin(Complex pin, Complex place) const {
+    std::vector<Pairs> starts;
+    for (int shift = 0; shift < kShifts; ++shift) {
+      Pairs& pairs = starts.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        pairs.from[k] = source.length() * static_cast<double>(k) / 3;
+        const Complex z = std::polar(1.0, source.angle_at(pairs.from[k]));
+        const Complex turned =
+            std::polar(1.0, 2 * kPi * shift / kShifts) * (z - pin) / (1.0 - std::conj(pin) * z);
+        const Complex image = (turned + place) / (1.0 + std::conj(place) * turned);
+        pairs.to[k] = target.length_at(std::arg(image));
+        if (k > 0)
+          pairs.to[k] +=
+              std::ceil((pairs.to[k - 1] - pairs.to[k]) / target.length()) * target.length();
+      }
+    }
+    return starts;
+  }
+
+  Pairs best() const {
+    std::vector<std::pair<double, Pairs>> starts;
+    const auto add = [&](const std::vector<Pairs>& more) {
+      for (const Pairs& pairs : more) starts.emplace_back(cost(pairs), pairs);
+    };
+    add(by_thirds());
+    for (size_t i = 0; i < std::min(pinned.size(), kPinsTried); ++i)
+      add(through_pin(pins[i], pinned[i]));
+    std::ranges::sort(starts, {}, [](const auto& start) { return start.first; });
+    std::pair<double, Pairs> best = starts[0];
+    for (size_t i = 0; i < kRefined; ++i) {
+      const Pairs pairs = refined(starts[i].second);
+      if (const double cost = this->cost(pairs); cost < best.first) best = {cost, pairs};
+    }
+    return best.second;
+  }
+
+  void see_pins() {
+    pins.clear();
+    for (const Complex& z : given_pins) pins.push_back(source.in_disk(z));
+  }
+
+  void want(const Points& places) {
+    check(places.empty() || places.size() == pins.size(), "outline start: a place for each pin");
+    pinned.clear();
+    for (const Complex& z : places) pinned.push_back(target.in_disk(z));
+  }
+
+  /// Through all places that either outline is sampled at.
+  Correspondence correspondence() const {
+    const DiskMap map = disk_map(chosen), back = map.inverse();
+    std::vector<double> from = source.angle_at.x;
+    Points on_circle;
+    for (const double angle : source.angle_at.y) on_circle.push_back(std::polar(1.0, angle));
+    std::vector<double> to = lengths_on(target, map, on_circle);
+    const auto add = [](double length, double total, std::vector<double>& lengths) {
+      lengths.push_back(length - std::floor((length - lengths.front()) / total) * total);
+    };
+    for (size_t i = 0; i < target.angle_at.x.size(); ++i) {
+      add(source.angle_at.inverse_at(back.angle(std::polar(1.0, target.angle_at.y[i]))),
+          source.length(), from);
+      add(target.angle_at.x[i], target.length(), to);
+    }
+    // Each list by itself: the map is increasing, and rounding is not.
+    std::ranges::sort(from);
+    std::ranges::sort(to);
+    return {{std::move(from), std::move(to), source.length(), target.length()},
+            std::sqrt(cost(chosen))};
+  }
+};
+
+ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
+                               const Points& pins)
+    : search_(new Search{seen(source, kUsual), seen(target, kUsual), upright, pins, {}, {}}) {
+  search_->see_pins();
+}
+
+ConformalStart::~ConformalStart() = default;
+
+bool ConformalStart::is_crowded() const {
+  constexpr double kApart = 1e-12, kMost = 0.2;
+  const auto crowded = [&](const Seen& seen) {
+    Index close = 0;
+    for (size_t i = 1; i < seen.lengths.size(); ++i)
+      close += seen.angle_at(seen.lengths[i]) - seen.angle_at(seen.lengths[i - 1]) < kApart;
+    return static_cast<double>(close) > kMost * static_cast<double>(seen.lengths.size());
+  };
+  return crowded(search_->source) || crowded(search_->target);
+}
+
+bool ConformalStart::is_near_crowded() const {
+  constexpr double kLeast = 5e-13 * 2 * kPi, kPart = 0.01;
+  const auto crowded = [&](const Seen& seen) {
+    return std::ranges::any_of(seen.lengths, [&](double length) {
+      return seen.angle_at(length + kPart * seen.length()) - seen.angle_at(length) < kLeast;
+    });
+  };
+  return crowded(search_->source) || crowded(search_->target);
+}
+
+Correspondence ConformalStart::best(const Points& pinned) {
+  search_->want(pinned);
+  search_->chosen = search_->best();
+  return search_->correspondence();
+}
+
+bool ConformalStart::sharpen() {
+  try {
+    Seen source = seen(*search_->source.line, kSharp), target = seen(*search_->target.line, kSharp);
+    search_->source = std::move(source);
+    search_->target = std::move(target);
+  } catch (const Error&) {
+    return false;  // Vertices coincide on the way; coarser ones did not.
+  }
+  search_->see_pins();
+  return true;
+}
+
+Correspondence ConformalStart::last(const Points& pinned) {
+  search_->want(pinned);
+  return search_->correspondence();
+}
+
+Correspondence ConformalStart::least_stretched() {
+  const double upright = std::exchange(search_->upright, 0);
+  Correspondence result = best();
+  search_->upright = upright;
+  return result;
+}
+
+Correspondence ConformalStart::follow(const Points& pinned) {
+  search_->want(pinned);
+  std::vector<Search::Pairs> starts{search_->chosen};
+  if (!pinned.empty()) {
+    const auto more = search_->through_pin(search_->pins[0], search_->pinned[0]);
+    starts.insert(starts.end(), more.begin(), more.end());
+  }
+  search_->chosen = search_->refined(*std::ranges::min_element(
+      starts, {}, [&](const Search::Pairs& pairs) { return search_->cost(pairs); }));
+  return search_->correspondence();
+}
+
+Complex middle_point(const Polyline& outline) {
+  constexpr double kCentral = 0.2;
+  const Complex center = centroid(outline.points());
+  return best_inside(outline, [&](Complex z, double depth) {
+    return depth * std::max(1 - kCentral * std::abs(z - center) / outline.length(), 0.0);
+  });
+}
+
+Complex deepest_point(const Polyline& outline) {
+  return best_inside(outline, [](Complex, double depth) { return depth; });
+}
+
+}  // namespace holomorph

@@ -1,0 +1,142 @@
+// Whether a vertex is smooth is read off its tangents: there is no flag that could disagree.
+#include "edit/edits/curve_edits.h"
+
+#include <algorithm>
+
+namespace holomorph {
+namespace {
+
+constexpr double kInLine = 0.02;  ///< sine of the angle between opposite tangents
+
+Cage& cage_of(Scene& scene, Posture posture) {
+  return posture == Posture::rest ? scene.rest : scene.pose;
+}
+
+Index wrapped(const Cage& cage, Index i) {
+  return (i % cage.size() + cage.size()) % cage.size();
+}
+
+void set_controls(Cage& cage, Index segment, Points controls) {
+  controls.pop_back();
+  cage.segments[segment] = std::move(controls);
+}
+
+void raise_to(Cage& cage, Index segment, int degree) {
+  if (cage.degree(segment) < degree)
+    set_controls(cage, segment, elevated(cage.controls(segment), degree));
+}
+
+}  // namespace
+
+Tangents tangents_of(const Scene& scene, Index vertex, Posture posture) {
+  const Cage& cage = cage_of(scene, posture);
+  const Index before = wrapped(cage, vertex - 1);
+  Tangents tangents;
+  if (cage.degree(before) > 1)
+    tangents.before = Handle{Handle::Kind::cage, before, cage.degree(before) - 1};
+  if (cage.degree(vertex) > 1) tangents.after = Handle{Handle::Kind::cage, vertex, 1};
+  return tangents;
+}
+
+bool is_smooth(const Scene& scene, Index vertex, Posture posture) {
+  const auto [before, after] = tangents_of(scene, vertex, posture);
+  if (!before || !after) return false;
+  const Complex z = cage_of(scene, posture).vertex(vertex);
+  const Complex in = position_of(scene, *before, posture) - z,
+                out = position_of(scene, *after, posture) - z;
+  return dot(in, out) < 0 && std::abs(cross(in, out)) <= kInLine * std::abs(in) * std::abs(out);
+}
+
+Scene tangent_moved(Scene scene, Handle tangent, Complex to, Posture posture, bool breaks) {
+  const Cage& cage = cage_of(scene, posture);
+  std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its other tangent
+  for (const Index vertex : {tangent.index, wrapped(cage, tangent.index + 1)}) {
+    if (breaks || !is_smooth(scene, vertex, posture)) continue;
+    const auto [before, after] = tangents_of(scene, vertex, posture);
+    if (*before == tangent) opposite.push_back({vertex, *after});
+    if (*after == tangent) opposite.push_back({vertex, *before});
+  }
+  Cage& moved = cage_of(scene, posture);
+  moved.segments[tangent.index][tangent.control] = to;
+  for (const auto& [vertex, other] : opposite) {
+    const Complex z = moved.vertex(vertex), arm = to - z;
+    Complex& place = moved.segments[wrapped(moved, other.index)][other.control];
+    if (std::abs(arm) > 0) place = z - arm * (std::abs(place - z) / std::abs(arm));
+  }
+  return scene;
+}
+
+Scene smoothed(Scene scene, Index vertex, Posture posture) {
+  Cage& cage = cage_of(scene, posture);
+  const Index before = wrapped(cage, vertex - 1);
+  raise_to(cage, before, 3);
+  raise_to(cage, vertex, 3);
+  const Complex z = cage.vertex(vertex), last = cage.vertex(vertex - 1),
+                next = cage.vertex(vertex + 1);
+  if (std::abs(next - last) == 0) return scene;
+  const Complex along = (next - last) / std::abs(next - last);
+  cage.segments[before].back() = z - along * (std::abs(z - last) / 3);
+  cage.segments[vertex][1] = z + along * (std::abs(next - z) / 3);
+  return scene;
+}
+
+Scene cornered(Scene scene, Index vertex, Posture posture) {
+  Cage& cage = cage_of(scene, posture);
+  const Index before = wrapped(cage, vertex - 1);
+  const Complex z = cage.vertex(vertex);
+  for (const Index e : {before, vertex})  // a quadratic's one tangent belongs to the other end, too
+    if (cage.degree(e) == 2) raise_to(cage, e, 3);
+  if (cage.degree(before) > 2)
+    cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;
+  if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.vertex(vertex + 1) - z) / 3.0;
+  return scene;
+}
+
+Scene toggled_corners(Scene scene, const Selection& selection, Posture posture) {
+  std::vector<Index> vertices;
+  for (const Handle& handle : selection)
+    if (handle.kind == Handle::Kind::cage && handle.control == 0) vertices.push_back(handle.index);
+  const bool all_smooth = std::all_of(vertices.begin(), vertices.end(),
+                                      [&](Index v) { return is_smooth(scene, v, posture); });
+  for (const Index v : vertices)
+    scene = all_smooth ? cornered(std::move(scene), v, posture)
+                       : smoothed(std::move(scene), v, posture);
+  return scene;
+}
+
+std::set<Index> segments_of(const Scene& scene, const Selection& selection, Posture posture) {
+  std::set<Index> segments;
+  for (const Handle& handle : selection)
+    if (handle.kind == Handle::Kind::cage && exists(scene, handle, posture))
+      segments.insert(handle.index);
+  if (segments.empty())
+    for (Index e = 0; e < cage_of(scene, posture).size(); ++e) segments.insert(e);
+  return segments;
+}
+
+Scene raised(Scene scene, const Selection& selection, Posture posture) {
+  const std::set<Index> segments = segments_of(scene, selection, posture);
+  Cage& cage = cage_of(scene, posture);
+  for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
+  return scene;
+}
+
+Scene lowered(Scene scene, const Selection& selection, Posture posture) {
+  const std::set<Index> segments = segments_of(scene, selection, posture);
+  Cage& cage = cage_of(scene, posture);
+  for (const Index e : segments) {
+    if (cage.degree(e) == 1) continue;
+    const Points controls = cage.controls(e);
+    constexpr int kSamples = 48;
+    Points samples;
+    std::vector<double> parameters;
+    for (int k = 0; k <= kSamples; ++k) {
+      parameters.push_back(static_cast<double>(k) / kSamples);
+      samples.push_back(bezier_point(controls, parameters.back()));
+    }
+    set_controls(cage, e, fitted(samples, parameters, cage.degree(e) - 1));
+  }
+  return scene;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,79 @@
+// Soft selection falls off smoothly to nothing at its reach.
+#include "edit/edits/displacement.h"
+
+#include "scene/mirror.h"
+
+namespace holomorph {
+namespace {
+
+/// 1 at 0, flat there and at 1, 0 from there on.
+double falloff(double share) {
+  return share >= 1 ? 0 : (1 - share * share) * (1 - share * share);
+}
+
+Displacements softly(const Scene& scene, const Selection& dragged, Complex by, Posture posture,
+                     double reach) {
+  Displacements all;
+  for (const Handle& handle : handles_of(scene, posture)) {
+    if (is_tangent(handle) || dragged.contains(handle)) continue;
+    const Complex here = position_of(scene, handle, posture);
+    double distance = reach;
+    for (const Handle& other : dragged)
+      distance = std::min(distance, std::abs(position_of(scene, other, posture) - here));
+    if (const double share = falloff(distance / reach); share > 0) all[handle] = share * by;
+  }
+  return all;
+}
+
+Complex mirrored_way(Complex by) {
+  return {-by.real(), by.imag()};
+}
+
+}  // namespace
+
+std::map<Handle, Handle> counterparts_of(const Scene& scene) {
+  const Mirror mirror(scene);
+  std::map<Handle::Kind, std::vector<Handle>> kinds;
+  for (const Handle& handle : handles_of(scene, Posture::rest))
+    if (!is_tangent(handle)) kinds[handle.kind].push_back(handle);
+  std::map<Handle, Handle> counterparts;
+  for (const auto& [kind, handles] : kinds) {
+    Points places;
+    for (const Handle& handle : handles)
+      places.push_back(position_of(scene, handle, Posture::rest));
+    for (size_t i = 0; i < handles.size(); ++i)
+      if (const auto found = mirror.counterpart(places, places[i]))
+        counterparts[handles[i]] = handles[*found];
+  }
+  return counterparts;
+}
+
+Displacements displacements(const Scene& scene, const Selection& dragged, Complex by,
+                            Posture posture, const Influence& influence) {
+  Displacements all;
+  if (influence.soft) all = softly(scene, dragged, by, posture, influence.reach);
+  for (const Handle& handle : dragged) all[handle] = by;
+  if (!influence.symmetric) return all;
+  Displacements both = all;
+  for (const auto& [handle, other] : counterparts_of(scene)) {
+    const auto way = all.find(handle), own = all.find(other);
+    if (way == all.end()) continue;
+    if (other == handle)
+      both[handle] = 0.5 * (way->second + mirrored_way(way->second));
+    else if (own == all.end() || std::abs(own->second) < std::abs(way->second))
+      both[other] = mirrored_way(way->second);
+  }
+  return both;
+}
+
+Scene displaced(Scene scene, const Displacements& by, Posture posture) {
+  Displacements all = by;
+  for (const auto& [handle, way] : by)
+    for (const Handle& tangent : tangents_beside(cage_of(scene, posture), handle))
+      all.try_emplace(tangent, way);
+  for (const auto& [handle, way] : all)
+    if (exists(scene, handle, posture)) shift(scene, handle, way, posture);
+  return scene;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,245 @@
+// A: rings turn the posed cage's corners, arms open and shut them, a drag on an edge changes its
+// tension.
+#include <algorithm>
+
+#include "edit/actions/actions.h"
+#include "edit/edits/corner_edits.h"
+#include "edit/tools/tool.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kTensionPx = 150;  ///< of dragging, for all of it
+
+class AngleTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::angle; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (dragging_) return follow(input, workspace);
+    if (marquee_) return follow_marquee(input, workspace);
+    mark_.reset();
+    edge_.reset();
+    hover_.reset();
+    const Scene& scene = workspace.scene();
+    if (!scene.has_cage() || workspace.posture == Posture::rest) return;
+    if (const auto shown = shown_corner(workspace)) {
+      mark_ = corner_mark(workspace, *shown);
+      if (input.inside) mark_->hovered = part_at(*mark_, input.px, workspace.handle_px);
+    }
+    if (!input.inside) return;
+    const bool on_mark = mark_ && mark_->hovered != CornerMark::Part::none;
+    if (const auto vertex = posed_vertex_at(workspace, input.px); vertex && !on_mark)
+      hover_ = vertex;
+    else if (!on_mark)
+      edge_ = posed_segment_at(workspace, input.px);
+    if (!input.pressed) return;
+    if (on_mark)
+      start(input, workspace);
+    else if (hover_)
+      pick(input, workspace);
+    else if (edge_)
+      start(input, workspace);
+    else
+      marquee_ = {input.px, input.px};
+  }
+
+  void cancel(Workspace& workspace) override {
+    if (dragging_) workspace.preview.reset();
+    dragging_ = false;
+    marquee_.reset();
+    shown_.reset();
+  }
+  bool busy() const override { return dragging_ || marquee_; }
+  bool key(Key key, Workspace& workspace) override {
+    if (key == Key::escape) {
+      if (!busy()) workspace.selection.clear();
+      cancel(workspace);
+      return true;
+    }
+    if (key != Key::del || workspace.posture == Posture::rest || !shown_corner(workspace))
+      return false;
+    remove(corners_of(workspace), workspace);
+    return true;
+  }
+
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.corner = shown_ ? shown_ : mark_;
+    overlay.edge = edge_;
+    if (hover_) overlay.hover = Handle{Handle::Kind::cage, *hover_, 0};
+    if (marquee_ && std::abs(marquee_->second - marquee_->first) >= kDragThresholdPx) {
+      overlay.marquee.emplace();
+      overlay.marquee->include(marquee_->first);
+      overlay.marquee->include(marquee_->second);
+    }
+    return overlay;
+  }
+
+  std::string hint(const Workspace& workspace) const override {
+    const Scene& scene = workspace.scene();
+    if (!scene.has_cage()) return needs_a_cage("Angles are those of a cage");
+    if (workspace.posture == Posture::rest)
+      return key_of("cage.rest") + " shows the pose, where corners turn";
+    if (dragging_ && edge_)
+      return "Tension " + text_of_number(corner_at(scene, corner_before(scene, *edge_)).tension) +
+             ": drag down to let the edge bend";
+    if (dragging_) {
+      const PoseCorner pose = corner_at(scene, mark_->vertex);
+      const double turn = (pose.before + pose.after) / 2,
+                   opening = corner_opening(scene, mark_->vertex);
+      return "Turned by " + text_of_number(turn * 180 / kPi) + ", opened by " +
+             text_of_number(opening * 180 / kPi) + " degrees; Shift snaps to 15";
+    }
+    if (mark_ && mark_->hovered == CornerMark::Part::ring)
+      return "Drag the ring to turn the corner, as often around as you like";
+    if (mark_ && mark_->hovered != CornerMark::Part::none)
+      return "Drag the arm to open or shut the corner";
+    if (hover_)
+      return is_corner(scene, *hover_)
+                 ? "Click to turn or open it; Shift-click: more; Alt-click: no corner"
+                 : "Click to make this point a corner";
+    if (edge_) return "Drag down to let the edge bend, up to keep it straight";
+    return "Click a corner, or drag a box around some, for ring and arms; drag an edge for its "
+           "tension";
+  }
+
+ private:
+  static std::string text_of_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+  }
+
+  /// The corners that are selected: what a ring or arm acts on.
+  static std::vector<Index> corners_of(const Workspace& workspace) {
+    std::vector<Index> corners;
+    for (const Handle& handle : workspace.selection)
+      if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
+          handle.index < workspace.scene().pose.size() &&
+          is_corner(workspace.scene(), handle.index))
+        corners.push_back(handle.index);
+    return corners;
+  }
+  /// The one that shows ring and arms: the last that was clicked.
+  std::optional<Index> shown_corner(const Workspace& workspace) const {
+    const std::vector<Index> corners = corners_of(workspace);
+    if (corners.empty()) return {};
+    return std::ranges::find(corners, clicked_) != corners.end() ? clicked_ : corners.front();
+  }
+
+  static void remove(const std::vector<Index>& corners, Workspace& workspace) {
+    try {
+      Scene scene = workspace.scene();
+      for (const Index corner : corners) scene = without_corner(std::move(scene), corner);
+      workspace.commit(corners.size() == 1 ? "No corner" : "No corners", std::move(scene));
+      workspace.selection.clear();
+    } catch (const Error& error) {
+      workspace.complain(error);
+    }
+  }
+
+  void pick(const Input& input, Workspace& workspace) {
+    if (input.mods.alt) return remove({*hover_}, workspace);
+    if (!is_corner(workspace.scene(), *hover_))
+      workspace.commit("Corner", with_corner(workspace.scene(), *hover_));
+    const Handle handle{Handle::Kind::cage, *hover_, 0};
+    if (!input.mods.shift) workspace.selection.clear();
+    if (!workspace.selection.erase(handle)) workspace.selection.insert(handle);
+    clicked_ = *hover_;
+  }
+
+  void follow_marquee(const Input& input, Workspace& workspace) {
+    marquee_->second = input.px;
+    if (input.down && !input.released) return;
+    Box box;
+    box.include(marquee_->first);
+    box.include(marquee_->second);
+    marquee_.reset();
+    if (!input.mods.shift) workspace.selection.clear();
+    for (Index v = 0; v < workspace.scene().pose.size(); ++v)
+      if (box.contains(workspace.viewport.px_at_plane(posed_vertex(workspace, v))))
+        workspace.selection.insert({Handle::Kind::cage, v, 0});
+  }
+
+  void start(const Input& input, Workspace& workspace) {
+    dragging_ = true;
+    start_px_ = last_px_ = input.px;
+    turned_ = 0;
+    scene_ = workspace.scene();
+    corners_ = corners_of(workspace);
+    switches_ = !follows(scene_, "angles");
+  }
+
+  /// The angle that was dragged around the mark's centre, counter-clockwise and unwrapped.
+  double turned(const Input& input) {
+    const Complex before = last_px_ - mark_->center, now = input.px - mark_->center;
+    if (std::abs(now) > 1 && std::abs(before) > 1) {
+      turned_ -= std::arg(now / before);
+      last_px_ = input.px;
+    }
+    constexpr double kSnap = kPi / 12;
+    return input.mods.shift ? std::round(turned_ / kSnap) * kSnap : turned_;
+  }
+
+  Scene changed(const Input& input) {
+    if (!mark_ || mark_->hovered == CornerMark::Part::none) {
+      const Index corner = corner_before(scene_, *edge_);
+      const double up = (start_px_ - input.px).imag() / kTensionPx;
+      return with_tension(scene_, corner, corner_at(scene_, corner).tension + up);
+    }
+    const double by = turned(input);
+    // Inside is to the left of a counter-clockwise cage's edges: what starts at the corner opens
+    // it clockwise.
+    const bool opens_clockwise =
+        (mark_->hovered == CornerMark::Part::after) == (signed_area(outline_of(scene_.rest)) > 0);
+    Scene scene = scene_;
+    for (const Index corner : corners_)
+      scene = mark_->hovered == CornerMark::Part::ring
+                  ? corner_turned(std::move(scene), corner, by)
+                  : corner_opened(std::move(scene), corner, opens_clockwise ? -by : by);
+    return scene;
+  }
+
+  void follow(const Input& input, Workspace& workspace) {
+    if (workspace.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
+      workspace.preview = changed(input);
+    if (input.down && !input.released) {
+      if (mark_) {  // drawn where the corner is by now
+        const CornerMark::Part hovered = mark_->hovered;
+        const Complex center = mark_->center;
+        shown_ = corner_mark(workspace, mark_->vertex);
+        shown_->hovered = hovered;
+        mark_->center = center;
+      }
+      return;
+    }
+    dragging_ = false;
+    shown_.reset();
+    if (!workspace.preview) return;
+    const bool tension = !mark_ || mark_->hovered == CornerMark::Part::none;
+    workspace.commit(tension                                    ? "Tension"
+                     : mark_->hovered == CornerMark::Part::ring ? "Turn corner"
+                                                                : "Open corner",
+                     *workspace.preview);
+    if (switches_) workspace.say("The method is \"Angles\": corners turn, nothing folds.");
+  }
+
+  std::optional<CornerMark> mark_, shown_;
+  std::optional<Index> edge_, hover_;
+  Index clicked_ = -1;
+  std::vector<Index> corners_;  ///< that the drag acts on
+  std::optional<std::pair<Complex, Complex>> marquee_;
+  bool dragging_ = false, switches_ = false;
+  Complex start_px_, last_px_;
+  double turned_ = 0;
+  Scene scene_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> angle_tool() {
+  return std::make_unique<AngleTool>();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,100 @@
+// B: paints where the picture is stiff or soft. What is painted lies on the picture at rest, under
+// the pointer, and counts when the button is let go.
+#include <algorithm>
+#include <utility>
+
+#include "edit/actions/actions.h"
+#include "edit/tools/tool.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kStrength = 0.5;  ///< powers of ten a touch
+constexpr double kSpacing = 0.35;  ///< between touches, of the radius
+
+class BrushTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::brush; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    place_ = input.inside ? std::optional(input.position) : std::nullopt;
+    radius_ = workspace.brush_radius;
+    if (input.inside && input.pressed) {
+      if (!workspace.scene().has_cage())
+        return workspace.say(needs_a_cage("Stiffness acts inside a cage"));
+      painting_ = true;
+      last_.reset();
+      dabs_ = workspace.scene().stiffness;
+      erases_ = input.mods.shift;
+      level_ = input.mods.ctrl ? -kStrength : kStrength;
+    }
+    if (!painting_) return;
+    touch(input, workspace);
+    if (input.down && !input.released) return;
+    painting_ = false;
+    finish(workspace);
+  }
+
+  void cancel(Workspace&) override { painting_ = false; }
+  bool key(Key key, Workspace& workspace) override {
+    if (key != Key::escape || !painting_) return false;
+    cancel(workspace);
+    return true;
+  }
+  bool busy() const override { return painting_; }
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.shows_dabs = true;
+    if (painting_) overlay.dabs = dabs_;
+    overlay.brush = place_;
+    return overlay;
+  }
+  std::string hint(const Workspace& workspace) const override {
+    const bool acts = method_named(workspace.scene().method).uses_stiffness;
+    return std::string("Drag makes stiff, Ctrl-drag soft, Shift-drag erases; [ and ] size") +
+           (acts ? "" : "; acts in \"As rigid as possible\"");
+  }
+
+ private:
+  void touch(const Input& input, const Workspace& workspace) {
+    const auto at = workspace.rest_at(input.position);
+    if (!at || (last_ && std::abs(*at - *last_) < kSpacing * radius_)) return;
+    last_ = at;
+    if (erases_)
+      std::erase_if(dabs_, [&](const Dab& dab) { return std::abs(dab.at - *at) < radius_; });
+    else if (dabs_.size() < kMostDabs)
+      dabs_.push_back({*at, radius_, level_});
+    else
+      full_ = true;
+  }
+
+  void finish(Workspace& workspace) {
+    if (std::exchange(full_, false))
+      workspace.say("5000 touches of the brush are the most; erase some with Shift.");
+    Scene scene = workspace.scene();
+    if (scene.stiffness == dabs_) return;
+    scene.stiffness = std::move(dabs_);
+    const bool switches = !method_named(scene.method).uses_stiffness;
+    if (switches) scene = with_method(std::move(scene), "arap");
+    if (!workspace.commit(erases_      ? "Erase stiffness"
+                          : level_ > 0 ? "Stiffen"
+                                       : "Soften",
+                          std::move(scene)))
+      return;
+    if (switches)
+      workspace.say("The method is \"As rigid as possible\": the one that knows stiffness.");
+  }
+
+  bool painting_ = false, erases_ = false, full_ = false;
+  double level_ = kStrength, radius_ = 1;
+  std::optional<Complex> place_, last_;
+  std::vector<Dab> dabs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> brush_tool() {
+  return std::make_unique<BrushTool>();
+}
+
+}  // namespace holomorph

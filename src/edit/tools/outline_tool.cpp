@@ -1,0 +1,164 @@
+// O: an outline is drawn in one go, closed and smoothed when it is let go, or click by click, and
+// the picture's shape goes onto it; on the outline itself a drag bends it.
+#include <algorithm>
+
+#include "core/geometry/polyline.h"
+#include "core/outline/outline_match.h"
+#include "edit/tools/freehand.h"
+#include "edit/tools/pen_path.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kStepPx = 4, kShortestPx = 60;
+constexpr double kReach = 0.12;  ///< of a pull, in lengths of the outline
+
+class OutlineTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::outline; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (path_.active()) {
+      if (path_.follow(input, workspace.viewport, workspace.handle_px)) close(workspace);
+      return;
+    }
+    if (drawing_.active()) {
+      if (drawing_.follow(input)) finish(input, workspace);
+      return;
+    }
+    if (pull_) return follow_pull(input, workspace);
+    hovered_ = input.inside && is_near(input, workspace);
+    if (!input.pressed) return;
+    if (!workspace.scene().has_cage())
+      return workspace.say("The outline is for the cage's shape: make a cage first.");
+    if (!hovered_) return drawing_.start(input);
+    const Points& outline = workspace.scene().outline;
+    const auto nearest = std::ranges::min_element(
+        outline, {}, [&](Complex z) { return std::abs(z - input.position); });
+    pull_ = Pull{static_cast<size_t>(nearest - outline.begin()), input.mods.ctrl, input.position,
+                 input.px, workspace.scene()};
+  }
+
+  void cancel(Workspace& workspace) override {
+    drawing_.cancel();
+    path_.cancel();
+    if (pull_) workspace.preview.reset();
+    pull_.reset();
+  }
+  bool key(Key key, Workspace& workspace) override {
+    const PenPath::Answer answer = path_.key(key);
+    if (answer == PenPath::Answer::close) close(workspace);
+    if (answer == PenPath::Answer::too_few)
+      workspace.say("An outline needs three points at least.");
+    if (answer != PenPath::Answer::ignored) return true;
+    if (key != Key::escape || !busy()) return false;
+    cancel(workspace);
+    return true;
+  }
+  bool busy() const override { return path_.active() || drawing_.active() || pull_.has_value(); }
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.line = drawing_.line();
+    if (drawing_.active()) overlay.line_end = overlay.line.front();
+    path_.show(overlay);
+    return overlay;
+  }
+  std::string hint(const Workspace& workspace) const override {
+    if (!workspace.scene().has_cage()) return "Make a cage first: its shape goes onto the outline";
+    if (path_.active() && path_.closes()) return "Click to close the outline";
+    if (path_.active())
+      return "Click for corners, drag for smooth points; Enter or the first point closes; "
+             "Backspace "
+             "takes one back";
+    if (drawing_.active()) return "Let go to close the outline; Esc gives it up";
+    if (hovered_ || pull_) return "Drag to bend the outline, with Ctrl to move all of it";
+    return "Drag to draw the outline that the picture's shape goes onto, or click its points";
+  }
+
+ private:
+  struct Pull {
+    size_t point;
+    bool whole;  ///< the outline is moved
+    Complex start, start_px;
+    Scene scene;
+  };
+
+  static bool is_near(const Input& input, const Workspace& workspace) {
+    const Points& outline = workspace.scene().outline;
+    if (!workspace.shows_outline()) return false;
+    const double distance = nearest_on_polygon(outline, input.position).distance;
+    return distance * workspace.viewport.zoom <= workspace.handle_px;
+  }
+
+  /// A drawing that goes nowhere is a click: the first of the points of a path.
+  void finish(const Input& input, Workspace& workspace) {
+    const Complex first = drawing_.line().front();
+    const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
+      return std::abs(z - first) * workspace.viewport.zoom < kDragThresholdPx;
+    });
+    Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.viewport);
+    if (clicked) {
+      path_.set_point(first);
+      path_.follow(input, workspace.viewport, workspace.handle_px);
+    } else if (outline.empty()) {
+      workspace.say("Keep the button down and draw all around the new shape, or click its points.");
+    } else {
+      take_outline(workspace, "Draw outline", std::move(outline));
+    }
+  }
+
+  void close(Workspace& workspace) {
+    // A refused drawing stays, so that a point can be taken back.
+    if (take_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
+  }
+
+  void follow_pull(const Input& input, Workspace& workspace) {
+    if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx) {
+      const Points& before = pull_->scene.outline;
+      const Complex by = input.position - pull_->start;
+      Scene scene = pull_->scene;
+      if (pull_->whole)
+        for (Complex& z : scene.outline) z += by;
+      else
+        scene.outline =
+            pulled(before, true, pull_->point, by, kReach * Polyline(before, true).length());
+      workspace.preview = std::move(scene);
+    }
+    if (input.down && !input.released) return;
+    const bool whole = pull_->whole;
+    pull_.reset();
+    if (workspace.preview)
+      workspace.commit(whole ? "Move outline" : "Bend outline", *workspace.preview);
+  }
+
+  Freehand drawing_;
+  PenPath path_;
+  std::optional<Pull> pull_;
+  bool hovered_ = false;
+};
+
+}  // namespace
+
+bool take_outline(Workspace& workspace, const std::string& label, Points outline,
+                  std::optional<SurfaceReference> surface) {
+  try {
+    check_outline(outline);
+  } catch (const Error& error) {
+    workspace.complain(error);
+    return false;
+  }
+  if (!workspace.commit(
+          label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface)),
+          From::document))
+    return false;
+  workspace.posture = Posture::pose;
+  workspace.show_surface = true;
+  workspace.playback = {0, true};
+  return true;
+}
+
+std::unique_ptr<Tool> outline_tool() {
+  return std::make_unique<OutlineTool>();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,119 @@
+// P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
+#include "edit/actions/actions.h"
+#include "edit/tools/pen_path.h"
+
+namespace holomorph {
+namespace {
+
+class PenTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::pen; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (drag_.active()) return void(drag_.follow(input, workspace));
+    if (path_.active()) {
+      if (path_.follow(input, workspace.viewport, workspace.handle_px)) close(workspace);
+      return;
+    }
+    hover_.reset();
+    insertion_.reset();
+    if (input.inside) idle(input, workspace);
+  }
+
+  bool key(Key key, Workspace& workspace) override {
+    if (!path_.active() && key == Key::escape) {
+      cancel(workspace);
+      workspace.selection.clear();
+      return true;
+    }
+    const PenPath::Answer answer = path_.key(key);
+    if (answer == PenPath::Answer::close) close(workspace);
+    if (answer == PenPath::Answer::too_few) workspace.say("A cage needs at least three points.");
+    return answer != PenPath::Answer::ignored;
+  }
+
+  void cancel(Workspace& workspace) override {
+    drag_.cancel(workspace);
+    path_.cancel();
+    hover_.reset();
+    insertion_.reset();
+  }
+  bool busy() const override { return path_.active() || drag_.active(); }
+
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.guides = drag_.guides();
+    path_.show(overlay);
+    overlay.hover = hover_;
+    overlay.insertion = insertion_;
+    return overlay;
+  }
+
+  std::string hint(const Workspace& workspace) const override {
+    if (path_.active() && path_.closes()) return "Click to close the cage";
+    if (path_.active())
+      return "Click the first point, press Enter or double-click to close; drag for a smooth "
+             "point; "
+             "Backspace takes one back; Esc cancels";
+    if (!workspace.scene().has_cage()) return "Click around the picture to draw a cage";
+    if (insertion_) return "Click to insert a point; rest and pose keep their shape";
+    return "Click an edge to insert a point; click elsewhere to draw another cage in place of this "
+           "one";
+  }
+
+ private:
+  /// Nothing is being drawn.
+  void idle(const Input& input, Workspace& workspace) {
+    const Scene& scene = workspace.scene();
+    if (scene.has_cage()) {
+      hover_ = handle_at(workspace, input.px);
+      if (hover_) {
+        if (!input.pressed) return;
+        if (erases(input, *hover_, workspace)) return hover_.reset();
+        workspace.selection = {*hover_};
+        drag_.start(input, *hover_, workspace.selection, scene);
+        return;
+      }
+      if (const auto hit = edge_at(workspace, input.px)) {
+        insertion_ = hit->point;
+        if (!input.pressed || !insert_at(workspace, *hit)) return;
+        drag_.start_amending(input, workspace.selection, workspace.scene());
+        return;
+      }
+    }
+    if (!input.pressed) return;
+    // A cage is drawn around the picture as it rests.
+    if (scene.has_cage() && scene != at_rest(scene)) {
+      if (workspace.posture == Posture::pose)
+        workspace.say(
+            "Drawing another cage on the picture at rest. Closing it replaces the cage; " +
+            key_of("edit.undo") + " brings it back.");
+      workspace.posture = Posture::rest;
+    }
+    workspace.selection.clear();
+    path_.set_point(input.position);
+  }
+
+  void close(Workspace& workspace) {
+    // A refused drawing stays, so that a point can be taken back.
+    if (!workspace.commit("Draw cage", with_cage(workspace.document.scene(), path_.cage()),
+                          From::document))
+      return;
+    path_.cancel();
+    workspace.posture = Posture::pose;
+    workspace.tool = ToolId::select;
+  }
+
+  PenPath path_;
+  std::optional<Complex> insertion_;
+  std::optional<Handle> hover_;
+  HandleDrag drag_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> pen_tool() {
+  return std::make_unique<PenTool>();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,94 @@
+// N: a click on the picture sets a pin and goes on dragging it; a click on a pin picks it.
+#include "edit/actions/actions.h"
+#include "edit/tools/tool.h"
+
+namespace holomorph {
+namespace {
+
+class PinTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::pin; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (drag_.active()) return void(drag_.follow(input, workspace));
+    if (ring_.active()) return ring_.follow(input, workspace);
+    hover_.reset();
+    ring_.hover(input, workspace);
+    if (!input.inside) return;
+    hover_ = handle_at(workspace, input.px);
+    if (!input.pressed) return;
+    if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
+    if (hover_ && erases(input, *hover_, workspace)) return hover_.reset();
+    if (hover_) {
+      if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
+      workspace.selection.insert(*hover_);
+      drag_.start(input, *hover_, workspace.selection, workspace.scene());
+      return;
+    }
+    if (!workspace.scene().has_cage()) {
+      workspace.say(needs_a_cage("Pins act inside a cage"));
+      return;
+    }
+    const auto rest = workspace.rest_at(input.position);
+    if (!rest) {
+      workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
+                                           : "A pin goes on the picture, inside the cage.");
+      return;
+    }
+    const bool switches = !method_named(workspace.scene().method).uses_pins;
+    // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
+    const Complex pose = workspace.at_rest() ? workspace.posed_at(*rest) : input.position;
+    if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose,
+                                              workspace.in_keyframes({&*rest, 1}))))
+      return;
+    if (switches)
+      workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
+    workspace.selection = {
+        {Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
+    drag_.start_amending(input, workspace.selection, workspace.scene());
+  }
+
+  void cancel(Workspace& workspace) override {
+    drag_.cancel(workspace);
+    ring_.cancel(workspace);
+    hover_.reset();
+  }
+  bool scroll(const Input& input, Workspace& workspace) override {
+    return ring_.scroll(input, workspace);
+  }
+  bool key(Key key, Workspace& workspace) override {
+    if (key != Key::escape) return false;
+    if (!busy()) workspace.selection.clear();
+    cancel(workspace);
+    return true;
+  }
+  bool busy() const override { return drag_.active() || ring_.active(); }
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.guides = drag_.guides();
+    overlay.hover = hover_;
+    overlay.ring = ring_.pin();
+    overlay.ring_hovered = ring_.hovered() || ring_.active();
+    return overlay;
+  }
+  std::string hint(const Workspace& workspace) const override {
+    if (!workspace.scene().has_cage()) return needs_a_cage("Pins act inside a cage");
+    if (ring_.hovered() && !hover_)
+      return "Drag the ring to turn the picture around the pin, scroll on it to scale";
+    return hover_ ? "Drag to move; Alt-click deletes"
+                  : "Click on the picture to set a pin, and drag it";
+  }
+
+ private:
+  HandleDrag drag_;
+  PinRing ring_;
+  std::optional<Handle> hover_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> pin_tool() {
+  return std::make_unique<PinTool>();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,204 @@
+// A sample for each drawn frame; the needed ones are found as Ramer, Douglas and Peucker find the
+// needed points of a line, with time in the place of length.
+#include "edit/tools/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scene/motion.h"
+
+namespace holomorph {
+namespace {
+
+Points places_in(const Pose& pose) {
+  Points places = vertices_of(pose.cage);
+  for (const PosePin& pin : pose.pins) places.push_back(pin.position);
+  for (const Points& stroke : pose.strokes)
+    places.insert(places.end(), stroke.begin(), stroke.end());
+  return places;
+}
+
+void blend(Points& a, const Points& b, double share) {
+  for (size_t i = 0; i < a.size() && a.size() == b.size(); ++i) a[i] += share * (b[i] - a[i]);
+}
+
+/// A moment between two that are a drawn frame apart.
+Pose between(Pose a, const Pose& b, double share) {
+  for (size_t e = 0; e < a.cage.segments.size(); ++e)
+    blend(a.cage.segments[e], b.cage.segments[e], share);
+  for (size_t k = 0; k < a.strokes.size(); ++k) blend(a.strokes[k], b.strokes[k], share);
+  for (size_t p = 0; p < a.pins.size(); ++p)
+    a.pins[p].position += share * (b.pins[p].position - a.pins[p].position);
+  return a;
+}
+
+constexpr double kLongestStep = 0.4;  ///< seconds between keys while something moves
+
+/// Whether a segment has the same degree in all keyframes that play.
+bool keeps_degree(const Scene& scene, Index segment) {
+  return std::ranges::all_of(scene.keyframes, [&](const Keyframe& key) {
+    return !fits(scene, key.pose) || key.pose.cage.degree(segment) == scene.pose.degree(segment);
+  });
+}
+
+}  // namespace
+
+bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
+  if (!workspace.require_pose()) return false;
+  start_ = workspace.unedited();
+  workspace.map().follow_keys();
+  over_keys_ = !start_.keyframes.empty() && workspace.map().motion().plays();
+  what_ = what;
+  influence_ = workspace.influence;
+  std::erase_if(what_, [&](const Handle& handle) {
+    return !exists(start_, handle, Posture::pose) ||
+           (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
+  });
+  start_time_ = workspace.timeline.time;
+  if (what_.empty() || start_time_ >= kLongestTime) {
+    workspace.say(what_.empty() ? "These tangents are none in other keys: they are not recorded."
+                                : "There is no time left to record.");
+    return false;
+  }
+  start_ms_ = now_ms;
+  const Pose pose = whole_pose_of(dragged(base_at(workspace, start_time_), 0));
+  samples_ = {{start_time_, 0, pose, places_in(pose)}};
+  workspace.timeline.playing = false;
+  workspace.timeline.recording = true;
+  return true;
+}
+
+Scene Recording::base_at(const Workspace& workspace, double time) const {
+  const Motion& motion = workspace.map().motion();
+  return over_keys_ && motion.plays() ? motion.scene_at(start_, time, motion.map_at(time)) : start_;
+}
+
+Scene Recording::dragged(Scene scene, Complex by) const {
+  const Displacements ways = displacements(start_, what_, by, Posture::pose, influence_);
+  // Vertices take their tangents along, so these come behind them.
+  for (const bool tangents : {false, true})
+    for (const auto& [handle, way] : ways) {
+      if (is_tangent(handle) != tangents || !exists(scene, handle, Posture::pose)) continue;
+      if (handle.kind == Handle::Kind::stroke) {
+        Points& pose = scene.strokes[static_cast<size_t>(handle.index)].pose;
+        pose = curve_of(start_, handle.index, Posture::pose);
+        for (Complex& z : pose) z += way;
+      } else {
+        scene = placed(std::move(scene), handle, position_of(start_, handle, Posture::pose) + way,
+                       Posture::pose);
+      }
+    }
+  return scene;
+}
+
+Scene Recording::follow(Workspace& workspace, Complex by, double now_ms) {
+  const double time = std::min(kLongestTime, start_time_ + (now_ms - start_ms_) / 1000);
+  Scene scene = dragged(base_at(workspace, time), by);
+  workspace.timeline.time = time;
+  const Pose pose = whole_pose_of(scene);
+  if (time > samples_.back().time) samples_.emplace_back();
+  samples_.back() = {time, by, pose, places_in(pose)};
+  return scene;
+}
+
+Recording::Sample Recording::sample_at(double time) const {
+  const auto after = std::ranges::lower_bound(samples_, time, {}, &Sample::time);
+  if (after == samples_.end()) return samples_.back();
+  if (after == samples_.begin()) return samples_.front();
+  const Sample &a = *std::prev(after), &b = *after;
+  const double share = (time - a.time) / (b.time - a.time);
+  return {time, a.by + share * (b.by - a.by), between(a.pose, b.pose, share), {}};
+}
+
+/// The times of the samples that are needed.
+std::vector<double> Recording::needed(double tolerance) const {
+  std::vector<double> times{samples_.front().time};
+  const auto split = [&](const auto& self, size_t first, size_t last) -> void {
+    const Sample &a = samples_[first], &b = samples_[last];
+    size_t worst = first;
+    double most = tolerance;
+    for (size_t i = first + 1; i < last; ++i) {
+      const double share = (samples_[i].time - a.time) / (b.time - a.time);
+      for (size_t h = 0; h < a.places.size(); ++h) {
+        const double off =
+            std::abs(samples_[i].places[h] - (1 - share) * a.places[h] - share * b.places[h]);
+        if (off <= most) continue;
+        worst = i;
+        most = off;
+      }
+    }
+    // In-betweens turn parts instead of moving them straight: over short ways that is the same.
+    double way = 0;
+    for (size_t h = 0; h < a.places.size(); ++h)
+      way = std::max(way, std::abs(b.places[h] - a.places[h]));
+    if (worst == first && last > first + 1 && b.time - a.time > kLongestStep && way > tolerance)
+      worst = (first + last) / 2;
+    if (worst > first) {
+      self(self, first, worst);
+      self(self, worst, last);
+    } else {
+      times.push_back(b.time);
+    }
+  };
+  split(split, 0, samples_.size() - 1);
+  return times;
+}
+
+void Recording::finish(Workspace& workspace) {
+  constexpr double kTolerancePx = 3;
+  const Scene before = workspace.document.scene();
+  const auto at_frame = [&](double time) { return time_of_frame(before, frame_at(before, time)); };
+  const double end = samples_.back().time;
+  if (at_frame(end) <= start_time_) return cancel(workspace);
+  double tolerance = kTolerancePx / workspace.viewport.zoom;
+  std::vector<double> times = needed(tolerance);
+  while (times.size() + before.keyframes.size() > kMostKeyframes && times.size() > 2)
+    times = needed(tolerance *= 2);
+  Scene scene = before;
+  const auto set = [&](double time, const Pose& pose) {
+    const size_t there = key_at(scene, time);
+    if (there < scene.keyframes.size() && !fits(scene, scene.keyframes[there].pose)) return;
+    scene = with_key(posed_as(std::move(scene), pose), time);
+  };
+  for (const double time : times) {
+    const double at = time == start_time_ ? time : at_frame(time);
+    if (key_at(before, at) == before.keyframes.size()) set(at, sample_at(at).pose);
+  }
+  for (const Keyframe& key : before.keyframes)
+    if (key.time >= start_time_ && key.time <= end && fits(before, key.pose))
+      set(key.time, whole_pose_of(dragged(posed_as(before, key.pose), sample_at(key.time).by)));
+  // Even between keys, and behind the last one as it was.
+  const auto behind = std::ranges::upper_bound(before.keyframes, end, {}, &Keyframe::time);
+  const Ease last = behind == before.keyframes.begin() ? Ease::smooth : std::prev(behind)->ease;
+  const double last_time = at_frame(end);
+  for (Keyframe& key : scene.keyframes)
+    if (key.time >= start_time_ && key.time <= last_time && fits(scene, key.pose))
+      key.ease = key.time < last_time ? Ease::linear : last;
+  keep_turns(scene, before, workspace.map().motion());
+  samples_.clear();
+  workspace.timeline.recording = false;
+  if (!workspace.commit("Record motion", posed_as(std::move(scene), whole_pose_of(before)),
+                        From::document)) {
+    workspace.timeline.time = start_time_;
+    return;
+  }
+  workspace.timeline.visible = true;
+  workspace.go_to_time(last_time);
+}
+
+void Recording::cancel(Workspace& workspace) {
+  samples_.clear();
+  workspace.preview.reset();
+  // Another document has a time of its own.
+  if (std::exchange(workspace.timeline.recording, false)) workspace.timeline.time = start_time_;
+}
+
+std::string recording_hint(const Timeline& timeline) {
+  char text[80];
+  std::snprintf(text, sizeof text, "Recording, %.1f s; release to set the keys, Esc drops them",
+                timeline.time);
+  return text;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,36 @@
+// Both coordinates are looked at by themselves: a handle may line up with two things.
+#include "edit/tools/snapping.h"
+
+namespace holomorph {
+
+Complex snapped(const Scene& scene, const Selection& dragged, Handle pressed, Complex by,
+                Posture posture, const Snapping& snapping, std::vector<Guide>& guides) {
+  Points places{position_of(scene, pressed, Posture::rest)};
+  for (const Handle& handle : handles_of(scene, posture))
+    if (!dragged.contains(handle) && handle.control == 0)
+      places.push_back(position_of(scene, handle, posture));
+  if (snapping.picture) {
+    const Box& box = *snapping.picture;
+    places.insert(places.end(), {{box.left, box.bottom}, {box.right, box.top}, box.center()});
+  }
+  const Complex start = position_of(scene, pressed, posture), free = start + by;
+  const auto nearest = [&](auto coordinate) {
+    const Complex* found = nullptr;
+    double least = snapping.distance;
+    for (const Complex& z : places) {
+      const double off = std::abs(coordinate(z) - coordinate(free));
+      if (off >= least) continue;
+      found = &z;
+      least = off;
+    }
+    return found;
+  };
+  const Complex* column = nearest([](Complex z) { return z.real(); });
+  const Complex* row = nearest([](Complex z) { return z.imag(); });
+  const Complex at(column ? column->real() : free.real(), row ? row->imag() : free.imag());
+  if (column) guides.push_back({*column, at});
+  if (row) guides.push_back({*row, at});
+  return at - start;
+}
+
+}  // namespace holomorph

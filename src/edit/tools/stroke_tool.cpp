@@ -1,0 +1,173 @@
+// S: lines drawn on the picture; dragged, pulled or redrawn they take it along.
+#include <algorithm>
+#include <utility>
+
+#include "core/geometry/polyline.h"
+#include "edit/actions/actions.h"
+#include "edit/tools/freehand.h"
+#include "edit/tools/tool.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kStepPx = 6, kShortestPx = 12;
+constexpr double kReach = 0.25, kEndReach = 1;  ///< of a pull, in lengths of the stroke
+
+class StrokeTool final : public Tool {
+ public:
+  ToolId id() const override { return ToolId::stroke; }
+
+  void input(const Input& input, Workspace& workspace) override {
+    if (drawing_.active()) {
+      if (drawing_.follow(input)) finish(workspace);
+      return;
+    }
+    if (drag_.active()) return void(drag_.follow(input, workspace));
+    if (pull_) return follow_pull(input, workspace);
+    hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
+    if (!input.inside || !input.pressed) return;
+    const bool redraws = input.mods.shift && selected_stroke(workspace);
+    if (!hover_ || redraws) return start_drawing(input, workspace);
+    if (erases(input, *hover_, workspace)) return hover_.reset();
+    Selection& selection = workspace.selection;
+    if (input.mods.shift && selection.contains(*hover_)) return void(selection.erase(*hover_));
+    if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
+    selection.insert(*hover_);
+    if (hover_->kind == Handle::Kind::stroke && start_pull(input, workspace)) return;
+    drag_.start(input, *hover_, selection, workspace.scene());
+  }
+
+  void cancel(Workspace& workspace) override {
+    drag_.cancel(workspace);
+    if (pull_) workspace.preview.reset();
+    pull_.reset();
+    drawing_.cancel();
+    redrawn_.reset();
+    hover_.reset();
+  }
+  bool key(Key key, Workspace& workspace) override {
+    if (key != Key::escape) return false;
+    if (!busy()) workspace.selection.clear();
+    cancel(workspace);
+    return true;
+  }
+  bool busy() const override { return drawing_.active() || drag_.active() || pull_.has_value(); }
+
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay;
+    overlay.guides = drag_.guides();
+    overlay.line = drawing_.line();
+    overlay.hover = hover_;
+    return overlay;
+  }
+  std::string hint(const Workspace& workspace) const override {
+    if (!workspace.scene().has_cage()) return needs_a_cage("Strokes act inside a cage");
+    if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
+    if (hover_ && hover_->kind == Handle::Kind::stroke)
+      return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";
+    return selected_stroke(workspace) ? "Shift-drag redraws the stroke; drag draws another one"
+                                      : "Drag on the picture to draw a stroke, then drag it";
+  }
+
+ private:
+  struct Pull {
+    Index stroke;
+    size_t point;
+    double reach;
+    Complex start, start_px;
+    Scene scene;
+  };
+
+  static std::optional<Index> selected_stroke(const Workspace& workspace) {
+    if (workspace.selection.size() != 1) return {};
+    const Handle& handle = *workspace.selection.begin();
+    return handle.kind == Handle::Kind::stroke ? std::optional(handle.index) : std::nullopt;
+  }
+
+  void start_drawing(const Input& input, Workspace& workspace) {
+    if (!workspace.scene().has_cage())
+      return workspace.say(needs_a_cage("Strokes act inside a cage"));
+    if (input.mods.shift && !selected_stroke(workspace) && !workspace.scene().strokes.empty())
+      return workspace.say("Click a stroke first: Shift-drag draws its new place.");
+    redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;
+    if (!redrawn_ && !workspace.rest_at(input.position))
+      return workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
+                                                  : "A stroke starts on the picture.");
+    drawing_.start(input);
+  }
+
+  void finish(Workspace& workspace) {
+    const Points drawn = drawing_.finish(false, kStepPx, kShortestPx, workspace.viewport);
+    const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
+    if (drawn.empty()) {
+      workspace.selection.clear();  // a click beside everything
+      return;
+    }
+    if (redrawn_stroke) {
+      workspace.commit("Redraw stroke",
+                       redrawn(workspace.scene(), *redrawn_stroke, drawn, workspace.posture));
+      return;
+    }
+    Points rest, pose;
+    for (const Complex& z : drawn) {
+      const auto at = workspace.rest_at(z);
+      if (!at) continue;
+      rest.push_back(*at);
+      pose.push_back(workspace.at_rest() ? workspace.posed_at(*at) : z);
+    }
+    if (rest.size() < 2) return workspace.say("A stroke goes on the picture, inside the cage.");
+    const bool clipped = rest.size() < drawn.size();
+    const bool switches = !method_named(workspace.scene().method).uses_strokes;
+    if (!workspace.commit("Draw stroke",
+                          with_stroke(workspace.scene(), rest, pose, workspace.in_keyframes(rest))))
+      return;
+    workspace.selection = {
+        {Handle::Kind::stroke, static_cast<Index>(workspace.scene().strokes.size()) - 1, 0}};
+    if (clipped) workspace.say("What was drawn beside the picture was left out.");
+    if (switches)
+      workspace.say("The method is \"Strokes\": strokes, pins and cage points act together.");
+  }
+
+  /// At an end, or anywhere with Ctrl, a stroke is bent instead of moved.
+  bool start_pull(const Input& input, Workspace& workspace) {
+    const Points& curve = curve_of(workspace.scene(), hover_->index, workspace.posture);
+    const auto off = [&](Complex z) {
+      return std::abs(workspace.viewport.px_at_plane(z) - input.px);
+    };
+    const auto nearest = std::ranges::min_element(curve, {}, off);
+    const size_t point = static_cast<size_t>(nearest - curve.begin());
+    const bool end = std::min(off(curve.front()), off(curve.back())) <= workspace.handle_px;
+    if (!end && !input.mods.ctrl) return false;
+    const size_t at = !end ? point : off(curve.front()) <= off(curve.back()) ? 0 : curve.size() - 1;
+    const double length = Polyline(without_repeats(curve), false).length();
+    pull_ = Pull{hover_->index,  at,       (end ? kEndReach : kReach) * length,
+                 input.position, input.px, workspace.scene()};
+    return true;
+  }
+
+  void follow_pull(const Input& input, Workspace& workspace) {
+    if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx)
+      workspace.preview =
+          with_curve(pull_->scene, pull_->stroke,
+                     pulled(curve_of(pull_->scene, pull_->stroke, workspace.posture), false,
+                            pull_->point, input.position - pull_->start, pull_->reach),
+                     workspace.posture);
+    if (input.down && !input.released) return;
+    pull_.reset();
+    if (workspace.preview) workspace.commit("Bend stroke", *workspace.preview);
+  }
+
+  Freehand drawing_;
+  std::optional<Index> redrawn_;  ///< the stroke that the line being drawn replaces
+  HandleDrag drag_;
+  std::optional<Pull> pull_;
+  std::optional<Handle> hover_;
+};
+
+}  // namespace
+
+std::unique_ptr<Tool> stroke_tool() {
+  return std::make_unique<StrokeTool>();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,144 @@
+// The gestures that tools share.
+#include "edit/tools/tool.h"
+#include "edit/actions/actions.h"
+
+#include <algorithm>
+
+#include "edit/edits/curve_edits.h"
+
+namespace holomorph {
+
+bool HandleDrag::follow(const Input& input, Workspace& workspace) {
+  if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
+    moving_ = true;
+    const bool records = with_ctrl_ && !amends_ && workspace.posture == Posture::pose;
+    if (records && !recording_.start(workspace, what_, input.now_ms)) {
+      active_ = false;
+      return true;
+    }
+  }
+  if (moving_) workspace.preview = dragged(input, workspace);
+  if (!input.released && input.down) return false;
+  active_ = false;
+  const bool vertex = pressed_.kind == Handle::Kind::cage && pressed_.control == 0;
+  if (with_ctrl_ && !moving_ && !amends_ && vertex) {
+    workspace.selection = {pressed_};
+    toggle_corners(workspace);
+  }
+  finish(workspace);
+  return true;
+}
+
+Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
+  Complex by = input.position - start_;
+  if (input.mods.shift)
+    by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+  if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
+  guides_.clear();
+  if (workspace.snaps) {
+    constexpr double kReach = 0.7;  // picking distances
+    Snapping snapping{kReach * workspace.handle_px / workspace.viewport.zoom, {}};
+    if (const Image* image = workspace.document.image())
+      snapping.picture =
+          Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
+    by = snapped(scene_, what_, pressed_, by, workspace.posture, snapping, guides_);
+  }
+  const Handle& first = *what_.begin();
+  if (what_.size() == 1 && is_tangent(first))
+    return tangent_moved(scene_, first, position_of(scene_, first, workspace.posture) + by,
+                         workspace.posture, input.mods.alt);
+  return displaced(scene_, displacements(scene_, what_, by, workspace.posture, workspace.influence),
+                   workspace.posture);
+}
+
+void HandleDrag::finish(Workspace& workspace) {
+  guides_.clear();
+  if (recording_.active()) return recording_.finish(workspace);
+  if (!workspace.preview) return;
+  if (amends_)
+    workspace.amend(*workspace.preview);
+  else
+    workspace.commit(workspace.posture == Posture::rest ? "Move at rest"
+                     : kind_of(what_) == "point"        ? "Move"
+                                                        : "Move " + kind_of(what_),
+                     *workspace.preview);
+}
+
+void toggle_corners(Workspace& workspace) {
+  const Scene after = toggled_corners(workspace.scene(), workspace.selection, workspace.posture);
+  bool smooth = false;
+  for (const Handle& handle : workspace.selection)
+    smooth = smooth || (handle.kind == Handle::Kind::cage && handle.control == 0 &&
+                        is_smooth(after, handle.index, workspace.posture));
+  workspace.commit(smooth ? "Smooth point" : "Corner", after);
+}
+
+bool erases(const Input& input, Handle handle, Workspace& workspace) {
+  if (!input.mods.alt || is_tangent(handle)) return false;
+  workspace.erase({handle});
+  return true;
+}
+
+namespace {
+
+Complex center_px(const Workspace& workspace, Index pin) {
+  return workspace.viewport.px_at_plane(workspace.scene().pins[pin].pose);
+}
+
+}  // namespace
+
+void PinRing::hover(const Input& input, const Workspace& workspace) {
+  pin_.reset();
+  hovered_ = false;
+  if (workspace.posture != Posture::pose || workspace.selection.size() != 1) return;
+  const Handle handle = *workspace.selection.begin();
+  if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Posture::pose)) return;
+  pin_ = handle.index;
+  const double off =
+      std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.handle_px;
+  hovered_ = input.inside && std::abs(off) < 0.6 * workspace.handle_px;
+}
+
+double PinRing::angle_to(const Input& input, const Workspace& workspace) const {
+  return -std::arg(input.px - center_px(workspace, *pin_));
+}
+
+void PinRing::start(const Input& input, const Workspace& workspace) {
+  active_ = true;
+  start_px_ = input.px;
+  start_angle_ = angle_to(input, workspace);
+  start_scene_ = workspace.scene();
+}
+
+void PinRing::follow(const Input& input, Workspace& workspace) {
+  const double before = start_scene_.pins[*pin_].angle.value_or(0);
+  double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
+  // Unwrapped from frame to frame, so that more than half a turn can be dragged.
+  const double last = workspace.preview ? workspace.preview->pins[*pin_].angle.value_or(0) : before;
+  angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
+  if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
+  if (workspace.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
+    workspace.preview = turned(start_scene_, *pin_, angle);
+  if (input.down && !input.released) return;
+  active_ = false;
+  if (workspace.preview) workspace.commit("Turn pin", *workspace.preview);
+}
+
+bool PinRing::scroll(const Input& input, Workspace& workspace) {
+  hover(input, workspace);
+  if (!hovered_) return false;
+  const double factor = std::pow(1.05, input.wheel);
+  workspace.commit_or_amend("Scale at pin", scaled(workspace.scene(), *pin_, factor));
+  return true;
+}
+
+void PinRing::cancel(Workspace& workspace) {
+  if (active_) workspace.preview.reset();
+  active_ = false;
+}
+
+std::string needs_a_cage(const std::string& what) {
+  return what + ": draw one with " + key_of("tool.pen") + ", or make one from the picture";
+}
+
+}  // namespace holomorph

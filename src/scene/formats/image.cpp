@@ -1,0 +1,151 @@
+// The table of formats: which library reads and writes what.
+#include "scene/formats/image.h"
+
+#include <libexif/exif-data.h>
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "core/error.h"
+#include "scene/budget.h"
+#include "scene/formats/image_formats.h"
+
+namespace holomorph {
+
+void PixelBudget::take(size_t width, size_t height, const std::string& name, double copies) {
+  constexpr size_t kLargest = 16384;
+  if (width == 0 || height == 0)
+    throw Error(ErrorKind::bad_input, name + ": the picture has no pixels");
+  if (width > kLargest || height > kLargest)
+    throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
+                                          std::to_string(height) + " pixels; at most " +
+                                          std::to_string(kLargest) + " a side can be opened");
+  const double pixels = static_cast<double>(width) * static_cast<double>(height);
+  check_budget(&Budget::pixels, taken_ + copies * pixels,
+               name + (copies > 1   ? ": to decode this picture takes the memory of"
+                       : taken_ > 0 ? ": with this picture all of them have"
+                                    : ": the picture has"));
+  taken_ += pixels;
+}
+
+const std::vector<std::string>& picture_extensions() {
+  static const std::vector<std::string> all{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff",
+                                            ".bmp", ".tga", ".gif",  ".psd",  ".ora"};
+  return all;
+}
+
+int orientation_of_exif(const std::string& bytes) {
+  const std::unique_ptr<ExifData, void (*)(ExifData*)> data(
+      exif_data_new_from_data(reinterpret_cast<const unsigned char*>(bytes.data()),
+                              static_cast<unsigned>(bytes.size())),
+      exif_data_unref);
+  if (!data) return 1;
+  const ExifEntry* entry = exif_content_get_entry(data->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION);
+  if (!entry || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const int orientation = exif_get_short(entry->data, exif_data_get_byte_order(data.get()));
+  return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+Image upright(Image image, int orientation) {
+  if (orientation <= 1 || orientation > 8) return image;
+  const bool turned = orientation >= 5;
+  Image result(turned ? image.height : image.width, turned ? image.width : image.height);
+  const int w = image.width - 1, h = image.height - 1;
+  for (int r = 0; r < result.height; ++r)
+    for (int c = 0; c < result.width; ++c) {
+      // Where the upright pixel is stored.
+      const auto [column, row] = orientation == 2   ? std::pair(w - c, r)
+                                 : orientation == 3 ? std::pair(w - c, h - r)
+                                 : orientation == 4 ? std::pair(c, h - r)
+                                 : orientation == 5 ? std::pair(r, c)
+                                 : orientation == 6 ? std::pair(r, h - c)
+                                 : orientation == 7 ? std::pair(w - r, h - c)
+                                                    : std::pair(w - r, c);
+      std::memcpy(result.at(c, r), image.at(column, row), 4);
+    }
+  return result;
+}
+
+Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  if (is_png(bytes)) return decode_png(bytes, name, pixels);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, name, pixels);
+  if (is_webp(bytes)) return decode_webp(bytes, name, pixels);
+  if (is_tiff(bytes)) return decode_tiff(bytes, name, pixels);
+  if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
+  if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
+  if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
+  throw Error(ErrorKind::bad_input,
+              name +
+                  ": this is not a picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
+                  "BMP, TGA, GIF or PSD)");
+}
+
+namespace {
+
+void append_to(void* bytes, void* data, int size) {
+  static_cast<std::string*>(bytes)->append(static_cast<const char*>(data),
+                                           static_cast<size_t>(size));
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  std::string bytes;
+  if (!stbi_write_png_to_func(append_to, &bytes, image.width, image.height, 4, image.pixels.data(),
+                              4 * image.width))
+    throw Error(ErrorKind::failed, "the picture could not be encoded as PNG");
+  return bytes;
+}
+
+namespace {
+
+std::string encode_jpeg(const Image& image) {
+  constexpr int kQuality = 92;
+  std::vector<std::uint8_t> opaque;
+  opaque.reserve(image.pixels.size() / 4 * 3);
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    const int alpha = image.pixels[i + 3];
+    for (size_t k = 0; k < 3; ++k)
+      opaque.push_back(static_cast<std::uint8_t>(
+          (image.pixels[i + k] * alpha + 255 * (255 - alpha) + 127) / 255));
+  }
+  std::string bytes;
+  if (!stbi_write_jpg_to_func(append_to, &bytes, image.width, image.height, 3, opaque.data(),
+                              kQuality))
+    throw Error(ErrorKind::failed, "the picture could not be encoded as JPEG");
+  return bytes;
+}
+
+}  // namespace
+
+const std::vector<PictureFormat>& picture_formats() {
+  static const std::vector<PictureFormat> all{{"PNG picture", ".png", encode_png},
+                                              {"JPEG picture", ".jpg", encode_jpeg},
+                                              {"WebP picture", ".webp", encode_webp}};
+  return all;
+}
+
+std::string format_extension(const Path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  return extension == ".jpeg" ? ".jpg" : extension;
+}
+
+const PictureFormat& picture_format_of(const Path& file) {
+  const std::string extension = format_extension(file);
+  const auto found = std::ranges::find(picture_formats(), extension.empty() ? ".png" : extension,
+                                       &PictureFormat::extension);
+  if (found == picture_formats().end())
+    throw Error(ErrorKind::bad_input,
+                file.string() + ": pictures are written as .png, .jpg or .webp");
+  return *found;
+}
+
+bool has_transparency(const Image& image) {
+  for (size_t i = 3; i < image.pixels.size(); i += 4)
+    if (image.pixels[i] != 255) return true;
+  return false;
+}
+
+}  // namespace holomorph

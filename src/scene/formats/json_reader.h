@@ -1,0 +1,149 @@
+// JSON values that know where they stand, for errors that say so.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+#include "scene/formats/json_tree.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr double kLargestCoordinate = 1e8;  ///< beyond this they are no picture's
+
+/// A JSON value, where it stands, and how to complain about it.
+class Reader {
+ public:
+  using Kind = JsonTree::Kind;
+
+  Reader(JsonTree::Value value, const std::string& name, std::string pointer)
+      : value_(value), name_(&name), pointer_(std::move(pointer)) {}
+
+  [[noreturn]] void fail(const std::string& reason, std::optional<Complex> where = {}) const {
+    throw Error(ErrorKind::bad_input,
+                *name_ + ": " + (pointer_.empty() ? "/" : pointer_) + ": " + reason, where);
+  }
+
+  const Reader& object() const {
+    if (value_.kind() != Kind::object) fail("an object is wanted here, not " + kind());
+    return *this;
+  }
+  const Reader& array() const {
+    if (value_.kind() != Kind::list) fail("a list is wanted here, not " + kind());
+    return *this;
+  }
+  size_t size() const {
+    return value_.kind() == Kind::list || value_.kind() == Kind::object ? value_.size() : 0;
+  }
+  bool has(std::string_view key) const { return found(key) < size(); }
+  Reader operator[](const char* key) const {
+    const size_t i = found(key);
+    if (i >= size()) fail(std::string("the key '") + key + "' is missing");
+    return {value_.member(i), *name_, pointer_ + "/" + key};
+  }
+  Reader operator[](size_t i) const {
+    return {value_.item(i), *name_, pointer_ + "/" + std::to_string(i)};
+  }
+
+  double number() const {
+    if (!value_.is_number()) fail("a number is wanted here, not " + kind());
+    const double number = value_.number();
+    if (!std::isfinite(number)) fail("the number is not finite");
+    return number;
+  }
+  double within(double lowest, double highest) const {
+    const double n = number();
+    if (!(n >= lowest && n <= highest))
+      fail("a number from " + Json(lowest).dump() + " to " + Json(highest).dump() +
+           " is wanted here");
+    return n;
+  }
+  int whole(int lowest, int highest) const {
+    const double n = number();
+    if (n != std::floor(n) || n < lowest || n > highest)
+      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
+           " is wanted here");
+    return static_cast<int>(n);
+  }
+  std::string text() const {
+    if (value_.kind() != Kind::text) fail("a text is wanted here, not " + kind());
+    return std::string(value_.text());
+  }
+  Complex point() const {
+    array();
+    if (size() != 2) fail("a point [x, y] is wanted here");
+    const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
+    if (std::abs(z.real()) > kLargestCoordinate || std::abs(z.imag()) > kLargestCoordinate)
+      fail("the coordinates are larger than 1e8");
+    return z;
+  }
+  bool truth() const {
+    if (value_.kind() != Kind::boolean) fail("true or false is wanted here, not " + kind());
+    return value_.truth();
+  }
+  /// A parameter: a number, or a switch as 0 or 1.
+  double value() const {
+    return value_.kind() == Kind::boolean ? (value_.truth() ? 1.0 : 0.0) : number();
+  }
+
+  /// The keys other than the known ones, with their values, as text; empty when there are none.
+  Extra others(std::initializer_list<const char*> known) const {
+    std::string text;
+    for (const auto& [key, i] : last_of_each()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      text += (text.empty() ? "{" : ",") + Json(key).dump() + ":";
+      value_.member(i).write(text);
+    }
+    return text.empty() ? "" : text + "}";
+  }
+  /// All members of an object, by their keys.
+  std::vector<std::pair<std::string, Reader>> members() const {
+    std::vector<std::pair<std::string, Reader>> all;
+    for (const auto& [key, i] : last_of_each())
+      all.emplace_back(key, Reader(value_.member(i), *name_, pointer_ + "/" + std::string(key)));
+    return all;
+  }
+
+ private:
+  /// Where a key stands last; size() if nowhere.
+  size_t found(std::string_view key) const {
+    if (value_.kind() != Kind::object) return size();
+    for (size_t i = size(); i-- > 0;)
+      if (value_.key(i) == key) return i;
+    return size();
+  }
+  /// Each key once, in the order in which they come first, with where it stands last.
+  std::vector<std::pair<std::string_view, size_t>> last_of_each() const {
+    std::vector<std::uint32_t> sorted(size());
+    std::iota(sorted.begin(), sorted.end(), 0u);
+    std::ranges::sort(sorted, {}, [&](std::uint32_t i) { return std::pair(value_.key(i), i); });
+    std::vector<std::uint32_t> last(size());  // for the first of each key; none for the others
+    constexpr std::uint32_t kNone = 0xffffffff;
+    for (size_t i = 0; i < sorted.size();) {
+      size_t end = i + 1;
+      while (end < sorted.size() && value_.key(sorted[end]) == value_.key(sorted[i])) ++end;
+      last[sorted[i]] = sorted[end - 1];
+      while (++i < end) last[sorted[i]] = kNone;
+    }
+    std::vector<std::pair<std::string_view, size_t>> all;
+    for (size_t i = 0; i < last.size(); ++i)
+      if (last[i] != kNone) all.emplace_back(value_.key(i), last[i]);
+    return all;
+  }
+  std::string kind() const {
+    constexpr const char* kNames[] = {"null",     "a boolean", "a number", "a number",
+                                      "a number", "a string",  "an array", "an object"};
+    return kNames[static_cast<size_t>(value_.kind())];
+  }
+
+  JsonTree::Value value_;
+  const std::string* name_;
+  std::string pointer_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,161 @@
+// A ZIP archive with a description of the stack and a PNG file for each layer. Nothing that it says
+// of itself is trusted: sizes are checked before memory is taken.
+#include "scene/formats/ora_image.h"
+
+#include <zip.h>
+
+#include <cstring>
+#include <memory>
+
+#include <pugixml.hpp>
+
+#include "core/error.h"
+#include "scene/budget.h"
+#include "scene/formats/image_formats.h"
+
+namespace holomorph {
+namespace {
+
+constexpr zip_uint64_t kLargestEntry = 512u << 20;
+constexpr zip_uint64_t kLargestDescription = 4u << 20;
+constexpr int kDeepest = 50;        ///< groups in groups
+constexpr int kFarthest = 1 << 20;  ///< of a layer from the canvas' corner
+
+[[noreturn]] void fail(const std::string& name, const std::string& what) {
+  throw Error(ErrorKind::bad_input, name + ": this OpenRaster file is damaged: " + what);
+}
+
+class Archive {
+ public:
+  Archive(const std::string& bytes, const std::string& name) : name_(name) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    if (source) zip_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
+    if (source && !zip_) zip_source_free(source);
+    zip_error_fini(&error);
+    if (!zip_) fail(name_, "it is no archive");
+  }
+
+  Image picture(const std::string& entry, PixelBudget& pixels) const {
+    const std::string bytes = read(entry);
+    if (!is_png(bytes)) fail(name_, entry + " is no PNG file");
+    return decode_png(bytes, name_ + ", " + entry, pixels);
+  }
+
+  std::string read(const std::string& entry, zip_uint64_t most = kLargestEntry) const {
+    zip_stat_t stat;
+    zip_stat_init(&stat);
+    if (zip_stat(zip_.get(), entry.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE))
+      fail(name_, entry + " is missing");
+    if (stat.size > most) fail(name_, entry + " is too large");
+    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(
+        zip_fopen(zip_.get(), entry.c_str(), 0), zip_fclose);
+    if (!file) fail(name_, entry + " cannot be read");
+    std::string bytes(stat.size, '\0');
+    if (zip_fread(file.get(), bytes.data(), stat.size) != static_cast<zip_int64_t>(stat.size))
+      fail(name_, entry + " ends too early");
+    return bytes;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<zip_t, void (*)(zip_t*)> zip_{nullptr, zip_discard};
+};
+
+struct Placed {
+  OraLayer layer;
+  int x = 0, y = 0;  ///< of its left upper corner on the canvas
+  double opacity = 1;
+};
+struct Stack {
+  int width = 0, height = 0;
+  std::vector<Placed> layers;  ///< from the top to the bottom, as the file has them
+};
+
+int offset(const pugi::xml_node& node, const char* name) {
+  return std::clamp(node.attribute(name).as_int(), -kFarthest, kFarthest);
+}
+
+void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
+  if (depth > kDeepest) return;
+  for (const pugi::xml_node& node : group.children()) {
+    Placed here = inherited;
+    here.layer.name = node.attribute("name").as_string();
+    here.layer.visible = inherited.layer.visible &&
+                         std::string(node.attribute("visibility").as_string()) != "hidden";
+    const std::string mode = node.attribute("composite-op").as_string("svg:src-over");
+    here.layer.blended = inherited.layer.blended || mode != "svg:src-over";
+    here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
+    here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
+    here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
+    if (std::string(node.name()) == "stack") collect(node, here, depth + 1, stack);
+    if (std::string(node.name()) != "layer") continue;
+    here.layer.entry = node.attribute("src").as_string();
+    if (lower_case(Path(here.layer.entry).extension().string()) == ".png")
+      stack.layers.push_back(here);
+  }
+}
+
+Stack stack_of(const Archive& archive, const std::string& name) {
+  const std::string text = archive.read("stack.xml", kLargestDescription);
+  pugi::xml_document document;
+  if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is no XML");
+  const pugi::xml_node image = document.child("image");
+  Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}};
+  if (stack.width < 1 || stack.height < 1) fail(name, "it has no size");
+  PixelBudget one;
+  one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
+  collect(image.child("stack"), {}, 0, stack);
+  if (stack.layers.empty()) fail(name, "it has no layers of pixels");
+  check_budget(&Budget::pixels,
+               1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()),
+               name + ": the layers have");
+  return stack;
+}
+
+}  // namespace
+
+bool is_ora(const std::string& bytes) {
+  // The first entry is the file's type, stored as it is.
+  return bytes.starts_with("PK\x03\x04") &&
+         bytes.substr(0, 100).find("mimetypeimage/openraster") != std::string::npos;
+}
+
+Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  return Archive(bytes, name).picture("mergedimage.png", pixels);
+}
+
+std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name) {
+  const Stack stack = stack_of(Archive(bytes, name), name);
+  std::vector<OraLayer> layers;
+  for (size_t i = stack.layers.size(); i-- > 0;) layers.push_back(stack.layers[i].layer);
+  return layers;
+}
+
+Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
+                       PixelBudget& pixels) {
+  const Archive archive(bytes, name);
+  const Stack stack = stack_of(archive, name);
+  const auto placed = std::ranges::find_if(
+      stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
+  if (placed == stack.layers.end()) fail(name, "it has no layer " + entry + " any more");
+  PixelBudget alone;  // what lies outside the canvas is not kept
+  const Image picture = archive.picture(entry, alone);
+  pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
+  Image canvas(stack.width, stack.height);
+  for (int r = 0; r < picture.height; ++r) {
+    const long row = static_cast<long>(r) + placed->y;
+    if (row < 0 || row >= canvas.height) continue;
+    for (int c = 0; c < picture.width; ++c) {
+      const long column = static_cast<long>(c) + placed->x;
+      if (column < 0 || column >= canvas.width) continue;
+      std::uint8_t* to = canvas.at(static_cast<int>(column), static_cast<int>(row));
+      std::memcpy(to, picture.at(c, r), 4);
+      to[3] = static_cast<std::uint8_t>(std::lround(to[3] * placed->opacity));
+    }
+  }
+  return canvas;
+}
+
+}  // namespace holomorph

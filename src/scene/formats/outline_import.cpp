@@ -1,0 +1,52 @@
+// Both become cages first: those are read, traced and checked already.
+#include "scene/formats/outline_import.h"
+
+#include "core/outline/outline_match.h"
+#include "scene/auto_cage.h"
+#include "scene/formats/svg_path.h"
+#include "scene/laid_surface.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kVertices = 120;  ///< of a traced picture
+constexpr Index kMost = 4000;   ///< points; longer ones are taken at equal steps
+
+Points fitted(Points points, const Box& onto) {
+  const Box box = box_of(points);
+  const double scale = onto.diagonal() / box.diagonal();
+  for (Complex& z : points) z = onto.center() + scale * (z - box.center());
+  return points;
+}
+
+}  // namespace
+
+Points outline_of_file(const Path& path, double height, const Box& onto, Flattening how) {
+  const std::string name = path.string(), bytes = read_file(path);
+  try {
+    Points outline;
+    const std::string kind = lower_case(path.extension().string());
+    if (kind == ".svg") {
+      outline = flattened(cage_of_svg(bytes, name, height, PathUse::outline)).points;
+    } else if (kind == ".obj") {
+      outline = laid_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
+    } else {
+      const Image image = decode_image(bytes, name);
+      outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
+    }
+    // A surface finds its boundary again by the points' number.
+    if (kind != ".obj" && static_cast<Index>(outline.size()) > kMost)
+      outline = at_equal_lengths(Polyline(outline, true), kMost);
+    check_outline(outline);
+    return outline;
+  } catch (const Error& error) {
+    throw about(path, error);
+  }
+}
+
+std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how) {
+  if (lower_case(path.extension().string()) != ".obj") return {};
+  return SurfaceReference{absolute_path(path).string(), how};
+}
+
+}  // namespace holomorph

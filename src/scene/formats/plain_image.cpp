@@ -1,0 +1,180 @@
+// BMP, TGA and PSD by stb_image, which takes missing bytes for zeros and believes what a file says:
+// here it is checked before that all of the pixels are there.
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_ONLY_PSD
+#define STBI_NO_STDIO
+#define STBI_NO_THREAD_LOCALS
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+#include <cstring>
+#include <memory>
+#include <mutex>
+
+namespace holomorph {
+namespace {
+
+/// Numbers in a file; those behind its end are an error.
+class Bytes {
+ public:
+  Bytes(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  size_t at(size_t place) const {
+    need(place, 1);
+    return static_cast<unsigned char>(bytes_[place]);
+  }
+  size_t little(size_t place, size_t count) const {
+    size_t value = 0;
+    for (size_t k = count; k-- > 0;) value = value << 8 | at(place + k);
+    return value;
+  }
+  size_t big(size_t place, size_t count) const {
+    size_t value = 0;
+    for (size_t k = 0; k < count; ++k) value = value << 8 | at(place + k);
+    return value;
+  }
+  /// Throws Error unless so many bytes are there.
+  void need(size_t place, size_t count) const {
+    if (place > bytes_.size() || count > bytes_.size() - place)
+      throw Error(ErrorKind::bad_input,
+                  name_ + ": the picture is cut off: the file ends too early");
+  }
+  [[noreturn]] void damaged(const char* why) const {
+    throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + why + ")");
+  }
+
+ private:
+  const std::string& bytes_;
+  const std::string& name_;
+};
+
+struct Size {
+  size_t width = 0, height = 0;
+};
+
+/// A signed number of 32 bits, whatever its sign.
+size_t magnitude(size_t value) {
+  return value < size_t{1} << 31 ? value : (size_t{1} << 32) - value;
+}
+
+Size bmp_size(const Bytes& file) {
+  const size_t header = file.little(14, 4);
+  const bool old = header == 12;
+  return {old ? file.little(18, 2) : magnitude(file.little(18, 4)),
+          old ? file.little(20, 2) : magnitude(file.little(22, 4))};
+}
+
+void check_bmp(const Bytes& file, const Size& size) {
+  const size_t header = file.little(14, 4);
+  if (header != 12 && header != 40 && header != 56 && header != 108 && header != 124)
+    file.damaged("its header is of no known kind");
+  file.need(14, header);
+  const size_t bits = file.little(header == 12 ? 24 : 28, 2), pixels = file.little(10, 4);
+  if (bits > 32) file.damaged("its pixels are of no known kind");
+  const size_t row = (size.width * bits + 31) / 32 * 4;
+  // The last row need not be filled up.
+  file.need(pixels, row * (size.height - 1) + (size.width * bits + 7) / 8);
+}
+
+Size tga_size(const Bytes& file) {
+  return {file.little(12, 2), file.little(14, 2)};
+}
+
+void check_tga(const Bytes& file, const Size& size) {
+  const size_t kind = file.at(2), pixel = (file.at(16) + 7) / 8,
+               colors =
+                   file.at(1) ? file.little(3, 2) + file.little(5, 2) * ((file.at(7) + 7) / 8) : 0;
+  if (pixel < 1 || pixel > 4) file.damaged("its pixels are of no known kind");
+  size_t place = 18 + file.at(0) + colors;
+  if (kind < 8) return file.need(place, size.width * size.height * pixel);
+  for (size_t left = size.width * size.height; left > 0;) {
+    const size_t packet = file.at(place), count = std::min(left, (packet & 127) + 1),
+                 length = 1 + (packet & 128 ? 1 : count) * pixel;
+    file.need(place, length);
+    place += length;
+    left -= count;
+  }
+}
+
+Size psd_size(const Bytes& file) {
+  return {file.big(18, 4), file.big(14, 4)};
+}
+
+void check_psd(const Bytes& file, const Size& size) {
+  const size_t channels = file.big(12, 2), bytes = file.big(22, 2) / 8;
+  size_t place = 26;
+  for (int section = 0; section < 3; ++section) {
+    const size_t length = file.big(place, 4);
+    file.need(place, length);
+    place += 4 + length;
+  }
+  const size_t packed = file.big(place, 2), rows = channels * size.height;
+  place += 2;
+  if (packed == 0) return file.need(place, rows * size.width * bytes);
+  if (packed != 1) file.damaged("it is compressed in an unknown way");
+  if (bytes != 1) file.damaged("it is compressed with 16 bits");
+  place += 2 * rows;  // past the rows' lengths
+  for (size_t channel = 0; channel < channels; ++channel)
+    for (size_t left = size.width * size.height; left > 0;) {
+      const size_t head = file.at(place), repeats = head > 128;
+      const size_t count = head == 128 ? 0 : repeats ? 257 - head : head + 1;
+      if (count > left) file.damaged("its rows do not fit");
+      place += 1 + (head == 128 ? 0 : repeats ? 1 : count);
+      file.need(place, 0);
+      left -= count;
+    }
+}
+
+/// TGA files have nothing that they could be known by: these are sensible in all of their header.
+bool is_tga(const std::string& bytes) {
+  if (bytes.size() < 18) return false;
+  const auto at = [&](size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const int kind = at(2) & 7, bits = at(16);
+  return at(1) <= 1 && (at(2) & ~8) == kind && kind >= 1 && kind <= 3 &&
+         (at(1) == 1) == (kind == 1) &&
+         (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
+}
+
+Image decode(const std::string& bytes, const std::string& name, const Size& size,
+             PixelBudget& pixels, void (*check)(const Bytes&, const Size&)) {
+  constexpr size_t kLargestFile = 1u << 30;  // stb counts in int
+  const Bytes file(bytes, name);
+  if (size.width == 0 || size.height == 0 || bytes.size() > kLargestFile)
+    file.damaged("it has no size");
+  pixels.take(size.width, size.height, name);
+  check(file, size);
+  static std::mutex mutex;  // stb keeps what went wrong in one place
+  const std::lock_guard lock(mutex);
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> found(
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                            static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+      stbi_image_free);
+  if (!found) file.damaged(stbi_failure_reason());
+  if (static_cast<size_t>(width) != size.width || static_cast<size_t>(height) != size.height)
+    file.damaged("it has two sizes");
+  Image image(width, height);
+  std::memcpy(image.pixels.data(), found.get(), image.pixels.size());
+  return image;
+}
+
+}  // namespace
+
+std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
+                                  PixelBudget& pixels) {
+  const Bytes file(bytes, name);
+  if (bytes.starts_with("BM")) return decode(bytes, name, bmp_size(file), pixels, check_bmp);
+  if (bytes.starts_with("8BPS")) return decode(bytes, name, psd_size(file), pixels, check_psd);
+  if (is_tga(bytes)) return decode(bytes, name, tga_size(file), pixels, check_tga);
+  return {};
+}
+
+}  // namespace holomorph

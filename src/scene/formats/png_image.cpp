@@ -1,0 +1,142 @@
+// PNG by libpng, from memory: any depth, reduced to 8 bits, in sRGB, and upright.
+#include <png.h>
+
+#include <csetjmp>
+#include <cstring>
+
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+#include "scene/formats/to_srgb.h"
+
+namespace holomorph {
+namespace {
+
+/// libpng leaves its functions by longjmp: what those called here hold has no destructors, and
+/// everything else is a member.
+class PngReader {
+ public:
+  PngReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](auto, auto) {});
+    if (png_) info_ = png_create_info_struct(png_);
+    if (!info_) throw Error(ErrorKind::failed, name + ": no memory for a PNG picture");
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  Image read(PixelBudget& pixels) {
+    run(&PngReader::read_header);
+    pixels.take(width_, height_, name_);
+    run(&PngReader::prepare);
+    image_ = Image(static_cast<int>(width_), static_cast<int>(height_));
+    rows_.resize(height_);
+    for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = image_.at(0, static_cast<int>(r));
+    run(&PngReader::read_pixels);
+    if (profile_size_ > 0)
+      to_srgb(image_, std::string(reinterpret_cast<const char*>(profile_), profile_size_));
+    else if (gamma_ > 0)
+      to_srgb(image_, primaries_, gamma_);
+    const int orientation =
+        exif_ ? orientation_of_exif("Exif" + std::string(2, '\0') +
+                                    std::string(reinterpret_cast<const char*>(exif_), exif_size_))
+              : 1;
+    return upright(std::move(image_), orientation);
+  }
+
+ private:
+  void run(void (PngReader::*step)()) {
+    if (setjmp(png_jmpbuf(png_)) == 0)
+      (this->*step)();
+    else
+      throw Error(ErrorKind::bad_input,
+                  name_ + (ended_ ? ": the picture is cut off: the file ends too early"
+                                  : ": the picture is damaged (" + std::string(message_) + ")"));
+  }
+
+  static void on_error(png_structp png, png_const_charp message) {
+    auto* reader = static_cast<PngReader*>(png_get_error_ptr(png));
+    std::strncpy(reader->message_, message, sizeof reader->message_ - 1);
+    png_longjmp(png, 1);
+  }
+
+  static void take(png_structp png, png_bytep out, size_t count) {
+    auto* reader = static_cast<PngReader*>(png_get_io_ptr(png));
+    if (count > reader->bytes_.size() - reader->at_) {
+      reader->ended_ = true;
+      png_error(png, "");
+    }
+    std::memcpy(out, reader->bytes_.data() + reader->at_, count);
+    reader->at_ += count;
+  }
+
+  void read_header() {
+    constexpr png_alloc_size_t kLargestChunk = 16 << 20;
+    png_set_read_fn(png_, this, take);
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the budget says more
+    png_set_chunk_malloc_max(png_, kLargestChunk);
+    png_set_chunk_cache_max(png_, 1);  // none: texts are not wanted
+    png_read_info(png_, info_);
+    int depth = 0, colors = 0;
+    png_get_IHDR(png_, info_, &width_, &height_, &depth, &colors, nullptr, nullptr, nullptr);
+    read_colors();
+  }
+
+  /// libpng allocates rows here: their size is known, and allowed.
+  void prepare() {
+    png_set_expand(png_);
+    png_set_scale_16(png_);
+    png_set_gray_to_rgb(png_);
+    png_set_add_alpha(png_, 255, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    if (png_get_rowbytes(png_, info_) != 4 * static_cast<size_t>(width_))
+      png_error(png_, "its rows are of no known kind");
+  }
+
+  /// An sRGB chunk says that there is nothing to do.
+  void read_colors() {
+    int how = 0;
+    png_charp name = nullptr;
+    if (png_get_sRGB(png_, info_, &how)) return;
+    if (png_get_iCCP(png_, info_, &name, &how, &profile_, &profile_size_)) return;
+    if (!png_get_gAMA(png_, info_, &gamma_)) return;
+    Chromaticities& p = primaries_;
+    png_get_cHRM(png_, info_, p.white, p.white + 1, p.red, p.red + 1, p.green, p.green + 1, p.blue,
+                 p.blue + 1);
+  }
+
+  void read_pixels() {
+    png_read_image(png_, rows_.data());
+    png_read_end(png_, info_);
+    png_get_eXIf_1(png_, info_, &exif_size_, &exif_);
+  }
+
+  const std::string& bytes_;
+  const std::string& name_;
+  size_t at_ = 0;
+  bool ended_ = false;
+  char message_[200] = "";
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  png_uint_32 width_ = 0, height_ = 0;
+  png_bytep profile_ = nullptr;  ///< libpng's
+  png_uint_32 profile_size_ = 0;
+  double gamma_ = 0;
+  Chromaticities primaries_;
+  png_bytep exif_ = nullptr;  ///< libpng's
+  png_uint_32 exif_size_ = 0;
+  Image image_;
+  std::vector<png_bytep> rows_;
+};
+
+}  // namespace
+
+bool is_png(const std::string& bytes) {
+  return bytes.starts_with("\x89PNG");
+}
+
+Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  return PngReader(bytes, name).read(pixels);
+}
+
+}  // namespace holomorph

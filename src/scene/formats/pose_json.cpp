@@ -1,0 +1,243 @@
+// A pose in a keyframe has the sections of a scene, each with what moves alone.
+#include "scene/formats/pose_json.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/geometry/polyline.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kMostTurn = 1e3;  ///< radians: 159 times around
+constexpr size_t kMostSegments = 5000, kMostPins = 2000, kMostStrokes = 200;
+constexpr std::array<const char*, 3> kEases{"smooth", "linear", "hold"};
+
+PoseCorner read_corner_pose(const Reader& reader) {
+  PoseCorner pose;
+  if (reader.has("before")) pose.before = reader["before"].within(-kMostTurn, kMostTurn);
+  if (reader.has("after")) pose.after = reader["after"].within(-kMostTurn, kMostTurn);
+  if (reader.has("tension")) pose.tension = reader["tension"].within(0, 1);
+  return pose;
+}
+
+Json corner_pose_json(const PoseCorner& pose) {
+  Json item;
+  item["before"] = pose.before;
+  item["after"] = pose.after;
+  if (pose.tension != 1) item["tension"] = pose.tension;
+  return item;
+}
+
+PosePin read_pose_pin(const Reader& reader) {
+  reader.object();
+  PosePin pin;
+  pin.position = reader["pose"].point();
+  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMostPinTurn, kMostPinTurn);
+  if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
+  return pin;
+}
+
+/// The items of a list that is there and not too long.
+template <class Read>
+auto read_list(const Reader& list, size_t most, Read read) {
+  list.array();
+  if (list.size() > most) list.fail("more than " + std::to_string(most) + " of these");
+  std::vector<decltype(read(list))> items;
+  for (size_t i = 0; i < list.size(); ++i) items.push_back(read(list[i]));
+  return items;
+}
+
+Pose read_pose(const Reader& reader, const Scene& scene) {
+  reader.object();
+  Pose pose = whole_pose_of(at_rest(scene));
+  if (reader.has("cage")) pose.cage = read_loop(reader["cage"]);
+  if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMostPins, read_pose_pin);
+  if (reader.has("strokes"))
+    pose.strokes = read_list(reader["strokes"], kMostStrokes,
+                             [](const Reader& stroke) { return read_curve(stroke, check_stroke); });
+  if (reader.has("corners"))
+    pose.corners = read_list(reader["corners"], kMostSegments, [](const Reader& corner) {
+      return read_corner_pose(corner.object());
+    });
+  return pose;
+}
+
+/// What is empty is written where the scene has some: it would be read as resting otherwise.
+Json pose_json(const Pose& pose, const Scene& scene) {
+  Json json = Json::object();
+  json["cage"] = loop_json(pose.cage);
+  if (!scene.pins.empty()) json["pins"] = Json::array();
+  if (!scene.strokes.empty()) json["strokes"] = Json::array();
+  if (!scene.corners.empty()) json["corners"] = Json::array();
+  for (const PosePin& pin : pose.pins) {
+    Json item;
+    item["pose"] = point_json(pin.position);
+    if (pin.angle != 0) item["angle"] = pin.angle;
+    if (pin.scale != 1) item["scale"] = pin.scale;
+    json["pins"].push_back(std::move(item));
+  }
+  for (const Points& stroke : pose.strokes) json["strokes"].push_back(curve_json(stroke));
+  for (const PoseCorner& corner : pose.corners) json["corners"].push_back(corner_pose_json(corner));
+  return json;
+}
+
+}  // namespace
+
+Cage read_loop(const Reader& list) {
+  list.array();
+  if (list.size() > kMostSegments)
+    list.fail("more than " + std::to_string(kMostSegments) + " segments");
+  Cage cage;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Reader segment = list[i].array();
+    if (segment.size() == 0) segment.fail("a segment needs at least its first control point");
+    if (segment.size() > kHighestDegree)
+      segment.fail("a segment's degree is at most " + std::to_string(kHighestDegree));
+    Points controls;
+    for (size_t m = 0; m < segment.size(); ++m) controls.push_back(segment[m].point());
+    cage.segments.push_back(std::move(controls));
+  }
+  return cage;
+}
+
+Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>)) {
+  reader.array();
+  constexpr size_t kMostPoints = 20000;
+  if (reader.size() > kMostPoints) reader.fail("more than 20000 points");
+  Points curve;
+  for (size_t i = 0; i < reader.size(); ++i) curve.push_back(reader[i].point());
+  try {
+    check(curve);
+  } catch (const Error& error) {
+    reader.fail(error.what(), error.where());
+  }
+  return curve;
+}
+
+Corner read_corner(const Reader& reader, const Scene& scene) {
+  reader.object();
+  Corner corner;
+  const int last = static_cast<int>(scene.rest.size()) - 1;
+  if (last < 0) reader.fail("there is no cage that it could be a corner of");
+  corner.vertex = reader["vertex"].whole(0, last);
+  if (!scene.corners.empty() && scene.corners.back().vertex >= corner.vertex)
+    reader["vertex"].fail("corners must be in the order of their vertices, each once");
+  corner.pose = read_corner_pose(reader);
+  corner.extra = reader.others({"vertex", "before", "after", "tension"});
+  return corner;
+}
+
+Keyframe read_keyframe(const Reader& reader, const Scene& scene) {
+  reader.object();
+  Keyframe key;
+  key.time = reader["time"].within(0, kLongestTime);
+  if (!scene.keyframes.empty() && scene.keyframes.back().time >= key.time)
+    reader["time"].fail("keyframes must be in the order of their times, and no two at one time");
+  key.pose = reader.has("pose") ? read_pose(reader["pose"], scene) : whole_pose_of(at_rest(scene));
+  if (reader.has("pose"))
+    key.pose_extra = reader["pose"].others({"cage", "pins", "strokes", "corners"});
+  if (reader.has("ease")) {
+    const std::string ease = reader["ease"].text();
+    const auto found = std::ranges::find(kEases, ease);
+    if (found == kEases.end())
+      reader["ease"].fail("'" + ease + "' is no ease: smooth, linear or hold");
+    key.ease = static_cast<Ease>(found - kEases.begin());
+  }
+  if (reader.has("turns")) key.turns = reader["turns"].whole(-kMostTurns, kMostTurns);
+  key.extra = reader.others({"time", "pose", "ease", "turns"});
+  return key;
+}
+
+AnimationSettings read_animation(const Reader& reader) {
+  reader.object();
+  AnimationSettings settings;
+  if (reader.has("frames_per_second"))
+    settings.frames_per_second = reader["frames_per_second"].within(kFewestFrames, kMostFrames);
+  if (reader.has("in_betweens")) {
+    const std::string what = reader["in_betweens"].text();
+    if (what != "shapes" && what != "places")
+      reader["in_betweens"].fail("'" + what + "' cannot be blended: shapes or places");
+    settings.straight = what == "places";
+  }
+  return settings;
+}
+
+Json point_json(Complex z) {
+  return Json::array({z.real(), z.imag()});
+}
+
+Json curve_json(const Points& curve) {
+  Json list = Json::array();
+  for (const Complex& z : curve) list.push_back(point_json(z));
+  return list;
+}
+
+Json loop_json(const Cage& cage) {
+  Json list = Json::array();
+  for (const Points& controls : cage.segments) {
+    list.push_back(curve_json(controls));
+  }
+  return list;
+}
+
+Json corner_json(const Corner& corner) {
+  Json item;
+  item["vertex"] = corner.vertex;
+  item.update(corner_pose_json(corner.pose));
+  add_extra(item, corner.extra);
+  return item;
+}
+
+Json keyframe_json(const Keyframe& key, const Scene& scene) {
+  Json item;
+  item["time"] = key.time;
+  if (key.ease != Ease::smooth) item["ease"] = kEases[static_cast<size_t>(key.ease)];
+  if (key.turns != 0) item["turns"] = key.turns;
+  item["pose"] = pose_json(key.pose, scene);
+  add_extra(item["pose"], key.pose_extra);
+  add_extra(item, key.extra);
+  return item;
+}
+
+Json animation_json(const AnimationSettings& settings) {
+  Json json;
+  json["frames_per_second"] = settings.frames_per_second;
+  if (settings.straight) json["in_betweens"] = "places";
+  return json;
+}
+
+namespace {
+
+/// Members are not looked for, so that this is linear.
+Json to_json(const JsonTree::Value& value) {
+  Json json;
+  if (value.kind() == JsonTree::Kind::object) {
+    json = Json::object();
+    auto& members = json.get_ref<Json::object_t&>();
+    for (size_t i = 0; i < value.size(); ++i)
+      members.emplace_back(std::string(value.key(i)), to_json(value.member(i)));
+  } else if (value.kind() == JsonTree::Kind::list) {
+    json = Json::array();
+    for (size_t i = 0; i < value.size(); ++i) json.push_back(to_json(value.item(i)));
+  } else {
+    std::string text;
+    value.write(text);
+    json = Json::parse(text);
+  }
+  return json;
+}
+
+}  // namespace
+
+void add_extra(Json& object, const Extra& extra) {
+  if (extra.empty()) return;
+  constexpr int kDeepest = 1000;  // it was read from less
+  const JsonTree tree(extra, kDeepest);
+  if (!object.is_object()) object = Json::object();
+  auto& members = object.get_ref<Json::object_t&>();
+  for (size_t i = 0; i < tree.root().size(); ++i)
+    members.emplace_back(std::string(tree.root().key(i)), to_json(tree.root().member(i)));
+}
+
+}  // namespace holomorph

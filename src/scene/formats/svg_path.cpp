@@ -1,0 +1,355 @@
+// pugixml reads the file; path data is a little language of its own.
+#include "scene/formats/svg_path.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+#include "scene/budget.h"
+
+namespace holomorph {
+namespace {
+
+/// Reads path data command by command and keeps the loop as lists of control points.
+class PathReader {
+ public:
+  /// Lines to where one is already are dropped unless `keeps_points`.
+  PathReader(const std::string& data, std::string name, bool keeps_points)
+      : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
+
+  std::vector<Points> segments() {
+    while (skip_blanks()) read_command();
+    if (!started_) fail("the path is empty");
+    close();
+    return std::move(segments_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorKind::bad_input,
+                name_ + ": path data, character " + std::to_string(at_ + 1) + ": " + what);
+  }
+
+  bool skip_blanks() {
+    while (at_ < data_.size() &&
+           (std::isspace(static_cast<unsigned char>(data_[at_])) || data_[at_] == ','))
+      ++at_;
+    return at_ < data_.size();
+  }
+
+  bool number_follows() {
+    if (!skip_blanks()) return false;
+    const auto begins = [](char c) {
+      return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
+    };
+    const bool is_signed = data_[at_] == '-' || data_[at_] == '+';
+    return begins(data_[at_]) || (is_signed && at_ + 1 < data_.size() && begins(data_[at_ + 1]));
+  }
+
+  double number() {
+    if (!number_follows()) fail("a number is wanted here");
+    const char* from = data_.data() + at_ + (data_[at_] == '+');
+    double x = 0;
+    const auto [end, wrong] = std::from_chars(from, data_.data() + data_.size(), x);
+    if (wrong == std::errc::result_out_of_range) fail("this number is too large or too small");
+    if (wrong != std::errc{}) fail("this is no number");
+    at_ = static_cast<size_t>(end - data_.data());
+    return x;
+  }
+
+  /// A point, relative to the current one for small letters.
+  Complex point(bool relative) {
+    const double x = number(), y = number();
+    return (relative ? here_ : Complex(0)) + Complex(x, y);
+  }
+
+  void read_command() {
+    const char letter = data_[at_++];
+    const bool relative = std::islower(static_cast<unsigned char>(letter));
+    const char command = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    if (command == 'Z') {
+      closed_ = true;
+      return;
+    }
+    if (closed_) fail("the path has several subpaths; a cage is one closed loop");
+    if (command == 'M') {
+      if (started_) fail("the path has several subpaths; a cage is one closed loop");
+      start_ = here_ = point(relative);
+      started_ = true;
+      while (number_follows()) line_to(point(relative));
+      return;
+    }
+    if (!started_) fail("a path begins with M");
+    do {
+      read_segment(command, relative);
+      last_ = command;
+    } while (number_follows());
+  }
+
+  void read_segment(char command, bool relative) {
+    const Complex before = here_;
+    switch (command) {
+      case 'L':
+        return line_to(point(relative));
+      case 'H':
+        return line_to({number() + (relative ? here_.real() : 0), here_.imag()});
+      case 'V':
+        return line_to({here_.real(), number() + (relative ? here_.imag() : 0)});
+      case 'C': {
+        const Complex a = point(relative), b = point(relative);
+        return curve_to({before, a, b}, point(relative), b);
+      }
+      case 'S': {
+        const Complex a = last_ == 'C' || last_ == 'S' ? 2.0 * here_ - control_ : here_;
+        const Complex b = point(relative);
+        return curve_to({before, a, b}, point(relative), b);
+      }
+      case 'Q': {
+        const Complex a = point(relative);
+        return curve_to({before, a}, point(relative), a);
+      }
+      case 'T': {
+        const Complex a = last_ == 'Q' || last_ == 'T' ? 2.0 * here_ - control_ : here_;
+        return curve_to({before, a}, point(relative), a);
+      }
+      case 'A':
+        fail("arcs are not read; convert them to curves in the drawing program");
+      default:
+        --at_;
+        fail(std::string("'") + data_[at_] + "' is no path command");
+    }
+  }
+
+  void line_to(Complex to) {
+    if (to != here_ || keeps_points_) segments_.push_back({here_});
+    here_ = to;
+  }
+
+  void curve_to(Points controls, Complex to, Complex control) {
+    segments_.push_back(std::move(controls));
+    control_ = control;
+    here_ = to;
+  }
+
+  /// Back to the start: by a line, unless it is there already.
+  void close() {
+    double size = 0;
+    for (const Points& segment : segments_) size = std::max(size, std::abs(segment[0] - start_));
+    if (std::abs(here_ - start_) > 1e-9 * size) segments_.push_back({here_});
+  }
+
+  const std::string& data_;
+  std::string name_;
+  size_t at_ = 0;
+  Complex start_, here_, control_;
+  char last_ = ' ';
+  bool keeps_points_, started_ = false, closed_ = false;
+  std::vector<Points> segments_;
+};
+
+/// Throws Error where groups are nested deeper than the budget has it.
+void check_levels(pugi::xml_document& document, const std::string& name) {
+  struct Deepest : pugi::xml_tree_walker {  // does not recurse
+    bool for_each(pugi::xml_node&) override {
+      levels = std::max(levels, depth());
+      return true;
+    }
+    int levels = 0;
+  } deepest;
+  document.traverse(deepest);
+  check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
+}
+
+/// The paths of a document in their order, without those that only serve others.
+std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
+  static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
+                                             "marker", "pattern",  "symbol"};
+  std::vector<pugi::xml_node> paths, waiting{document};
+  while (!waiting.empty()) {  // no recursion: groups may be deep
+    const pugi::xml_node node = waiting.back();
+    waiting.pop_back();
+    std::string tag = node.name();
+    if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
+    if (tag == "path") paths.push_back(node);
+    if (kUnseen.contains(tag)) continue;
+    for (pugi::xml_node child = node.last_child(); child; child = child.previous_sibling())
+      waiting.push_back(child);
+  }
+  return paths;
+}
+
+/// The path with this id, or the first one.
+pugi::xml_node path_of(const pugi::xml_node& document, const std::string& id) {
+  const std::vector<pugi::xml_node> paths = paths_of(document);
+  for (const pugi::xml_node& path : paths)
+    if (path.attribute("id").as_string() == id) return path;
+  return paths.empty() ? pugi::xml_node() : paths.front();
+}
+
+/// Whether a node has a transform, as an attribute or in its style.
+bool is_transformed(const pugi::xml_node& node) {
+  if (node.attribute("transform")) return true;
+  std::istringstream style(node.attribute("style").as_string());
+  std::string property;
+  while (std::getline(style, property, ';')) {
+    std::erase_if(property, [](unsigned char c) { return std::isspace(c); });
+    if (property.starts_with("transform:") && property != "transform:none") return true;
+  }
+  return false;
+}
+
+/// Handles on their points are pulled a little along the curve.
+void free_handles(Cage& cage) {
+  constexpr double kPull = 1e-3;
+  for (Index e = 0; e < cage.size(); ++e) {
+    Points& c = cage.segments[e];
+    const Points all = cage.controls(e);
+    const size_t n = all.size() - 1;
+    if (n < 2) continue;
+    const auto first_other =
+        std::find_if(all.begin(), all.end(), [&](Complex z) { return z != all[0]; });
+    const auto last_other =
+        std::find_if(all.rbegin(), all.rend(), [&](Complex z) { return z != all[n]; });
+    if (first_other == all.end()) continue;
+    if (all[1] == all[0]) c[1] = all[0] + kPull * (*first_other - all[0]);
+    if (all[n - 1] == all[n]) c[n - 1] = all[n] + kPull * (*last_other - all[n]);
+  }
+}
+
+}  // namespace
+
+Cage cage_of_svg(const std::string& text, const std::string& name, double height, PathUse use) {
+  static constexpr const char* kIds[] = {"rest", "pose", "outline"};
+  pugi::xml_document document;
+  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
+  if (!result)
+    throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
+  check_levels(document, name);
+  const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
+  if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
+  for (pugi::xml_node node = path; node; node = node.parent())
+    if (is_transformed(node))
+      throw Error(ErrorKind::bad_input, name +
+                                            ": the path or its group has a transform; apply it in "
+                                            "the drawing program and save again");
+  if (!(height > 0)) {
+    const pugi::xml_node root = document.document_element();
+    height = root.attribute("height").as_double(0);
+  }
+  Cage cage;
+  cage.segments =
+      PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
+  for (Points& segment : cage.segments)
+    for (Complex& z : segment) z = {z.real(), height - z.imag()};
+  constexpr Index kMostSegments = 5000;  // as scenes have
+  if (cage.size() > kMostSegments)
+    throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
+                                          " segments; at most 5000 can be used");
+  if (cage.size() < 3 && use != PathUse::outline)
+    throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
+                                          " segments; a cage needs at least three");
+  if (use == PathUse::rest) free_handles(cage);
+  return cage;
+}
+
+namespace {
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string point(Complex z, double height) {
+  return number(z.real()) + " " + number(height - z.imag());
+}
+
+/// The cubic with a curve's ends and end tangents.
+Points cubic_of(const Points& c) {
+  const double n = static_cast<double>(c.size()) - 1, arm = n / 3;
+  return {c.front(), c.front() + arm * (c[1] - c.front()),
+          c.back() + arm * (c[c.size() - 2] - c.back()), c.back()};
+}
+
+/// How far a curve is from its cubic at most: a curve lies within its control points.
+double off_cubic(const Points& c) {
+  const Points cubic = elevated(cubic_of(c), static_cast<int>(c.size()) - 1);
+  double off = 0;
+  for (size_t m = 0; m < c.size(); ++m) off = std::max(off, std::abs(c[m] - cubic[m]));
+  return off;
+}
+
+/// The curve in `count` pieces, equally long in the parameter.
+std::vector<Points> pieces_of(Points c, int count) {
+  std::vector<Points> pieces;
+  for (; count > 1; --count) {
+    SplitCurve halves = split(c, 1.0 / count);
+    pieces.push_back(std::move(halves.before));
+    c = std::move(halves.after);
+  }
+  pieces.push_back(std::move(c));
+  return pieces;
+}
+
+/// How many pieces make cubics that follow a curve to kOffCubic of its size: one up to degree 3.
+int cubics_for(const Points& c) {
+  constexpr double kOffCubic = 1e-4;
+  const double allowed = kOffCubic * box_of(c).diagonal();
+  int count = 1;
+  if (c.size() > 4)
+    while (std::ranges::any_of(pieces_of(c, count),
+                               [&](const Points& piece) { return off_cubic(piece) > allowed; }))
+      count *= 2;
+  return count;
+}
+
+/// Path data of a cage, segment i in counts[i] pieces.
+std::string path_data(const Cage& cage, const std::vector<int>& counts, double height) {
+  std::string data = "M " + point(cage.vertex(0), height);
+  for (Index i = 0; i < cage.size(); ++i)
+    for (Points piece : pieces_of(cage.controls(i), counts[static_cast<size_t>(i)])) {
+      if (piece.size() > 4) piece = cubic_of(piece);
+      data += piece.size() == 2 ? " L" : piece.size() == 3 ? " Q" : " C";
+      for (size_t m = 1; m < piece.size(); ++m) data += " " + point(piece[m], height);
+    }
+  return data + " Z";
+}
+
+}  // namespace
+
+std::string svg_of(const Scene& scene) {
+  Box box = box_of(outline_of(scene.pose));
+  for (const Complex& z : outline_of(scene.rest)) box.include(z);
+  double height = box.height();
+  if (scene.image && scene.image->width > 0) {
+    height = scene.image->height;
+    box.include({0, 0});
+    box.include({static_cast<double>(scene.image->width), height});
+  }
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
+                    "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
+                    " " + number(height - box.top) + " " + number(box.width()) + " " +
+                    number(box.height()) + "\">\n";
+  std::vector<int> counts;  // the same for both, so that they still belong together
+  for (Index i = 0; i < scene.rest.size(); ++i)
+    counts.push_back(
+        std::max(cubics_for(scene.rest.controls(i)), cubics_for(scene.pose.controls(i))));
+  const auto add_path = [&](const Cage& cage, const std::string& look) {
+    svg += "  <path d=\"" + path_data(cage, counts, height) + "\" fill=\"none\" " + look + "/>\n";
+  };
+  if (scene.has_cage()) {
+    if (scene.rest != scene.pose)
+      add_path(scene.rest, "id=\"rest\" stroke=\"#808080\" stroke-dasharray=\"4 4\"");
+    add_path(scene.pose, "id=\"pose\" stroke=\"#1a7f37\" stroke-width=\"2\"");
+  }
+  for (const Pin& pin : method_named(scene.method).uses_pins ? scene.pins : std::vector<Pin>{})
+    svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
+           number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
+  return svg + "</svg>\n";
+}
+
+}  // namespace holomorph

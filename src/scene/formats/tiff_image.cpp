@@ -1,0 +1,115 @@
+// TIFF by libtiff, from memory. What a file says about itself is not trusted: libtiff checks it,
+// and its words become errors.
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+#include "scene/formats/to_srgb.h"
+
+namespace holomorph {
+namespace {
+
+struct Stream {
+  const std::string& bytes;
+  toff_t at = 0;
+};
+
+tmsize_t read(thandle_t handle, void* out, tmsize_t count) {
+  auto& stream = *static_cast<Stream*>(handle);
+  const toff_t size = stream.bytes.size(), left = stream.at < size ? size - stream.at : 0;
+  const tmsize_t got = static_cast<tmsize_t>(std::min<toff_t>(left, static_cast<toff_t>(count)));
+  std::memcpy(out, stream.bytes.data() + (got > 0 ? stream.at : 0), static_cast<size_t>(got));
+  stream.at += static_cast<toff_t>(got);
+  return got;
+}
+
+toff_t seek(thandle_t handle, toff_t to, int from) {
+  auto& stream = *static_cast<Stream*>(handle);
+  return stream.at = to + (from == SEEK_CUR   ? stream.at
+                           : from == SEEK_END ? static_cast<toff_t>(stream.bytes.size())
+                                              : 0);
+}
+
+tmsize_t no_write(thandle_t, void*, tmsize_t) {
+  return 0;
+}
+int no_close(thandle_t) {
+  return 0;
+}
+toff_t size_of(thandle_t handle) {
+  return static_cast<Stream*>(handle)->bytes.size();
+}
+
+/// libtiff packs a pixel into a number, and gives colours multiplied by alpha.
+void make_straight(Image& image) {
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    uint32_t pixel = 0;
+    std::memcpy(&pixel, &image.pixels[i], 4);
+    const uint32_t alpha = TIFFGetA(pixel);
+    const auto straight = [&](uint32_t value) {
+      return static_cast<std::uint8_t>(
+          alpha == 0 ? 0 : std::min(255u, (255 * value + alpha / 2) / alpha));
+    };
+    image.pixels[i] = straight(TIFFGetR(pixel));
+    image.pixels[i + 1] = straight(TIFFGetG(pixel));
+    image.pixels[i + 2] = straight(TIFFGetB(pixel));
+    image.pixels[i + 3] = static_cast<std::uint8_t>(alpha);
+  }
+}
+
+struct Close {
+  void operator()(TIFF* file) const { TIFFClose(file); }
+};
+
+}  // namespace
+
+bool is_tiff(const std::string& bytes) {
+  using namespace std::string_view_literals;
+  const std::string_view head = std::string_view(bytes).substr(0, 4);
+  return head == "II*\0"sv || head == "MM\0*"sv;
+}
+
+Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // of a strip or a tile
+  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                             TIFFOpenOptionsFree);
+  const auto quiet = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kLargestBlock);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), quiet, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), quiet, nullptr);
+  Stream stream{bytes};
+  const std::unique_ptr<TIFF, Close> file(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
+                                                            no_write, seek, no_close, size_of,
+                                                            nullptr, nullptr, options.get()));
+  const auto damaged = [&](const std::string& why) {
+    return Error(ErrorKind::bad_input, name + ": the TIFF picture cannot be read" + why);
+  };
+  uint32_t width = 0, height = 0;
+  if (!file || !TIFFGetField(file.get(), TIFFTAG_IMAGEWIDTH, &width) ||
+      !TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &height) || width == 0 || height == 0)
+    throw damaged("");
+  pixels.take(width, height, name);
+  char why[1024] = "";
+  if (!TIFFRGBAImageOK(file.get(), why)) throw damaged(std::string(": ") + why);
+  Image image(static_cast<int>(width), static_cast<int>(height));
+  auto* packed = reinterpret_cast<uint32_t*>(image.pixels.data());
+  if (!TIFFReadRGBAImageOriented(file.get(), width, height, packed, ORIENTATION_TOPLEFT, 1))
+    throw damaged("; it is damaged or cut off");
+  make_straight(image);
+  uint32_t size = 0;
+  void* profile = nullptr;
+  if (TIFFGetField(file.get(), TIFFTAG_ICCPROFILE, &size, &profile))
+    to_srgb(image, std::string(static_cast<const char*>(profile), size));
+  // libtiff has mirrored it upright; rows for columns are left to do.
+  uint16_t orientation = 1;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
+  const bool over = orientation == ORIENTATION_LEFTTOP || orientation == ORIENTATION_RIGHTBOT,
+             under = orientation == ORIENTATION_RIGHTTOP || orientation == ORIENTATION_LEFTBOT;
+  return upright(std::move(image), over ? 5 : under ? 7 : 1);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,127 @@
+// Little CMS does the colors.
+#include "scene/formats/to_srgb.h"
+
+#include <lcms2.h>
+
+#include <cmath>
+
+namespace holomorph {
+namespace {
+
+struct Close {
+  void operator()(void* profile) const { cmsCloseProfile(profile); }
+};
+using Profile = std::unique_ptr<void, Close>;
+struct Delete {
+  void operator()(void* transform) const { cmsDeleteTransform(transform); }
+};
+using Conversion = std::unique_ptr<void, Delete>;
+
+constexpr size_t kLargestProfile = 8 << 20;
+
+Profile opened(const std::string& bytes) {
+  if (bytes.size() > kLargestProfile) return {};
+  return Profile(cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
+}
+
+Conversion conversion(const Profile& from, cmsUInt32Number format) {
+  const Profile srgb(cmsCreate_sRGBProfile());
+  return Conversion(cmsCreateTransform(from.get(), format, srgb.get(), TYPE_RGBA_8,
+                                       INTENT_RELATIVE_COLORIMETRIC,
+                                       cmsFLAGS_COPY_ALPHA | cmsFLAGS_BLACKPOINTCOMPENSATION));
+}
+
+/// Whether colors stay as they are, within rounding.
+bool is_identity(const Conversion& conversion) {
+  std::vector<std::uint8_t> grid;
+  for (int r = 0; r < 256; r += 15)
+    for (int g = 0; g < 256; g += 15)
+      for (int b = 0; b < 256; b += 15)
+        for (const int value : {r, g, b, 255}) grid.push_back(static_cast<std::uint8_t>(value));
+  std::vector<std::uint8_t> converted(grid.size());
+  cmsDoTransform(conversion.get(), grid.data(), converted.data(),
+                 static_cast<cmsUInt32Number>(grid.size() / 4));
+  for (size_t i = 0; i < grid.size(); ++i)
+    if (std::abs(grid[i] - converted[i]) > 1) return false;
+  return true;
+}
+
+void convert(Image& image, const Conversion& conversion) {
+  if (!conversion || is_identity(conversion)) return;
+  for (int r = 0; r < image.height; ++r)
+    cmsDoTransform(conversion.get(), image.at(0, r), image.at(0, r),
+                   static_cast<cmsUInt32Number>(image.width));
+}
+
+/// The same by a profile of gray: all three channels hold it.
+void convert_gray(Image& image, const Conversion& conversion) {
+  std::uint8_t grays[256];
+  std::uint8_t colors[256 * 4];
+  for (int i = 0; i < 256; ++i) grays[i] = static_cast<std::uint8_t>(i);
+  cmsDoTransform(conversion.get(), grays, colors, 256);
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    std::copy_n(colors + 4 * static_cast<size_t>(image.pixels[i]), 3, &image.pixels[i]);
+}
+
+}  // namespace
+
+void to_srgb(Image& image, const std::string& bytes) {
+  const Profile profile = opened(bytes);
+  if (!profile) return;
+  const cmsColorSpaceSignature colors = cmsGetColorSpace(profile.get());
+  if (colors == cmsSigRgbData) {
+    convert(image, conversion(profile, TYPE_RGBA_8));
+  } else if (colors == cmsSigGrayData) {
+    const Profile srgb(cmsCreate_sRGBProfile());
+    const Conversion gray(cmsCreateTransform(profile.get(), TYPE_GRAY_8, srgb.get(), TYPE_RGBA_8,
+                                             INTENT_RELATIVE_COLORIMETRIC,
+                                             cmsFLAGS_BLACKPOINTCOMPENSATION));
+    if (gray) convert_gray(image, gray);
+  }
+}
+
+void to_srgb(Image& image, const Chromaticities& p, double gamma) {
+  if (!(gamma > 0.01 && gamma < 100)) return;
+  cmsCIExyY white{p.white[0], p.white[1], 1};
+  cmsCIExyYTRIPLE primaries{
+      {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
+  // 1 / 2.2 is what files of sRGB say.
+  constexpr double kLikeSrgb = 0.005;
+  const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb
+                            ? cmsBuildParametricToneCurve(nullptr, 4, srgb)
+                            : cmsBuildGamma(nullptr, 1 / gamma);
+  cmsToneCurve* curves[3] = {curve, curve, curve};
+  const Profile profile(curve ? cmsCreateRGBProfile(&white, &primaries, curves) : nullptr);
+  if (curve) cmsFreeToneCurve(curve);
+  if (profile) convert(image, conversion(profile, TYPE_RGBA_8));
+}
+
+struct CmykToSrgb::Transform {
+  Conversion conversion;
+};
+
+CmykToSrgb::CmykToSrgb(const std::string& bytes) {
+  const Profile profile = opened(bytes);
+  if (!profile || cmsGetColorSpace(profile.get()) != cmsSigCmykData) return;
+  const Profile srgb(cmsCreate_sRGBProfile());
+  // RGBA as four bytes a color: lcms leaves the fourth, which row() sets.
+  Conversion found(cmsCreateTransform(profile.get(), TYPE_CMYK_8_REV, srgb.get(), TYPE_RGBA_8,
+                                      INTENT_RELATIVE_COLORIMETRIC,
+                                      cmsFLAGS_BLACKPOINTCOMPENSATION));
+  if (found) transform_ = std::make_unique<Transform>(Transform{std::move(found)});
+}
+
+CmykToSrgb::~CmykToSrgb() = default;
+
+void CmykToSrgb::row(const std::uint8_t* cmyk, std::uint8_t* rgba, int count) const {
+  if (transform_)
+    cmsDoTransform(transform_->conversion.get(), cmyk, rgba, static_cast<cmsUInt32Number>(count));
+  for (int i = 0; i < count; ++i, cmyk += 4, rgba += 4) {
+    for (int k = 0; k < 3 && !transform_; ++k)
+      rgba[k] = static_cast<std::uint8_t>((cmyk[k] * cmyk[3] + 127) / 255);
+    rgba[3] = 255;
+  }
+}
+
+}  // namespace holomorph

@@ -1,0 +1,72 @@
+// WebP by libwebp.
+#include <webp/decode.h>
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+#include "scene/formats/to_srgb.h"
+
+namespace holomorph {
+
+bool is_webp(const std::string& bytes) {
+  return bytes.size() > 12 && bytes.starts_with("RIFF") && bytes.compare(8, 4, "WEBP") == 0;
+}
+
+namespace {
+
+/// A chunk beside the pixels: Exif data, a color profile; empty without one.
+std::string chunk_of(const std::string& bytes, const char* kind) {
+  const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+  const std::unique_ptr<WebPMux, void (*)(WebPMux*)> mux(WebPMuxCreate(&file, 0), WebPMuxDelete);
+  WebPData chunk{};
+  if (!mux || WebPMuxGetChunk(mux.get(), kind, &chunk) != WEBP_MUX_OK) return "";
+  return {reinterpret_cast<const char*>(chunk.bytes), chunk.size};
+}
+
+int orientation_of(const std::string& bytes) {
+  const std::string exif = chunk_of(bytes, "EXIF");
+  if (exif.empty()) return 1;
+  return orientation_of_exif(exif.starts_with("Exif") ? exif
+                                                      : "Exif" + std::string(2, '\0') + exif);
+}
+
+}  // namespace
+
+Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+  WebPBitstreamFeatures features{};
+  if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
+    throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
+  if (features.has_animation)
+    throw Error(ErrorKind::bad_input,
+                name + ": this WebP is animated; open one of its frames, saved as a picture");
+  // How long the file is stands in its first chunk.
+  const auto byte = [&](size_t i) { return static_cast<size_t>(data[i]); };
+  if ((byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24) + 8 > bytes.size())
+    throw Error(ErrorKind::bad_input, name + ": the picture is cut off: the file ends too early");
+  pixels.take(static_cast<size_t>(features.width), static_cast<size_t>(features.height), name);
+  Image image(features.width, features.height);
+  if (!WebPDecodeRGBAInto(data, bytes.size(), image.pixels.data(), image.pixels.size(),
+                          4 * image.width))
+    throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
+  if (const std::string profile = chunk_of(bytes, "ICCP"); !profile.empty())
+    to_srgb(image, profile);
+  return upright(std::move(image), orientation_of(bytes));
+}
+
+std::string encode_webp(const Image& image) {
+  if (std::max(image.width, image.height) > WEBP_MAX_DIMENSION)
+    throw Error(ErrorKind::failed, "WebP pictures have at most 16383 pixels a side; take PNG");
+  std::uint8_t* data = nullptr;
+  const size_t size = WebPEncodeLosslessRGBA(image.pixels.data(), image.width, image.height,
+                                             4 * image.width, &data);
+  const std::unique_ptr<std::uint8_t, void (*)(void*)> owner(data, WebPFree);
+  if (size == 0) throw Error(ErrorKind::failed, "the picture could not be encoded as WebP");
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace holomorph

@@ -1,0 +1,114 @@
+// Distortion of maps that are known in closed form.
+#include "core/maps/distortion.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <catch2/catch.hpp>
+
+#include "core/maps/injectivity.h"
+#include "core/mesh/mesher.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+template <class F, class Fz, class Fzbar>
+SampledMap sampled(const Points& points, F f, Fz fz, Fzbar fzbar) {
+  const Index n = static_cast<Index>(points.size());
+  SampledMap map;
+  map.f = map.fz = map.fzbar = VectorXc(n);
+  for (Index i = 0; i < n; ++i)
+    map.f[i] = f(points[i]), map.fz[i] = fz(points[i]), map.fzbar[i] = fzbar(points[i]);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("Distortion of an affine map is its singular values'") {
+  const Complex a{1.5, 0.5}, b{0.3, -0.2};
+  const auto map = sampled(
+      {{0, 0}, {3, 4}}, [&](Complex z) { return a * z + b * std::conj(z); },
+      [&](Complex) { return a; }, [&](Complex) { return b; });
+  Eigen::Matrix2d jacobian;
+  jacobian << (a + b).real(), -(a - b).imag(), (a + b).imag(), (a - b).real();
+  const Eigen::Vector2d sigma = jacobian.jacobiSvd().singularValues();
+  const Distortion d = distortion_of(map);
+  CHECK(std::exp2(d.area[0]) == Approx(jacobian.determinant()));
+  CHECK(d.k[1] == Approx(std::abs(b) / std::abs(a)));
+  CHECK(d.stretch[0] ==
+        Approx(std::max(std::abs(a) + std::abs(b), 1 / (std::abs(a) - std::abs(b)))));
+  CHECK(d.stretch[1] == Approx(std::max(sigma[0], 1 / sigma[1])));
+  CHECK(d.k[0] == Approx((sigma[0] - sigma[1]) / (sigma[0] + sigma[1])));
+}
+
+TEST_CASE("The zeros of the derivative, the turning number and flips are found") {
+  const Mesh mesh = domain_mesh(shapes::star(40, 0.05, 6), {2000});
+  const Complex zero{215, 190};
+  const auto square = sampled(
+      mesh.vertices, [&](Complex z) { return (z - zero) * (z - zero) / 100.0; },
+      [&](Complex z) { return (z - zero) / 50.0; }, [](Complex) { return Complex(0); });
+  const MapReport report = report_of(mesh, square);
+  REQUIRE(report.zeros.size() == 1);
+  CHECK(std::abs(report.zeros[0] - zero) < 10);
+  CHECK(report.turning_number == Approx(2));
+  CHECK_FALSE(report.simple_boundary);
+  CHECK_FALSE(report.locally_injective());
+
+  const auto mirror = sampled(
+      mesh.vertices, [](Complex z) { return std::conj(z); }, [](Complex) { return Complex(0); },
+      [](Complex) { return Complex(1); });
+  CHECK(report_of(mesh, mirror).flipped_triangles == static_cast<int>(mesh.triangles.size()));
+
+  const auto identity = sampled(
+      mesh.vertices, [](Complex z) { return z; }, [](Complex) { return Complex(1); },
+      [](Complex) { return Complex(0); });
+  CHECK(report_of(mesh, identity).locally_injective());
+  CHECK(report_of(mesh, identity).simple_boundary);
+}
+
+TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with its sign") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(40, 30), {300});
+  for (const auto& [a, b] : {std::pair<Complex, Complex>({1.5, 0.5}, {0.3, -0.2}),
+                             {{0.2, 0.1}, {0.9, 0.3}},
+                             {{1, 0}, {0, 0}}}) {
+    VectorXc f(static_cast<Index>(mesh.vertices.size()));
+    for (Index i = 0; i < f.size(); ++i) {
+      const Complex z = mesh.vertices[static_cast<size_t>(i)];
+      f[i] = a * z + b * std::conj(z) + Complex(3, -2);
+    }
+    const Injectivity found = injectivity_of(mesh, f);
+    CHECK(found.least_stretch == Approx(std::abs(a) - std::abs(b)));
+    CHECK(found.folds() == (std::abs(a) < std::abs(b)));
+    CHECK(found.boundary_turns == Approx(found.folds() ? -1 : 1));
+  }
+  // z^3 + 3 r z presses everything to nothing near its branch points.
+  VectorXc f(static_cast<Index>(mesh.vertices.size()));
+  for (Index i = 0; i < f.size(); ++i) {
+    const Complex z = mesh.vertices[static_cast<size_t>(i)] - Complex(20, 15);
+    f[i] = z * z * z + 3 * 36.0 * z;
+  }
+  const Injectivity found = injectivity_of(mesh, f);
+  CHECK(found.boundary_turns == Approx(3));
+  CHECK(std::abs(found.least_stretch) < 0.1 * 3 * 36);
+  REQUIRE_FALSE(found.folds_at.empty());
+  CHECK(std::min(std::abs(found.folds_at[0] - Complex(0, 2 * 216)),
+                 std::abs(found.folds_at[0] + Complex(0, 2 * 216))) < 120);
+}
+
+TEST_CASE("Injectivity: loops that cannot be seen are no folds, others are") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(400, 300), {3000});
+  for (const double reach : {2.0, 120.0}) {
+    // A corner is turned over.
+    VectorXc f(static_cast<Index>(mesh.vertices.size()));
+    for (Index i = 0; i < f.size(); ++i) {
+      const Complex z = mesh.vertices[static_cast<size_t>(i)];
+      const double depth = reach - z.real() - z.imag();  // beyond the line x + y = reach
+      f[i] = depth > 0 ? z + 1.2 * depth * Complex(1, 1) : z;
+    }
+    const Injectivity found = injectivity_of(mesh, f);
+    INFO("reach " << reach);
+    CHECK(found.folds() == (reach > 10));
+    CHECK((found.least_stretch < 0) == (reach > 10));
+  }
+}

@@ -1,0 +1,75 @@
+// Which triangles are drawn last: those nearest to the highest place, through the mesh.
+#include "core/mesh/draw_order.h"
+#include "core/mesh/mesher.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+Complex middle(const Mesh& mesh, const Triangle& t) {
+  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+}
+
+/// Where each triangle stands in the order.
+std::map<Triangle, size_t> turns_of(const std::vector<Triangle>& order) {
+  std::map<Triangle, size_t> turns;
+  for (size_t i = 0; i < order.size(); ++i) turns[order[i]] = i;
+  return turns;
+}
+
+}  // namespace
+
+TEST_CASE("The order has each triangle once, and is the mesh's own among equals") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
+  CHECK(draw_order(mesh, {}) == mesh.triangles);
+  const std::vector<Depth> level{{{50, 50}, 3}, {{250, 50}, 3}}, away{{{900, 900}, 7}};
+  CHECK(draw_order(mesh, level) == mesh.triangles);
+  CHECK(draw_order(mesh, away) == mesh.triangles);
+  const std::vector<Depth> two{{{50, 50}, 0}, {{250, 50}, 1}};
+  std::vector<Triangle> order = draw_order(mesh, two), all = mesh.triangles;
+  std::ranges::sort(order);
+  std::ranges::sort(all);
+  CHECK(order == all);
+}
+
+TEST_CASE("What is nearest to the higher place comes later") {
+  const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
+  for (const int height : {1, -1}) {
+    const std::vector<Depth> depths{{{50, 50}, 0}, {{250, 50}, height}};
+    const auto turns = turns_of(draw_order(mesh, depths));
+    size_t last_lower = 0, first_higher = turns.size();
+    for (const Triangle& t : mesh.triangles) {
+      const double x = middle(mesh, t).real();
+      if (std::abs(x - 150) < 30) continue;  // between the two
+      if ((x > 150) == (height > 0))
+        first_higher = std::min(first_higher, turns.at(t));
+      else
+        last_lower = std::max(last_lower, turns.at(t));
+    }
+    INFO(height);
+    CHECK(last_lower < first_higher);
+  }
+}
+
+TEST_CASE("Near is meant through the mesh, not across a gap") {
+  // A U: its arms' ends are near each other in the plane and far along the shape.
+  const Points u{{0, 0}, {110, 0}, {110, 300}, {60, 300}, {60, 50}, {50, 50}, {50, 300}, {0, 300}};
+  const Mesh mesh = domain_mesh(u, {900});
+  const std::vector<Depth> depths{{{85, 290}, 1}, {{25, 100}, 0}};
+  const auto turns = turns_of(draw_order(mesh, depths));
+  size_t lowest_high = turns.size(), highest_low = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Complex z = middle(mesh, t);
+    if (z.imag() < 250) continue;
+    if (z.real() > 60)
+      lowest_high = std::min(lowest_high, turns.at(t));
+    else
+      highest_low = std::max(highest_low, turns.at(t));
+  }
+  CHECK(highest_low < lowest_high);
+}

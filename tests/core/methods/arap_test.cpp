@@ -1,0 +1,126 @@
+// As rigid as possible, on triangles and among smooth maps.
+#include <catch2/catch.hpp>
+
+#include "core/maps/deformer.h"
+#include "core/mesh/mesher.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// A bar held at both ends, one of them turned by `angle` around the bar's middle.
+struct Bar {
+  Rest rest;
+  Pose pose;
+
+  explicit Bar(double angle) {
+    rest.cage = polygon_cage(shapes::rectangle(600, 100));
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {600}));
+    rest.samples = rest.mesh->vertices;
+    rest.precision = Precision::full;
+    pose.cage = rest.cage;
+    for (const Complex z : {Complex(20, 20), Complex(20, 80), Complex(580, 20), Complex(580, 80)}) {
+      rest.pins.push_back({z, false});
+      const bool turned = z.real() > 300;
+      const Complex center(300, 50);
+      pose.pins.push_back({turned ? center + std::polar(1.0, angle) * (z - center) : z, 0, 1});
+    }
+  }
+};
+
+/// Mean over the area of |f_z - f_z / |f_z||^2 + |f_zbar|^2.
+double energy(const Mesh& mesh, const VectorXc& f) {
+  double sum = 0, total = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Complex a = mesh.vertices[static_cast<size_t>(j)] - mesh.vertices[static_cast<size_t>(i)],
+                  b = mesh.vertices[static_cast<size_t>(k)] - mesh.vertices[static_cast<size_t>(i)];
+    const Complex u = f[j] - f[i], v = f[k] - f[i];
+    const Complex over = 1.0 / (a * std::conj(b) - b * std::conj(a));
+    const Complex fz = (u * std::conj(b) - v * std::conj(a)) * over, fzbar = (a * v - b * u) * over;
+    const double area = 0.5 * cross(a, b);
+    sum += area * (std::pow(std::abs(fz) - 1, 2) + std::norm(fzbar));
+    total += area;
+  }
+  return sum / total;
+}
+
+}  // namespace
+
+TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its pins are met") {
+  for (const double angle : {0.8, 1.6}) {
+    const Bar bar(angle);
+    const auto run = [&](const char* id) {
+      SampledMap map;
+      method_named(id).prepare(bar.rest, nullptr)->deform(bar.pose, map, {});
+      return map;
+    };
+    const double pins = energy(*bar.rest.mesh, run("pins").f);
+    const SampledMap mesh = run("arap"), smooth = run("har_arap");
+    INFO("angle " << angle << ": pins " << pins << ", arap " << energy(*bar.rest.mesh, mesh.f)
+                  << ", har_arap " << energy(*bar.rest.mesh, smooth.f));
+    CHECK(energy(*bar.rest.mesh, mesh.f) < 0.8 * pins);
+    CHECK(energy(*bar.rest.mesh, smooth.f) < 0.9 * pins);
+    for (const SampledMap* map : {&mesh, &smooth})
+      for (size_t i = 0; i < bar.rest.pins.size(); ++i) {
+        const auto at = locate(*bar.rest.mesh, bar.rest.mesh->vertices, bar.rest.pins[i].position);
+        const Complex place =
+            at->in(*bar.rest.mesh, {map->f.data(), static_cast<size_t>(map->f.size())});
+        CHECK(std::abs(place - bar.pose.pins[i].position) < 3);  // pixels of 600
+      }
+  }
+}
+
+TEST_CASE("As rigid as possible: no small change of the answer is more rigid") {
+  const Bar bar(1.2);
+  SampledMap map;
+  method_named("arap").prepare(bar.rest, nullptr)->deform(bar.pose, map, {});
+  const double least = energy(*bar.rest.mesh, map.f);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 20; ++trial) {
+    // A smooth bump between the held ends, which leaves the pins alone.
+    const Complex center(120 + 360 * std::abs(unit(random)), 50), by{unit(random), unit(random)};
+    VectorXc moved = map.f;
+    for (Index i = 0; i < moved.size(); ++i) {
+      const double far = std::abs(bar.rest.mesh->vertices[static_cast<size_t>(i)] - center) / 60;
+      moved[i] += by * std::exp(-far * far);
+    }
+    CHECK(energy(*bar.rest.mesh, moved) > least - 1e-7);
+  }
+}
+
+TEST_CASE(
+    "As rigid as possible: a draft goes on from the last frame and ends where the final does") {
+  for (const char* id : {"arap", "har_arap"}) {
+    const Bar bar(0.7);
+    const auto deformer = method_named(id).prepare(bar.rest, nullptr);
+    SampledMap draft, final_map;
+    deformer->deform(bar.pose, final_map, {});
+    for (int frame = 0; frame < 40; ++frame) deformer->deform(bar.pose, draft, {false, true});
+    INFO(id);
+    CHECK((draft.f - final_map.f).cwiseAbs().maxCoeff() < 0.3);
+    SampledMap again;
+    deformer->deform(bar.pose, again, {});
+    CHECK(again.f == final_map.f);  // whatever was dragged before
+  }
+}
+
+TEST_CASE("As rigid as possible: without pins the cage's vertices hold, curved or clockwise") {
+  for (const Cage& cage : {polygon_cage(shapes::l_shape()), shapes::curved_star(7, 3, 0.2, 2),
+                           reversed(polygon_cage(shapes::l_shape()))})
+    for (const char* id : {"arap", "har_arap"}) {
+      Rest rest;
+      rest.cage = cage;
+      rest.mesh = std::make_shared<const Mesh>(domain_mesh(cage, {600}));
+      rest.samples = rest.mesh->vertices;
+      Pose pose{cage, {}};
+      pose.cage.segments[1][0] += Complex(8, -14);
+      SampledMap map;
+      method_named(id).prepare(rest, nullptr)->deform(pose, map, {});
+      INFO(id << ", " << cage.size() << " segments");
+      for (Index v = 0; v < cage.size(); ++v)
+        CHECK(std::abs(map.f[rest.mesh->cage_vertices[static_cast<size_t>(v)]] -
+                       pose.cage.vertex(v)) < 1.5);  // of a vertex moved by 16
+    }
+}

@@ -1,0 +1,85 @@
+// Painted stiffness: how it adds up, and that what is stiff keeps its shape better.
+#include "core/geometry/stiffness.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/maps/deformer.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/mesher.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// A bar whose right end is pulled up, by method arap; returns the map and its mesh.
+struct Bent {
+  Rest rest;
+  SampledMap map;
+
+  explicit Bent(std::vector<Dab> stiffness) {
+    rest.cage = polygon_cage(shapes::rectangle(300, 60));
+    auto mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {900}));
+    rest.mesh = mesh;
+    rest.samples = mesh->vertices;
+    rest.stiffness = std::move(stiffness);
+    for (const double x : {10.0, 290.0}) rest.pins.push_back({{x, 30}});
+    Pose pose{rest.cage, {{{10, 30}}, {{200, 190}}}};
+    method_named("arap").prepare(rest, nullptr)->deform(pose, map, {});
+  }
+  /// How far the triangles between two abscissas are from rigid, on average.
+  double strain(double from, double to) const {
+    const VertexDerivatives d = vertex_derivatives(*rest.mesh, map.f);
+    double sum = 0;
+    int count = 0;
+    for (Index i = 0; i < map.f.size(); ++i) {
+      const double x = rest.samples[static_cast<size_t>(i)].real();
+      if (x < from || x > to) continue;
+      sum += std::abs(std::abs(d.fz[i]) - 1) + std::abs(d.fzbar[i]);
+      ++count;
+    }
+    return sum / count;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Touches add up, fall off to nothing and stay within bounds") {
+  const std::vector<Dab> one{{{10, 20}, 30, 0.5}};
+  CHECK(stiffness_level({}, {10, 20}) == 0);
+  CHECK(stiffness_level(one, {10, 20}) == 0.5);
+  CHECK(stiffness_level(one, {25, 20}) == Approx(0.5 * 0.75 * 0.75));
+  CHECK(stiffness_level(one, {40, 20}) == 0);
+  std::vector<Dab> many(20, one[0]);
+  CHECK(stiffness_level(many, {10, 20}) == kMostStiffness);
+  for (Dab& dab : many) dab.level = -1;
+  CHECK(stiffness_level(many, {10, 20}) == kLeastStiffness);
+  many.push_back({{10, 20}, 30, 19.5});
+  CHECK(stiffness_level(many, {10, 20}) == Approx(-0.5));
+}
+
+TEST_CASE("What is stiff keeps its shape, and what is soft gives way") {
+  const Bent plain({}), stiff({{{80, 30}, 110, 2}}), soft({{{80, 30}, 110, -1}});
+  CHECK(stiff.strain(30, 130) < 0.4 * plain.strain(30, 130));
+  CHECK(soft.strain(30, 130) > 1.3 * plain.strain(30, 130));
+  CHECK(stiff.strain(190, 270) > plain.strain(190, 270));
+  // Pins hold however stiff it is around them.
+  for (const Bent* bent : {&plain, &stiff, &soft}) {
+    const auto at = locate(*bent->rest.mesh, bent->rest.samples, {290, 30});
+    REQUIRE(at);
+    const Complex place = at->in(*bent->rest.mesh, {bent->map.f.data(), bent->rest.samples.size()});
+    CHECK(std::abs(place - Complex(200, 190)) < 0.5);
+  }
+}
+
+TEST_CASE("The same stiffness everywhere is none") {
+  const Bent plain({}), even({{{150, 30}, 1e5, 1}});
+  CHECK((plain.map.f - even.map.f).cwiseAbs().maxCoeff() < 0.5);
+}
+
+TEST_CASE("Only methods that know stiffness are given it") {
+  Rest rest;
+  rest.stiffness = {{{0, 0}, 10, 1}};
+  for (const Method& method : methods())
+    CHECK(used_by(method, rest).stiffness.empty() == (method.id != "arap"));
+}

@@ -1,0 +1,545 @@
+// Outlines onto outlines: the parts, and the whole.
+#include <Eigen/QR>
+#include <catch2/catch.hpp>
+
+#include "bench/outlines.h"
+#include "core/cauchy/cauchy.h"
+#include "core/error.h"
+#include "core/maps/deformer.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/mesher.h"
+#include "core/outline/outline_match.h"
+#include "core/outline/outline_start.h"
+#include "core/outline/riemann.h"
+#include "core/solvers/alternating_fit.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+Points circle(Complex center, double radius, int n) {
+  Points points;
+  for (int i = 0; i < n; ++i) points.push_back(center + radius * std::polar(1.0, 2 * kPi * i / n));
+  return points;
+}
+
+Points moved(Points points, Complex factor, Complex shift) {
+  for (Complex& z : points) z = factor * z + shift;
+  return points;
+}
+
+/// A map of method `outline` on a mesh.
+struct Onto {
+  Rest rest;
+  Pose pose;
+  SampledMap map;
+  std::unique_ptr<Deformer> deformer;
+
+  Onto(const Cage& cage, const Points& outline, const Parameters& parameters = {}) {
+    rest.cage = cage;
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(cage, {1500}));
+    rest.samples = rest.mesh->vertices;
+    rest.derivative_samples = derivative_samples(*rest.mesh);
+    rest.parameters = parameters;
+    rest.precision = Precision::full;
+    rest.outline = outline;
+    pose = {cage, {}};
+    deformer = method_named("outline").prepare(rest, nullptr);
+    deformer->deform(pose, map, {true, false});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Riemann map: of a disk it is a map of the disk to itself") {
+  const Complex middle(3, 1), center(3.5, 1.2);
+  constexpr double kArcs = 2e-6;  // 400 vertices, each arc a third-order fit
+  const RiemannMap map(circle(middle, 2, 400), center);
+  const auto exact = [&](Complex z) {
+    const Complex u = (z - middle) / 2.0, a = (center - middle) / 2.0;
+    return (u - a) / (1.0 - std::conj(a) * u);
+  };
+  CHECK(std::abs(map.at(center)) <= 1e-12);
+  const Complex turn = map.at({4, 2}) / exact({4, 2});
+  CHECK(std::abs(std::abs(turn) - 1) <= kArcs);
+  for (const Complex z : {Complex(3, 1), Complex(2, 0.5), Complex(3.1, 2.7), Complex(4.9, 1)})
+    CHECK(std::abs(map.at(z) - turn * exact(z)) <= kArcs);
+  const VectorXd& angles = map.angles();
+  for (Index i = 1; i < angles.size(); ++i) REQUIRE(angles[i] > angles[i - 1]);
+  CHECK(angles[angles.size() - 1] < angles[0] + 2 * kPi);
+  for (Index i = 3; i < angles.size(); i += 40)  // the first arcs are the least exact
+    CHECK(std::abs(std::polar(1.0, angles[i]) -
+                   turn * exact(middle + 2.0 * std::polar(1.0, 2 * kPi * i / 400.0))) <= 1e-4);
+}
+
+TEST_CASE("Riemann map: it does not depend on where the outline stands") {
+  const Points outline = outlines::random(5, true, 300);
+  const Complex factor = std::polar(2.0, 0.9), shift(40, -7);
+  const RiemannMap map(outline, 0), other(moved(outline, factor, shift), shift);
+  CHECK((map.angles() - other.angles()).cwiseAbs().maxCoeff() <= 1e-9);
+  for (const Complex z : {Complex(20, 30), Complex(-50, 10)})
+    CHECK(std::abs(map.at(z) - other.at(factor * z + shift)) <= 1e-9);
+}
+
+TEST_CASE("Riemann map: an outline that touches itself is refused") {
+  CHECK_THROWS_AS(RiemannMap(Points{{0, 0}, {1, 0}, {1, 0}, {0, 1}}, {0.2, 0.2}), Error);
+}
+
+TEST_CASE("Polyline: the nearest point is that of a search through all segments") {
+  for (const bool closed : {true, false}) {
+    const Points points = outlines::random(3, true, 157);
+    const Polyline line(points, closed);
+    for (int i = 0; i < 300; ++i) {
+      const Complex z = 500.0 * std::polar(std::fmod(0.37 * i, 1.3), 2.1 * i);
+      double least = 1e300;
+      for (Index s = 0; s < line.segments(); ++s)
+        least = std::min(least, nearest_on_segment(points[static_cast<size_t>(s)],
+                                                   points[static_cast<size_t>(s + 1) % 157], z)
+                                    .distance);
+      const Polyline::Nearest nearest = line.nearest(z, i % 100);
+      REQUIRE(std::abs(nearest.distance - least) <= 1e-12 * 600);
+      REQUIRE(std::abs(nearest.distance - std::abs(nearest.point - z)) <= 1e-12 * 600);
+      REQUIRE(std::abs(line.at(line.length_at(nearest.segment, nearest.parameter)) -
+                       nearest.point) <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("Polyline: it is resampled at equal lengths and in short steps") {
+  const Polyline square(Points{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, true);
+  CHECK(square.length() == 16);
+  CHECK(square.at(-2) == Complex(0, 2));
+  CHECK(square.at(21) == Complex(4, 1));
+  CHECK(at_equal_lengths(square, 8)[3] == Complex(4, 2));
+  const Points steps = outlines::with_steps(square, 1.5);
+  CHECK(steps.size() == 12);
+  const Polyline open(Points{{0, 0}, {3, 0}}, false);
+  CHECK(at_equal_lengths(open, 4).back() == Complex(3, 0));
+  CHECK(open.at(99) == Complex(3, 0));
+  CHECK(one_sided_distance(open, square) == 0);
+  CHECK(one_sided_distance(square, open) == Approx(std::hypot(1, 4)));
+}
+
+TEST_CASE("Correspondence: an outline goes to itself, wherever the two stand") {
+  for (const unsigned seed : {1u, 2u, 7u}) {
+    const Points outline = outlines::random(seed, seed % 2, 300);
+    const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
+    const Polyline source(outline, true), target(moved(outline, factor, shift), true);
+    const Correspondence pairs = ConformalStart(source, target, 0).best();
+    CHECK(pairs.badness <= 0.02);
+    for (double s = 0; s < source.length(); s += 0.07 * source.length())
+      CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
+            0.01 * target.diagonal());
+    // Once around is once around.
+    CHECK(pairs(5 + source.length()) == Approx(pairs(5) + target.length()));
+  }
+}
+
+TEST_CASE("Correspondence: a square is not turned on its way to a circle or an ellipse") {
+  const Polyline square(Points{{-200, -200}, {200, -200}, {200, 200}, {-200, 200}}, true);
+  for (const double height : {1.0, 0.7}) {
+    Points round = circle(0, 250, 200);
+    for (Complex& z : round) z = {z.real(), height * z.imag()};
+    std::rotate(round.begin(), round.begin() + 77, round.end());
+    const Polyline target(round, true);
+    const Correspondence pairs = ConformalStart(square, target, 1).best();
+    // The middle of the right side goes to the right.
+    const Complex to = target.at(pairs(600));
+    CHECK(std::abs(std::arg(to)) <= 0.2);
+  }
+}
+
+TEST_CASE("Alternating fit: fixed targets are met by least squares, moving ones ever better") {
+  const Cage cage = polygon_cage(outlines::random(4, false, 40));
+  std::vector<BoundaryPoint> places;
+  for (Index e = 0; e < cage.size(); ++e)
+    for (const double t : {0.0, 0.3, 0.6}) places.push_back({e, t});
+  const MatrixXc rows = cauchy_coordinates(cage, places, 0);
+  VectorXc wanted(rows.rows());
+  for (Index i = 0; i < wanted.size(); ++i) wanted[i] = 30.0 * std::polar(1.0, 0.7 * i);
+  const MatrixXc half = rows.topRows(rows.rows() / 2), rest = rows.bottomRows(rows.rows() / 2);
+  AlternatingFit fixed(
+      {{half, 2, [&](const VectorXc&, VectorXc& targets) { targets = wanted.head(half.rows()); }},
+       {rest, 2}});
+  fixed.give(1, wanted.tail(rest.rows()));
+  fixed.start(wanted.head(half.rows()));
+  const VectorXc best = rows.householderQr().solve(wanted);
+  CHECK((fixed.unknowns() - best).norm() <= 1e-9 * best.norm());
+  CHECK(fixed.energy() == Approx(4 * (rows * best - wanted).squaredNorm() / rows.rows()));
+  fixed.step(AlternatingFit::Mode::anderson);
+  CHECK((fixed.unknowns() - best).norm() <= 1e-9 * best.norm());
+
+  const Polyline target(outlines::random(9, false, 200), true);
+  const auto project = [&](const VectorXc& values, VectorXc& targets) {
+    for (Index i = 0; i < values.size(); ++i) targets[i] = target.nearest(values[i]).point;
+  };
+  const auto normals = [&](const VectorXc& values, const VectorXc& targets, VectorXc& result) {
+    for (Index i = 0; i < values.size(); ++i) {
+      const Complex way = values[i] - targets[i];
+      result[i] = std::abs(way) > 0 ? way / std::abs(way) : Complex(1);
+    }
+  };
+  double after[3];
+  for (const auto mode : {AlternatingFit::Mode::zeroth, AlternatingFit::Mode::anderson,
+                          AlternatingFit::Mode::first_order}) {
+    AlternatingFit fit({{rows, 1, project, normals}});
+    fit.start(rows * controls_of(cage));
+    double energy = fit.energy();
+    for (int i = 0; i < 10; ++i) {
+      fit.step(mode);
+      CHECK(fit.energy() <= energy * (1 + 1e-12));
+      energy = fit.energy();
+    }
+    after[static_cast<int>(mode)] = energy;
+  }
+  CHECK(after[1] < after[0]);
+  CHECK(after[2] < after[0]);
+}
+
+TEST_CASE("Outline: random shapes go onto random outlines, without folds") {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Cage cage = polygon_cage(outlines::random(seed, seed % 2, 50));
+    const Points outline = outlines::random(seed + 100, seed % 3 == 0, 400);
+    INFO("seed " << seed);
+    // The boundary itself, densely: the mesh's is coarse where limbs are stretched.
+    const OutlineMatch match = matched({cage, outline, {}, {}}, {});
+    CHECK(match.zeros == 0);
+    CHECK(match.psi.size() == 0);
+    std::vector<BoundaryPoint> places;
+    for (Index e = 0; e < match.basis.size(); ++e)
+      for (int k = 0; k < 15; ++k) places.push_back({e, (k + 0.37) / 15});
+    const VectorXc f = cauchy_coordinates(match.basis, places, 0) * match.phi;
+    const Polyline target(outline, true), boundary(Points(f.begin(), f.end()), true);
+    CHECK(one_sided_distance(boundary, target) < 0.01 * target.diagonal());
+    CHECK(one_sided_distance(target, boundary) < 0.01 * target.diagonal());
+  }
+}
+
+TEST_CASE("Outline: shapes with limbs and corners go onto each other, without folds") {
+  const Points letter{{0, 0},     {200, 0},  {200, 60}, {60, 60},   {60, 130},  {170, 130},
+                      {170, 190}, {60, 190}, {60, 260}, {200, 260}, {200, 320}, {0, 320}},
+      bar{{-300, -30}, {300, -30}, {300, 30}, {-300, 30}}, round = circle(0, 100, 120);
+  Points star;
+  for (int i = 0; i < 10; ++i) star.push_back(std::polar(i % 2 ? 76.4 : 200.0, kPi * i / 5));
+  const std::pair<Points, Points> pairs[] = {{round, star}, {star, round}, {round, letter},
+                                             {bar, star},   {star, bar},   {letter, bar}};
+  for (const auto& [from, to] : pairs) {
+    const OutlineMatch match = matched({polygon_cage(from), to, {}, {}}, {});
+    INFO(from.size() << " corners onto " << to.size());
+    CHECK(match.zeros == 0);
+    CHECK(match.hausdorff < 0.01 * Polyline(to, true).diagonal());
+  }
+}
+
+TEST_CASE("Outline: moving, turning or scaling either shape changes nothing but the frame") {
+  constexpr double kRounding = 1e-7;  // of the zipper's 800 arcs, in units of the outline
+  const Points shape = outlines::random(11, true, 50), outline = outlines::random(12, false, 300);
+  const Complex factor = std::polar(4.0, 0.8), shift(30, 50);
+  OutlineSettings settings;
+  settings.upright = 0;
+  const OutlineMatch plain = matched({polygon_cage(shape), outline, {}, {}}, settings);
+  const auto differs = [&](const OutlineMatch& other, const Points& at, const Points& at_other,
+                           Complex turn, Complex move) {
+    const VectorXc f = cauchy_coordinates(plain.basis, at) * plain.phi,
+                   g = cauchy_coordinates(other.basis, at_other) * other.phi;
+    return (turn * f.array() + move - g.array()).abs().maxCoeff() / (600 * std::abs(turn));
+  };
+  const Points inner{{10, 20}, {-60, 30}, {50, -40}};
+  CHECK(differs(matched({polygon_cage(shape), moved(outline, factor, shift), {}, {}}, settings),
+                inner, inner, factor, shift) <= kRounding);
+  CHECK(differs(matched({polygon_cage(moved(shape, factor, shift)), outline, {}, {}}, settings),
+                inner, moved(inner, factor, shift), 1, 0) <= kRounding);
+  CHECK(differs(matched({polygon_cage(moved(shape, 4, 0)), moved(outline, 4, 0), {}, {}}, settings),
+                inner, moved(inner, 4, 0), 4, 0) <= 1e-12);
+  // Both together, as they are drawn.
+  const Points pin{{10, 20}}, pinned{{40, -30}};
+  for (const bool with_pin : {false, true}) {
+    const auto both = [&](Complex turn, Complex move) {
+      return matched({polygon_cage(moved(shape, turn, move)), moved(outline, turn, move),
+                      with_pin ? moved(pin, turn, move) : Points{},
+                      with_pin ? moved(pinned, turn, move) : Points{}},
+                     {});
+    };
+    const OutlineMatch here = both(1, 0), there = both(factor, shift);
+    const VectorXc f = cauchy_coordinates(here.basis, inner) * here.phi,
+                   g = cauchy_coordinates(there.basis, moved(inner, factor, shift)) * there.phi;
+    CHECK((factor * f.array() + shift - g.array()).abs().maxCoeff() / 2400 <= 1e-11);
+  }
+}
+
+TEST_CASE("Outline: as published, a square nears a blob as the paper's figure says") {
+  // The distance falls by about ten from iteration 1 to 10, and again to 100 (SB16 fig. 2).
+  const Points square{{-200, -200}, {200, -200}, {200, 200}, {-200, 200}};
+  const Points blob = outlines::random(21, false, 400);
+  double rms[3];
+  int at = 0;
+  for (const int iterations : {1, 10, 100}) {
+    OutlineSettings settings;
+    settings.published = true;
+    settings.vertices = 100;
+    settings.most_iterations = iterations;
+    rms[at++] = matched({polygon_cage(square), blob, {}, {}}, settings).rms / 600;
+  }
+  INFO(rms[0] << ", " << rms[1] << ", " << rms[2]);
+  CHECK(rms[0] < 0.1);
+  CHECK(rms[1] < 0.5 * rms[0]);
+  CHECK(rms[2] < rms[1]);
+}
+
+TEST_CASE("Outline: any shape goes onto a circle, which is its Riemann map") {
+  const Points shape = outlines::random(31, true, 120);
+  const Points round = circle({700, 300}, 250, 300);
+  const Onto onto(polygon_cage(shape), round);
+  for (const int v : onto.rest.mesh->boundary)
+    REQUIRE(std::abs(std::abs(onto.map.f[v] - Complex(700, 300)) - 250) <= 1e-3 * 500);
+  // Up to the disk's own maps it is the zipper's.
+  const RiemannMap exact(outlines::with_steps(Polyline(shape, true), 3), 0);
+  const auto cross_ratio = [](Complex a, Complex b, Complex c, Complex d) {
+    return (a - c) * (b - d) / ((a - d) * (b - c));
+  };
+  const auto points = onto.deformer->point_map(onto.pose);
+  const Complex z[4] = {{0, 0}, {40, 30}, {-60, 20}, {10, -70}};
+  const auto f = [&](int i) { return points->at(z[i]).f; };
+  const auto g = [&](int i) { return exact.at(z[i]); };
+  CHECK(std::abs(cross_ratio(f(0), f(1), f(2), f(3)) - cross_ratio(g(0), g(1), g(2), g(3))) <=
+        1e-2);
+}
+
+TEST_CASE("Outline: soft maps trade angles for nearness, and their derivatives are theirs") {
+  const Cage cage = polygon_cage(Points{{-200, -100}, {200, -100}, {200, 100}, {-200, 100}});
+  const Points outline = circle(0, 200, 200);
+  const Onto hard(cage, outline), soft(cage, outline, {{"softness", 1}});
+  CHECK(hard.map.fzbar.isZero(0));
+  CHECK(soft.map.fzbar.cwiseAbs().maxCoeff() > 0.01);
+  // More freedom never costs energy.
+  OutlineSettings settings;
+  settings.smoothness = 1;
+  settings.most_iterations = 100;
+  const auto energy = [&](double stiffness) {
+    settings.stiffness = stiffness;
+    return matched({cage, outline, {}, {}}, settings).energies.back();
+  };
+  const double conformal = energy(0), nearly = energy(1), loose = energy(1e-3);
+  INFO(conformal << ", " << nearly << ", " << loose);
+  CHECK(nearly <= conformal);
+  CHECK(loose < 0.9 * conformal);
+  const auto points = soft.deformer->point_map(soft.pose);
+  const double h = 1e-4;
+  for (const Complex z : {Complex(20, 30), Complex(-120, 50)}) {
+    const auto at = points->at(z);
+    const Complex fx = (points->at(z + h).f - points->at(z - h).f) / (2 * h),
+                  fy = (points->at(z + h * kI).f - points->at(z - h * kI).f) / (2 * h);
+    CHECK(std::abs((fx - kI * fy) / 2.0 - at.fz) <= 1e-6);
+    CHECK(std::abs((fx + kI * fy) / 2.0 - at.fzbar) <= 1e-6);
+  }
+  for (size_t v = 0; v < soft.rest.samples.size(); v += 50)
+    CHECK(std::abs(points->at(soft.rest.samples[v]).f - soft.map.f[static_cast<Index>(v)]) <= 1e-7);
+}
+
+TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
+  const Points outline = circle(0, 300, 200);
+  const Cage cage = polygon_cage(outlines::random(41, false, 40));
+  const OutlineTask task{cage, outline, {{0, 0}}, {{60, 40}}};
+  OutlineSettings settings;
+  settings.vertices = 100;
+  const auto off = [&](const OutlineMatch& match) {
+    const Points pin{{0, 0}};
+    return std::abs((cauchy_coordinates(match.basis, pin) * match.phi)[0] - Complex(60, 40));
+  };
+  settings.pin_weight = 1e-3;
+  const double light = off(matched(task, settings));
+  settings.pin_weight = 10;
+  settings.most_iterations = 50;
+  const OutlineMatch heavy = matched(task, settings);
+  CHECK(off(heavy) < 0.3 * light);
+  for (const Cage& other : {reversed(cage), shapes::curved_star(6, 2, 0.2, 3)}) {
+    Points scaled = moved(outline, box_of(controls_of(other)).diagonal() / 800, 0);
+    std::reverse(scaled.begin(), scaled.end());
+    const Onto onto(other, scaled, {{"vertices", 60}});
+    INFO(onto.map.note);
+    for (const int v : onto.rest.mesh->boundary)
+      CHECK(std::abs(std::abs(onto.map.f[v]) - std::abs(scaled[0])) <= 0.01 * std::abs(scaled[0]));
+  }
+}
+
+TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing folds") {
+  // Onto a disk there is one for each place and turn, however near to the edge.
+  const Points outline = circle({20, 10}, 150, 80);
+  const Complex pin(30, 0);
+  OutlineFit fit(polygon_cage(circle(0, 100, 60)), outline, {pin}, {});
+  const double size = Polyline(outline, true).diagonal();
+  for (const double radius : {0.0, 60.0, 120.0, 140.0}) {
+    INFO("radius " << radius);
+    for (const bool rough : {false, true}) {
+      const Complex wanted = Complex(20, 10) + std::polar(radius, rough ? 1.1 : 1.0);
+      if (rough)
+        fit.follow({wanted});
+      else
+        fit.solve({wanted});
+      const OutlineMatch match = fit.after(fit.iterations());
+      const Complex there = (cauchy_coordinates(match.basis, Points{pin}) * match.phi)[0];
+      CHECK(match.zeros == 0);
+      CHECK(match.hausdorff < 0.01 * size);
+      CHECK(std::abs(there - wanted) < 0.01 * size);
+      CHECK(match.pins_missed == Approx(std::abs(there - wanted)).margin(1e-9));
+      CHECK(match.pins_held == 0);
+    }
+  }
+  // Outside of the outline it cannot be: it is held inside.
+  const Complex outside = Complex(20, 10) + std::polar(400.0, 2.0);
+  fit.solve({outside});
+  const OutlineMatch held = fit.after(fit.iterations());
+  CHECK(held.pins_held == 1);
+  CHECK(held.zeros == 0);
+  CHECK(held.hausdorff < 0.01 * size);
+  const Complex there = (cauchy_coordinates(held.basis, Points{pin}) * held.phi)[0];
+  CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
+}
+
+TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing folds") {
+  const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}},
+      strip{{0, 0}, {1000, 0}, {1000, 200}, {0, 200}}, round = circle({150, 150}, 150, 60);
+  struct Case {
+    Points from, to;
+    Complex pin;
+    std::vector<Complex> wanted;
+  };
+  for (const auto& [from, to, pin, wanted] :
+       {Case{square, square, {150, 150}, {{180, 150}, {225, 150}, {280, 150}, {200, 200}}},
+        Case{round, square, {150, 150}, {{240, 150}}},
+        Case{strip, strip, {800, 100}, {{650, 100}, {300, 100}}}}) {
+    OutlineFit fit(polygon_cage(from), to, {pin}, {});
+    const double size = Polyline(to, true).diagonal();
+    for (const Complex& place : wanted)
+      for (const bool rough : {false, true}) {
+        INFO(place << (rough ? " followed" : ""));
+        if (rough)
+          fit.follow({place});
+        else
+          fit.solve({place});
+        const OutlineMatch match = fit.after(fit.iterations());
+        CHECK(match.zeros == 0);
+        CHECK(match.pins_missed < 2e-3 * size);
+        CHECK(match.hausdorff < 0.025 * size);  // a corner is rounded
+      }
+  }
+  // Beyond a side, and beyond a corner, which is no nearer place to be held at.
+  OutlineFit fit(polygon_cage(square), square, {{150, 150}}, {});
+  for (const Complex outside : {Complex(450, 150), Complex(400, 400), Complex(-90, -20)}) {
+    fit.solve({outside});
+    const OutlineMatch match = fit.after(fit.iterations());
+    INFO(outside);
+    CHECK(match.pins_held == 1);
+    CHECK(match.pins_missed < 0.01 * Polyline(square, true).diagonal());
+    CHECK(match.hausdorff < 0.04 * Polyline(square, true).diagonal());
+  }
+  // Beyond a tip that is narrower than the ways which are looked at around it.
+  const Points tip{{0, 0}, {300, -50}, {300, 50}};
+  for (const double turn : {0.1, 0.3, 0.9, 2.0}) {
+    const Complex way = std::polar(1.0, turn);
+    OutlineFit at_tip(polygon_cage(tip), moved(tip, way, 0), {{250, 0}}, {});
+    at_tip.solve({-50.0 * way});
+    const OutlineMatch match = at_tip.after(at_tip.iterations());
+    INFO("turn " << turn);
+    CHECK(match.pins_held == 1);
+    CHECK(match.pins_missed < 6);
+    CHECK(match.hausdorff < 60);
+  }
+}
+
+TEST_CASE("Outline: strips whose ends the disk cannot tell apart are matched all the same") {
+  for (const double aspect : {8.0, 20.0, 40.0}) {
+    INFO("aspect " << aspect);
+    const double length = 100 * aspect;
+    const Points straight{{0, 0}, {length, 0}, {length, 100}, {0, 100}};
+    Points bent;
+    for (const int side : {0, 1})
+      for (int i = 0; i <= 100; ++i) {
+        const double t = side == 0 ? i / 100.0 : 1 - i / 100.0;
+        bent.push_back(std::polar(length / 3 + (side == 0 ? 50 : -50), 3 * t - 1.5));
+      }
+    for (const Points& onto : {straight, bent}) {
+      const OutlineMatch match = matched({polygon_cage(straight), onto, {}, {}}, {});
+      CHECK(match.zeros == 0);
+      CHECK(match.hausdorff < 0.015 * Polyline(onto, true).diagonal());
+      CHECK(match.basis.size() < 400);
+    }
+  }
+}
+
+TEST_CASE("Outline: pins that contradict each other are said to") {
+  const Cage cage = polygon_cage(outlines::random(41, false, 50));
+  const Points around = outlines::random(42, false, 300);
+  Onto onto(cage, around);
+  const auto point = onto.deformer->point_map(onto.pose);
+  // Two pins where the map takes them anyway, then far nearer to each other.
+  onto.rest.pins = {{{-40, 0}}, {{40, 0}}};
+  onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
+  const Complex a = point->at({-40, 0}).f, b = point->at({40, 0}).f;
+  SampledMap map;
+  onto.deformer->deform({cage, {{a}, {b}}}, map, {});
+  INFO(map.note);
+  CHECK(map.note.find("contradict") == std::string::npos);
+  onto.deformer->deform({cage, {{a}, {0.8 * a + 0.2 * b}}}, map, {});
+  CHECK_THAT(map.note, Catch::Contains("pins contradict each other") && Catch::Contains("missed"));
+  onto.deformer->deform({cage, {{a}, {b + 1e5}}}, map, {});
+  CHECK_THAT(map.note, Catch::Contains("outside of it and held inside"));
+}
+
+TEST_CASE("Outline: pins are followed while they are dragged, and solved from nothing after that") {
+  const Cage cage = polygon_cage(outlines::random(41, false, 50));
+  Onto onto(cage, outlines::random(42, false, 300));
+  onto.rest.pins = {{{0, 0}}};
+  onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
+  const auto map_of = [&](Complex pin, bool draft) {
+    Pose pose{cage, {{pin}}};
+    SampledMap map;
+    onto.deformer->deform(pose, map, {false, draft});
+    return map.f;
+  };
+  const VectorXc start = map_of({0, 0}, false);
+  VectorXc dragged;
+  for (int frame = 1; frame <= 8; ++frame) dragged = map_of({5.0 * frame, -3.0 * frame}, true);
+  const VectorXc end = map_of({40, -24}, false);
+  CHECK((end - start).cwiseAbs().maxCoeff() > 5);
+  CHECK((dragged - end).cwiseAbs().mean() < 0.6 * (end - start).cwiseAbs().mean());
+  CHECK(map_of({0, 0}, false) == start);
+  CHECK(map_of({40, -24}, false) == end);
+}
+
+TEST_CASE("Outline: soft maps of curved cages, with pins, stay near what they are asked for") {
+  // As many places as unknowns at least on each curve: otherwise the map explodes between them.
+  Cage curved = shapes::curved_star(9, 3, 0.15, 4);
+  const Points around = outlines::random(51, false, 300);
+  for (const double softness : {0.0, 0.3, 1.0}) {
+    Onto onto(curved, around, {{"softness", softness}});
+    INFO("softness " << softness);
+    CHECK(flipped_triangles(*onto.rest.mesh, onto.map.f) <= 16);
+    const Box box = box_of(around);
+    for (const Complex& z : onto.map.f) REQUIRE(std::abs(z - box.center()) < 0.55 * box.diagonal());
+    REQUIRE(onto.map.energies.back() >= 0);
+  }
+}
+
+TEST_CASE("Outline: what cannot be an outline is refused, with the place") {
+  const Cage cage = polygon_cage(circle(0, 100, 12));
+  const auto refused = [&](const Points& outline) {
+    CHECK_THROWS_AS(matched({cage, outline, {}, {}}, {}), Error);
+  };
+  refused({{0, 0}, {1, 1}});
+  refused({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+  refused({{0, 0}, {1, 0}, {2, 0}});
+  refused({{0, 0}, {1, 0}, {1, 0}, {0, 1}});
+  refused({{0, 0}, {1, 0}, {NAN, 1}});
+  // Ten thousand points are no trouble.
+  const OutlineMatch fine = matched({cage, circle(3, 50, 10000), {}, {}}, {});
+  CHECK(fine.hausdorff <= 0.1);
+}
+
+TEST_CASE("Outline: without an outline cage and pins act, and at rest nothing moves") {
+  const Onto onto(polygon_cage(circle({5, 5}, 100, 12)), {});
+  for (size_t i = 0; i < onto.rest.samples.size(); ++i)
+    REQUIRE(onto.map.f[static_cast<Index>(i)] == onto.rest.samples[i]);
+  CHECK(onto.map.note.find("outline") != std::string::npos);
+}
