@@ -47,9 +47,9 @@ class Editor {
     tools_.push_back(angle_tool());
     tools_.push_back(brush_tool());
     workspace_.maps.on_ready([this] { window_.wake(); });
-    workspace_.beside = [this](const std::string& title, Job::Work work,
-                               std::function<void()> then) {
-      workspace_.complain(files_.jobs().run(title, std::move(work), std::move(then)));
+    workspace_.run_in_background = [this](const std::string& title, Job::Work work,
+                                          std::function<void()> then) {
+      workspace_.messages.complain(files_.jobs().run(title, std::move(work), std::move(then)));
     };
     if (!options.state_file.empty()) state_file_.emplace(options.state_file);
     if (!options.file.empty()) files_.ask_open(options.file);
@@ -57,13 +57,14 @@ class Editor {
       return each.origin != absolute_path(options.file);
     };
     if (!options.file.empty() && std::ranges::any_of(files_.recoverable(), is_other))
-      workspace_.say("There is unsaved work from an earlier session: File > New shows it.");
+      workspace_.messages.say(
+          "There is unsaved work from an earlier session: File > New shows it.");
   }
 
   int run() {
     while (!files_.has_quit()) {
       const bool playing =
-          workspace_.playback.playing || workspace_.timeline.playing || files_.busy();
+          workspace_.playback.playing || workspace_.shown.timeline.playing || files_.busy();
       const bool happened = window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25);
       const double start = now_ms();
       if (happened && canvas_.make_room())
@@ -74,7 +75,7 @@ class Editor {
       if (now_ms() - watched_ms_ > 500) {
         watched_ms_ = now_ms();
         files_.watch();
-        if (!workspace_.toasts.empty()) window_.wake();
+        if (!workspace_.messages.toasts.empty()) window_.wake();
       }
       if (!happened && (playing || toasts_.expire())) window_.wake();
     }
@@ -98,12 +99,13 @@ class Editor {
     use_tool(input);
     open_context_menu(input);
     answer(std::exchange(workspace_.request, Request::none));
-    if (advance(workspace_.timeline, workspace_.document.scene(), now_ms())) window_.wake();
-    if (workspace_.update_map({is_heat(workspace_.view), workspace_.preview.has_value(),
-                               workspace_.preview ? std::nullopt : workspace_.playback.iteration}))
+    if (advance(workspace_.shown.timeline, workspace_.document.scene(), now_ms())) window_.wake();
+    if (workspace_.update_map(
+            {is_heat(workspace_.display.view), workspace_.shown.preview.has_value(),
+             workspace_.shown.preview ? std::nullopt : workspace_.playback.iteration}))
       window_.wake();
     if (advance(workspace_.playback, workspace_.map(), now_ms())) window_.wake();
-    if (workspace_.timeline.recording) window_.wake();
+    if (workspace_.shown.timeline.recording) window_.wake();
     show_whole_map();
     update_title();
     files_.autosave();
@@ -133,18 +135,18 @@ class Editor {
   }
 
   void layout(const PanelSizes& sizes) {
-    Viewport& view = workspace_.viewport;
+    Viewport& view = workspace_.display.viewport;
     view.left = sizes.toolbar;
     view.top = sizes.menu;
     const double room = window_.width() - sizes.toolbar - sizes.inspector;
     const bool halved = workspace_.shows_surface();
     view.width = std::max(1.0, halved ? std::floor(room / 2) : room);
     if (halved != std::exchange(halved_, halved)) fit_ = true;
-    const bool timed = workspace_.timeline.visible && !workspace_.document.empty();
+    const bool timed = workspace_.shown.timeline.visible && !workspace_.document.empty();
     view.height =
         std::max(1.0, window_.height() - sizes.menu - sizes.status - (timed ? sizes.timeline : 0));
-    workspace_.handle_px = 10 * window_.scale();
-    if (std::exchange(fit_, false)) view.fit(workspace_.content_box());
+    workspace_.display.handle_px = 10 * window_.scale();
+    if (std::exchange(fit_, false)) view.fit(content_box(workspace_));
   }
 
   /// How far the picture of an opened scene reaches is known with its map: unless the user has
@@ -153,11 +155,11 @@ class Editor {
     if (workspace_.document.history().can_undo()) opened_ = false;
     if (!opened_ || !workspace_.map().has_map() || workspace_.map().busy()) return;
     opened_ = false;
-    Viewport& view = workspace_.viewport;
+    Viewport& view = workspace_.display.viewport;
     Box seen;
     seen.include(view.plane_at_px({view.left, view.top}));
     seen.include(view.plane_at_px({view.left + view.width, view.top + view.height}));
-    const Box all = workspace_.content_box();
+    const Box all = content_box(workspace_);
     if (!seen.contains({all.left, all.bottom}) || !seen.contains({all.right, all.top}))
       view.fit(all);
   }
@@ -170,8 +172,9 @@ class Editor {
     }
     // A number that is being dragged in the inspector takes the keys, too.
     const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
-    if (workspace_.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() && !was_active_)
-      workspace_.preview.reset();
+    if (workspace_.shown.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() &&
+        !was_active_)
+      workspace_.shown.preview.reset();
     was_active_ = ImGui::IsAnyItemActive();
     // A key that closes a menu has closed it by now.
     const bool popup = has_popup(), had_popup = std::exchange(had_popup_, popup);
@@ -188,8 +191,8 @@ class Editor {
         take_key(key);
     }
     const bool holds = !typing && !panel_focus_.held();
-    workspace_.hide_overlays = holds && is_held("hold.overlays");
-    workspace_.show_original = holds && is_held("hold.original");
+    workspace_.display.hide_overlays = holds && is_held("hold.overlays");
+    workspace_.display.show_original = holds && is_held("hold.original");
     window_.stand_in_for_alt(holds && is_held("hold.alt"));
   }
 
@@ -251,24 +254,24 @@ class Editor {
     input.mods = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
     input.now_ms = now_ms();
     input.inside = !io.WantCaptureMouse && !workspace_.document.empty() &&
-                   workspace_.viewport.contains_px(input.px);
+                   workspace_.display.viewport.contains_px(input.px);
     input.pressed = input.inside && ImGui::IsMouseClicked(0);
     input.double_clicked = input.inside && ImGui::IsMouseDoubleClicked(0);
     input.down = ImGui::IsMouseDown(0);
     input.released = ImGui::IsMouseReleased(0);
     input.wheel = input.inside ? io.MouseWheel : 0;
-    input.position = workspace_.viewport.plane_at_px(input.px);
+    input.position = workspace_.display.viewport.plane_at_px(input.px);
     return input;
   }
 
   /// The line between before and after.
   void drag_split(Input& input) {
-    std::optional<double>& split = workspace_.split;
+    std::optional<double>& split = workspace_.display.split;
     if (!split || !input.down) dragging_split_ = false;
     if (!split) return;
-    const Viewport& view = workspace_.viewport;
+    const Viewport& view = workspace_.display.viewport;
     const double off = input.px.real() - view.left - *split * view.width;
-    const bool over = input.inside && std::abs(off) < 0.6 * workspace_.handle_px;
+    const bool over = input.inside && std::abs(off) < 0.6 * workspace_.display.handle_px;
     if (over && input.pressed) dragging_split_ = true;
     if (dragging_split_) split = std::clamp((input.px.real() - view.left) / view.width, 0.02, 0.98);
     if (over || dragging_split_) {
@@ -279,8 +282,9 @@ class Editor {
 
   /// What is before, in the left half, cannot be taken hold of.
   bool is_before(Complex px) const {
-    const Viewport& view = workspace_.viewport;
-    return workspace_.split && px.real() < view.left + *workspace_.split * view.width;
+    const Viewport& view = workspace_.display.viewport;
+    return workspace_.display.split &&
+           px.real() < view.left + *workspace_.display.split * view.width;
   }
 
   void navigate(Input& input) {
@@ -288,31 +292,32 @@ class Editor {
     const bool space = window_.is_down(Key::space) && !io.WantTextInput;
     if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
-    if (panning_) workspace_.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
+    if (panning_) workspace_.display.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
     if (space && !std::exchange(space_, true))
       space_pans_ = navigates() || palette_.open() || keys_.open();
     space_pans_ = space_pans_ || panning_;
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
       if (const Action* action = action_for(Key::space, workspace_))
         holomorph::run(*action, workspace_);
-    if (input.wheel != 0) workspace_.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
+    if (input.wheel != 0)
+      workspace_.display.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
     if (panning_ || input.wheel != 0 || input.pressed) opened_ = false;
     if (input.pressed) panel_focus_.leave();
     if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
-    input.position = workspace_.viewport.plane_at_px(input.px);
+    input.position = workspace_.display.viewport.plane_at_px(input.px);
   }
 
   Tool& current_tool() {
     for (const auto& tool : tools_)
-      if (tool->id() == workspace_.tool) return *tool;
+      if (tool->id() == workspace_.tools.active) return *tool;
     return *tools_[0];
   }
 
   void use_tool(Input input) {
-    if (last_tool_ != workspace_.tool) {
+    if (last_tool_ != workspace_.tools.active) {
       for (const auto& tool : tools_)
         if (tool->id() == last_tool_) tool->cancel(workspace_);
-      last_tool_ = workspace_.tool;
+      last_tool_ = workspace_.tools.active;
     }
     if (is_before(input.px) && !current_tool().busy())
       input.pressed = input.double_clicked = input.inside = false;
@@ -333,7 +338,7 @@ class Editor {
     files_.answer(request);
     if (request == Request::help) keys_.show();
     if (request == Request::context_menu) ImGui::OpenPopup("context");
-    if (request == Request::compare) comparison_.start(workspace_.document.scene());
+    if (request == Request::compare) comparison_.start(workspace_.shown.own());
     if (request == Request::palette) palette_.show();
     if (request == Request::menu) goes_to_menu_ = true;
     if (request == Request::rename_layer) layers_.rename(workspace_.document.scene());
@@ -405,7 +410,7 @@ class Editor {
         preferences_.hints = false;
         files_.keep_preferences();
       }
-      if (workspace_.timeline.visible) timeline_.draw(workspace_, scale);
+      if (workspace_.shown.timeline.visible) timeline_.draw(workspace_, scale);
       draw_context_menu(workspace_);
       comparison_.draw(workspace_, style);
       status.hint = current_tool().hint(workspace_);
@@ -414,11 +419,12 @@ class Editor {
         status.hint =
             "Esc leads back to the canvas; arrows, Tab and Enter go through this panel; " +
             key_of("view.next_panel") + " to the next one";
-      if (workspace_.timeline.recording) status.hint = recording_hint(workspace_.timeline);
+      if (workspace_.shown.timeline.recording)
+        status.hint = recording_hint(workspace_.shown.timeline);
       if (input.inside) status.cursor = input.position;
       if (input.inside && !workspace_.at_rest())
-        status.cursor_at_rest = workspace_.rest_at(input.position);
-      status.draft = workspace_.preview.has_value() || workspace_.map().busy() ||
+        status.cursor_at_rest = rest_at(workspace_, input.position);
+      status.draft = workspace_.shown.preview.has_value() || workspace_.map().busy() ||
                      workspace_.map().error().has_value();
       status.by_operator = canvas_.edited().by_operator();
     }

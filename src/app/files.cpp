@@ -142,7 +142,7 @@ void Files::show_withheld() {
   for (const Path& file : document.withheld()) trust_folder_of(file);
   std::vector<ImageReference> wanted;
   for (const size_t i : document.without_picture())
-    wanted.push_back(*layer_at(document.scene(), i).image);
+    wanted.push_back(*document.scene().layers[i]->image);
   document.release_pictures();
   const auto found = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
   const auto read = [found, wanted, open = document.pictures().pixels()](Job::Progress&) {
@@ -155,7 +155,7 @@ void Files::show_withheld() {
       }
     if (found->empty() && wrong) throw Error(*wrong);
   };
-  workspace_.complain(jobs_.run("Reading pictures", read, [this, found] {
+  workspace_.messages.complain(jobs_.run("Reading pictures", read, [this, found] {
     for (auto& [reference, picture] : *found)
       workspace_.document.put_picture(reference, std::move(picture));
   }));
@@ -173,10 +173,11 @@ void Files::reload() {
         document.add_pictures((*opened)->pictures());
         workspace_.commit_layers("Reload", (*opened)->scene());
         document.count_as_saved(**opened);
-        workspace_.say(document.title() + " was changed by another program and has been reloaded.");
+        workspace_.messages.say(document.title() +
+                                " was changed by another program and has been reloaded.");
         ask_about_withheld();
       });
-  workspace_.complain(problem);
+  workspace_.messages.complain(problem);
 }
 
 void Files::watch() {
@@ -187,7 +188,7 @@ void Files::watch() {
 void Files::watch_scene() {
   using Time = std::filesystem::file_time_type;
   Document& document = workspace_.document;
-  if (document.path().empty() || asking() || workspace_.preview) return;
+  if (document.path().empty() || asking() || workspace_.shown.preview) return;
   std::error_code gone;
   const Time found = std::filesystem::last_write_time(document.path(), gone);
   const Time now = gone ? Time::min() : found;
@@ -200,28 +201,29 @@ void Files::watch_scene() {
   const bool saved = !document.modified();
   document.count_as_unsaved();  // what is here is not in the file
   if (gone)
-    workspace_.complain(document.title() +
-                        " has been moved or deleted by another program. Save to keep your work.");
+    workspace_.messages.complain(
+        document.title() +
+        " has been moved or deleted by another program. Save to keep your work.");
   else if (saved)
     reload();
   else
-    workspace_.say("Another program has changed " + document.title() +
-                   ". Saving asks which version to keep.");
+    workspace_.messages.say("Another program has changed " + document.title() +
+                            ". Saving asks which version to keep.");
 }
 
 void Files::ask_open(const Path& path) {
-  ask_then([this, path] { workspace_.complain(open(path)); });
+  ask_then([this, path] { workspace_.messages.complain(open(path)); });
 }
 
 void Files::drop(const Path& path) {
   const std::string kind = lower_case(path.extension().string());
   const Document& document = workspace_.document;
-  if ((kind == ".obj" || kind == ".svg") && document.scene().has_cage())
-    workspace_.complain(imports_.outline(path));
+  if ((kind == ".obj" || kind == ".svg") && document.scene().deformation().has_cage())
+    workspace_.messages.complain(imports_.outline(path));
   else if (kind == ".svg" && document.image())
-    workspace_.complain(imports_.svg(path, false));
+    workspace_.messages.complain(imports_.svg(path, false));
   else if (kind == ".obj" && document.image())
-    workspace_.complain(
+    workspace_.messages.complain(
         path.filename().string() +
         ": the picture needs a cage before it can go onto a surface. Make one and drop the "
         "surface again");
@@ -234,11 +236,12 @@ void Files::drop(const Path& path) {
 /// A dropped picture or scene may go to several places.
 void Files::ask_where(const Path& path) {
   Question question{"A dropped picture", short_name(path.filename()), {}};
-  question.answers.push_back(
-      {"Add it as a layer", [this, path] { workspace_.complain(imports_.add_layer(path)); }});
+  question.answers.push_back({"Add it as a layer", [this, path] {
+                                workspace_.messages.complain(imports_.add_layer(path));
+                              }});
   if (!is_scene_name(path))
     question.answers.push_back({"Put it in place of this layer's picture", [this, path] {
-                                  workspace_.complain(imports_.replace_picture(path));
+                                  workspace_.messages.complain(imports_.replace_picture(path));
                                 }});
   question.answers.push_back({"Open it instead", [this, path] { ask_open(path); }});
   question.answers.push_back({"Cancel", {}});
@@ -247,16 +250,17 @@ void Files::ask_where(const Path& path) {
 
 void Files::copy_picture() {
   if (const std::string problem = lacking(workspace_); !problem.empty())
-    return workspace_.complain(problem);
+    return workspace_.messages.complain(problem);
   const Document& document = workspace_.document;
   const auto copy = [scene = document.scene(), pictures = document.pictures(),
                      options = as_shown(workspace_)](Job::Progress& progress) {
-    const RasterResult result = picture_of(scene, pictures.of(scene), options, pictures);
+    const RasterResult result = picture_of(scene, pictures.of(scene.layer()), options, pictures);
     if (!progress.cancelled())
       put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
   };
-  workspace_.complain(jobs_.run("Copying the picture", copy,
-                                [this] { workspace_.say("The picture is on the clipboard."); }));
+  workspace_.messages.complain(jobs_.run("Copying the picture", copy, [this] {
+    workspace_.messages.say("The picture is on the clipboard.");
+  }));
 }
 
 Path Files::beside_document(const std::string& name) const {
@@ -267,7 +271,7 @@ Path Files::beside_document(const std::string& name) const {
 void Files::ask_sample(const Path& scene) {
   ask_then([this, scene] {
     const auto opened = std::make_shared<std::optional<Document>>();
-    workspace_.complain(jobs_.run(
+    workspace_.messages.complain(jobs_.run(
         "Opening " + scene.filename().string(),
         [opened, scene](Job::Progress&) { *opened = Document::copy_of(scene); },
         [this, opened] { adopt(std::move(**opened)); }));
@@ -281,19 +285,19 @@ void Files::ask_recover(const Path& autosave) {
 void Files::recover(const Path& autosave) {
   if (!is_there(autosave)) {
     recoverable_ = holomorph::recoverable(autosave_folder());
-    return workspace_.complain("That work was recovered or discarded in another window.");
+    return workspace_.messages.complain("That work was recovered or discarded in another window.");
   }
   const auto recovered = std::make_shared<std::optional<Document>>();
-  workspace_.complain(jobs_.run(
+  workspace_.messages.complain(jobs_.run(
       "Recovering",
       [recovered, autosave](Job::Progress&) { *recovered = Document::recover(autosave); },
       [this, recovered, autosave] {
         adopt(std::move(**recovered));
         if (!workspace_.document.autosave(autosave_folder())) return;
         discard(autosave);  // the document has written its own
-        workspace_.say(workspace_.document.path().empty()
-                           ? "Recovered. Save it under a name to keep it."
-                           : "Recovered. Save to keep it.");
+        workspace_.messages.say(workspace_.document.path().empty()
+                                    ? "Recovered. Save it under a name to keep it."
+                                    : "Recovered. Save to keep it.");
       }));
 }
 
@@ -314,7 +318,7 @@ std::string Files::save_to(const Path& path, const Then& then, Conflict conflict
     document.remove_autosave(autosave_folder());
     trust_folder_of(path);
     keep_recent(document.path());
-    workspace_.say("Saved " + path.filename().string() + ".");
+    workspace_.messages.say("Saved " + path.filename().string() + ".");
   } catch (const Error& error) {
     return error.what();
   }
@@ -330,7 +334,9 @@ void Files::ask_about_change(const Path& path, const Then& then) {
            "Which version do you want to keep?",
        {{"Save a copy under another name", [this, then] { save(true, then); }},
         {"Overwrite it with this version",
-         [this, path, then] { workspace_.complain(save_to(path, then, Conflict::overwrite)); }},
+         [this, path, then] {
+           workspace_.messages.complain(save_to(path, then, Conflict::overwrite));
+         }},
         {"Reload what is on disk", [this] { reload(); }},
         {"Cancel", {}}},
        3});
@@ -338,7 +344,8 @@ void Files::ask_about_change(const Path& path, const Then& then) {
 
 void Files::save(bool as, const Then& then) {
   const Document& document = workspace_.document;
-  if (!as && !document.path().empty()) return workspace_.complain(save_to(document.path(), then));
+  if (!as && !document.path().empty())
+    return workspace_.messages.complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.first_picture().empty())
     start = beside_document(document.first_picture().stem().string() + ".json");
@@ -356,8 +363,9 @@ void Files::ask_export_svg() {
               [this](const Path& path, double) -> std::string {
                 try {
                   check_may_write(path, workspace_.document.sources());
-                  write_file(path, svg_of(workspace_.unedited()));
-                  workspace_.say("Exported " + path.filename().string() + ".");
+                  write_file(path, svg_of(workspace_.shown.base(),
+                                          workspace_.document.scene().layer().image));
+                  workspace_.messages.say("Exported " + path.filename().string() + ".");
                 } catch (const Error& error) {
                   return error.what();
                 }
@@ -368,14 +376,15 @@ void Files::ask_export_svg() {
 std::string Files::export_surface(const Path& path, double scale) {
   try {
     const Document& document = workspace_.document;
-    const Scene& scene = document.scene();
-    if (document.pictures().withheld().contains(scene.surface->file))
-      return Path(scene.surface->file).filename().string() +
+    const Deformation& deformation = workspace_.shown.own();
+    if (document.pictures().withheld().contains(deformation.surface->file))
+      return Path(deformation.surface->file).filename().string() +
              " is not in the scene's folder, and was left out.";
-    const LaidSurface surface = laid_surface_of(scene);
+    const LaidSurface surface = laid_surface_of(deformation);
     for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
-    write_textured(path, surface, textured(surface, scene, document.image(), scale));
-    workspace_.say("Exported " + path.filename().string() + " with its material and picture.");
+    write_textured(path, surface, textured(surface, deformation, document.image(), scale));
+    workspace_.messages.say("Exported " + path.filename().string() +
+                            " with its material and picture.");
   } catch (const Error& error) {
     return error.what();
   }
@@ -385,8 +394,9 @@ std::string Files::export_surface(const Path& path, double scale) {
 void Files::ask_export_surface() {
   const Document& document = workspace_.document;
   const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const Path start = beside_document(source.stem().string() + "-" +
-                                     Path(document.scene().surface->file).stem().string() + ".obj");
+  const Path start =
+      beside_document(source.stem().string() + "-" +
+                      Path(document.scene().deformation().surface->file).stem().string() + ".obj");
   dialog_.ask({FileQuestion::Mode::save,
                "Export the surface with the picture on it",
                "Export",
@@ -399,7 +409,7 @@ void Files::ask_export_surface() {
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
-    workspace_.complain(Error(
+    workspace_.messages.complain(Error(
         ErrorKind::failed,
         autosave_folder().empty()
             ? "Autosave is off: this user has no home folder"
@@ -415,7 +425,7 @@ void Files::keep_preferences() {
   try {
     save_preferences(preferences_);
   } catch (const Error& error) {
-    workspace_.complain(error);
+    workspace_.messages.complain(error);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "app/imports.h"
 #include "app/picture_watch.h"
 #include "scene/preferences.h"
+#include "scene/recovery.h"
 
 namespace holomorph {
 

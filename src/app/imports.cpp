@@ -41,17 +41,17 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
   Document& document = workspace_.document;
   const bool first = document.empty();
   document.add_pictures(added.pictures);
-  Scene scene = first ? added.scene : with_layer_added(document.scene(), added.scene);
+  Scene scene = first ? added.scene : with_layers_added(document.scene(), added.scene);
   if (!workspace_.commit_layers(label, std::move(scene))) return false;
-  workspace_.complain(added.warning);
+  workspace_.messages.complain(added.warning);
   if (!added.pictures.withheld().empty()) workspace_.request = Request::show_withheld;
   if (first)
     first_();
   else
-    workspace_.say(
-        (layer_count(added.scene) > 1
-             ? std::to_string(layer_count(added.scene)) + " layers were"
-             : title_of_layer(document.scene(), edited_layer(document.scene())) + " was") +
+    workspace_.messages.say(
+        (added.scene.layers.size() > 1
+             ? std::to_string(added.scene.layers.size()) + " layers were"
+             : title_of_layer(document.scene(), document.scene().edited) + " was") +
         " added above the layer that was edited. " + key_of("layer.above") + " and " +
         key_of("layer.below") + " choose layers.");
   return true;
@@ -62,8 +62,8 @@ void Imports::paste_picture() {
   const auto paste = [pasted](Job::Progress& progress) {
     *pasted = scene_of_pasted(picture_on_clipboard([&] { return !progress.cancelled(); }));
   };
-  workspace_.complain(jobs_.run("Pasting a picture", paste,
-                                [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
+  workspace_.messages.complain(jobs_.run(
+      "Pasting a picture", paste, [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
 }
 
 std::string Imports::replace_picture(const Path& path) {
@@ -75,15 +75,16 @@ std::string Imports::replace_picture(const Path& path) {
       },
       [this, picture, path] {
         chosen_(path);
-        Scene scene = workspace_.document.scene();
-        const std::optional<ImageReference> before = scene.image;
-        scene.image = described(reference_in(path), *picture);
-        workspace_.document.put_picture(*scene.image, std::move(*picture));
-        if (before) scene.image->extra = before->extra;
-        const ImageReference now = *scene.image;
-        if (!workspace_.commit("Replace picture", std::move(scene), From::document)) return;
+        Layer layer = workspace_.document.scene().layer();
+        const std::optional<ImageReference> before = layer.image;
+        ImageReference now = described(reference_in(path), *picture);
+        workspace_.document.put_picture(now, std::move(*picture));
+        if (before) now.extra = before->extra;
+        layer.image = now;
+        Scene scene = with_layer(workspace_.document.scene(), std::move(layer));
+        if (!workspace_.commit_layers("Replace picture", std::move(scene))) return;
         if (before && (before->width != now.width || before->height != now.height))
-          workspace_.say(
+          workspace_.messages.say(
               "The new picture has another size; cage, pins and strokes stay where they are.");
       });
 }
@@ -92,7 +93,7 @@ void Imports::ask_find_picture() {
   const Document& document = workspace_.document;
   const std::vector<size_t> missing = document.without_picture();
   if (missing.empty()) return;
-  const std::string asked = layer_at(document.scene(), missing.front()).image->file;
+  const std::string asked = document.scene().layers[missing.front()]->image->file;
   chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Take this",
                     and_pictures({}),
                     [this, asked](const Path& path) { return find_picture(path, asked); });
@@ -105,7 +106,7 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
                      missing = workspace_.document.without_picture()](Job::Progress&) {
     PictureFiles files(open);
     for (const size_t i : missing) {
-      const ImageReference& was = *layer_at(scene, i).image;
+      const ImageReference& was = *scene.layers[i]->image;
       const bool chosen = was.file == asked;
       const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
       ImageReference now = reference_in(file, was.entry);
@@ -122,7 +123,7 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
   return jobs_.run("Reading " + path.filename().string(), find, [this, found, path] {
     chosen_(path);
     Document& document = workspace_.document;
-    std::vector<Scene> layers = layers_of(document.scene());
+    std::vector<Layer> layers = layers_of(document.scene());
     bool other = false;
     for (auto& [i, picture] : *found) {
       const std::string& before = layers[i].image->sha256;
@@ -130,14 +131,15 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
       layers[i].image = picture.first;
       document.put_picture(picture.first, std::move(picture.second));
     }
-    Scene scene =
-        scene_of_layers(std::move(layers), edited_layer(document.scene()), document.scene());
+    Scene scene = document.scene();
+    scene.layers = shared(std::move(layers));
     if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
     const size_t still = document.without_picture().size();
-    workspace_.say(std::string(other ? "Found; it is not quite the picture that the scene was made "
-                                       "with."
-                                     : "Found.") +
-                   (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
+    workspace_.messages.say(
+        std::string(other ? "Found; it is not quite the picture that the scene was made "
+                            "with."
+                          : "Found.") +
+        (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
   });
 }
 
@@ -162,27 +164,27 @@ std::string Imports::svg(const Path& path, bool pose) {
 }
 
 void Imports::take_cage(Cage cage, bool pose) {
-  Scene scene = pose ? workspace_.unedited() : workspace_.document.scene();
-  if (pose && cage.size() != scene.rest.size())
-    throw Error(ErrorKind::bad_input, "The path has " + std::to_string(cage.size()) +
-                                          " segments and the cage " +
-                                          std::to_string(scene.rest.size()) + "; they must agree.");
+  Deformation deformation = pose ? workspace_.shown.base() : workspace_.shown.own();
+  if (pose && cage.size() != deformation.rest.size())
+    throw Error(ErrorKind::bad_input,
+                "The path has " + std::to_string(cage.size()) + " segments and the cage " +
+                    std::to_string(deformation.rest.size()) + "; they must agree.");
   if (pose)
-    scene.pose = std::move(cage);
+    deformation.pose = std::move(cage);
   else
-    scene = with_cage(std::move(scene), std::move(cage));
-  if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(scene),
-                         pose ? From::shown : From::document))
+    deformation = with_cage(std::move(deformation), std::move(cage));
+  if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(deformation),
+                         pose ? EditBase::shown : EditBase::document))
     return;
-  workspace_.posture = Posture::pose;
-  workspace_.tool = ToolId::select;
+  workspace_.mode = EditMode::pose;
+  workspace_.tools.active = ToolId::select;
 }
 
 std::string Imports::outline(const Path& path) {
   const Image* image = workspace_.document.image();
   const auto outline = std::make_shared<Points>();
   const auto read = [outline, path, height = image ? image->height : 0,
-                     onto = box_of(outline_of(workspace_.document.scene().rest))](Job::Progress&) {
+                     onto = box_of(outline_of(workspace_.shown.own().rest))](Job::Progress&) {
     *outline = outline_of_file(path, height, onto);
   };
   return jobs_.run("Reading " + path.filename().string(), read, [this, outline, path] {

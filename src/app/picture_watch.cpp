@@ -30,7 +30,7 @@ PictureWatch::Changed PictureWatch::changed() {
   for (const ImageReference& reference : document.pictures().changed())
     all.emplace_back(reference, std::filesystem::last_write_time(reference.file, error));
   for (const size_t i : document.without_picture()) {
-    const ImageReference& image = *layer_at(document.scene(), i).image;
+    const ImageReference& image = *document.scene().layers[i]->image;
     if (document.pictures().withheld().contains(image.file)) continue;
     const Time time = std::filesystem::last_write_time(image.file, error);
     const Time now = error ? Time::min() : time;
@@ -72,8 +72,8 @@ void PictureWatch::take() {
     }
     workspace_.document.put_picture(reference, std::move(picture));
   }
-  if (const auto error = ended->error()) return workspace_.complain(*error);
-  workspace_.say(
+  if (const auto error = ended->error()) return workspace_.messages.complain(*error);
+  workspace_.messages.say(
       Path(read_->front().first.file).filename().string() +
       (back ? " is there again." : " was changed by another program and has been reloaded.") +
       (resized ? " It has another size now; cage, pins and strokes stay where they "

@@ -13,11 +13,12 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
   static constexpr const char* kTools[] = {"select",  "pen",   "pin",  "stroke",
                                            "outline", "angle", "brush"};
   static constexpr const char* kThemes[] = {"dark", "light", "contrast"};
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const Document& document = workspace.document;
-  const Scene &scene = workspace.scene(), &kept = document.scene();
+  const Deformation& deformation = workspace.shown.deformation();
+  const Scene& kept = document.scene();
   const LiveMap& map = workspace.map();
-  const Complex first = scene.has_cage() ? scene.rest.vertex(0) : 0;
+  const Complex first = deformation.has_cage() ? deformation.rest.vertex(0) : 0;
   return {
       {"left", view.left},
       {"top", view.top},
@@ -26,35 +27,35 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"center", {view.center.real(), view.center.imag()}},
       {"zoom", view.zoom},
       {"first_point", {first.real(), first.imag()}},  // of the cage at rest
-      {"tool", kTools[static_cast<int>(workspace.tool)]},
-      {"posture", workspace.posture == Posture::rest ? "rest" : "pose"},
-      {"view", kViewNames[static_cast<size_t>(workspace.view)]},
-      {"split", workspace.split.value_or(-1)},
+      {"tool", kTools[static_cast<int>(workspace.tools.active)]},
+      {"posture", workspace.mode == EditMode::rest ? "rest" : "pose"},
+      {"view", kViewNames[static_cast<size_t>(workspace.display.view)]},
+      {"split", workspace.display.split.value_or(-1)},
       {"theme", kThemes[static_cast<int>(parts.theme)]},
       {"scale", parts.scale},
-      {"method", scene.method},
-      {"cage_points", scene.rest.size()},
-      {"pins", scene.pins.size()},
-      {"strokes", scene.strokes.size()},
-      {"outline_points", scene.outline.size()},
-      {"corners", scene.corners.size()},
+      {"method", deformation.method},
+      {"cage_points", deformation.rest.size()},
+      {"pins", deformation.pins.size()},
+      {"strokes", deformation.strokes.size()},
+      {"outline_points", deformation.outline.size()},
+      {"corners", deformation.corners.size()},
       {"selected", workspace.selection.size()},
-      {"layers", layer_count(kept)},
-      {"edited_layer", edited_layer(kept)},
-      {"locked", kept.layer.locked},
-      {"visible", kept.layer.visible},
+      {"layers", kept.layers.size()},
+      {"edited_layer", kept.edited},
+      {"locked", kept.layer().locked},
+      {"visible", kept.layer().visible},
       {"pictured", document.image() != nullptr},
-      {"keys", kept.keyframes.size()},
-      {"time", workspace.timeline.time},
-      {"shows_time", workspace.timeline.shows},
-      {"runs", workspace.timeline.playing},
+      {"keys", kept.deformation().keyframes.size()},
+      {"time", workspace.shown.timeline.time},
+      {"shows_time", workspace.shown.timeline.shows},
+      {"runs", workspace.shown.timeline.playing},
       {"history", document.history().entries().size()},
       {"step", document.history().index()},
       {"modified", document.modified()},
       {"empty", document.empty()},
       {"error", map.error().has_value()},
       {"status", name_of(map.map().status)},
-      {"boundary_turns", map.injectivity().boundary_turns},
+      {"boundary_turns", map.injectivity().turning_number},
       {"folds", map.injectivity().folds()},
       {"zeros", map.map().zeros.size()},
       {"iteration", map.map().iterations},

@@ -110,27 +110,27 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
   }
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
-  using Kind = Event::Kind;
+  using Type = Event::Type;
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    self(w)->add({Kind::key, 0, 0, key, scancode, action, mods});
+    self(w)->add({Type::key, 0, 0, key, scancode, action, mods});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) {
-    self(w)->add({Kind::character, 0, 0, static_cast<int>(code)});
+    self(w)->add({Type::character, 0, 0, static_cast<int>(code)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
     // The position at the press: glfwGetCursorPos would return the current one.
     const auto [x, y] = self(w)->pointer();
-    self(w)->add({Kind::button, x, y, button, 0, action});
+    self(w)->add({Type::button, x, y, button, 0, action});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-    self(w)->add({Kind::scroll, x, y});
+    self(w)->add({Type::scroll, x, y});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     self(w)->pointer_ = {x, y};
-    self(w)->add({Kind::move, x, y});
+    self(w)->add({Type::move, x, y});
   });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
-    if (!entered) self(w)->add({Kind::move, -1e9, -1e9});
+    if (!entered) self(w)->add({Type::move, -1e9, -1e9});
   });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
     ImGui_ImplGlfw_WindowFocusCallback(w, focused);
@@ -240,20 +240,20 @@ void Window::pump_events() {
   bool button_changed = false;
   std::vector<int> pressed;
   const auto taken = [&] {
-    const Event::Kind kind = events_.front().kind;
-    if (kind == Event::Kind::button || kind == Event::Kind::key) ++taken_;
+    const Event::Type kind = events_.front().kind;
+    if (kind == Event::Type::button || kind == Event::Type::key) ++taken_;
     events_.pop_front();
   };
   for (; !events_.empty(); taken()) {
     const Event& event = events_.front();
-    if (event.kind == Event::Kind::move || event.kind == Event::Kind::button) {
+    if (event.kind == Event::Type::move || event.kind == Event::Type::button) {
       if (button_changed) break;
       mouse_x_ = event.x;
       mouse_y_ = event.y;
-      if (event.kind == Event::Kind::move) continue;
+      if (event.kind == Event::Type::move) continue;
       button_changed = true;
       if (event.code < 3) mouse_down_[event.code] = event.action == GLFW_PRESS;
-    } else if (event.kind == Event::Kind::key) {
+    } else if (event.kind == Event::Type::key) {
       if (event.action == GLFW_RELEASE &&
           std::find(pressed.begin(), pressed.end(), event.code) != pressed.end())
         break;
@@ -268,7 +268,7 @@ void Window::pump_events() {
         held_[event.code] = printed_key(event.code, event.scancode);
       ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
       take_key(event);
-    } else if (event.kind == Event::Kind::character) {
+    } else if (event.kind == Event::Type::character) {
       ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned>(event.code));
       take_character(static_cast<unsigned>(event.code));
     } else {

@@ -70,7 +70,7 @@ class Window {
 
  private:
   struct Event {
-    enum class Kind { move, button, key, character, scroll } kind;
+    enum class Type { move, button, key, character, scroll } kind;
     double x = 0, y = 0;  ///< the pointer in window px, or scrolled lines
     int code = 0, scancode = 0, action = 0, mods = 0;
   };

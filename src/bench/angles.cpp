@@ -23,13 +23,13 @@ Points star() {
 
 constexpr int kAsked = 8700;  ///< so that the mesh has about 10000 vertices
 
-Scene star_scene() {
-  Scene scene;
-  scene.rest = scene.pose = polygon_cage(star());
-  scene.method = "angles";
-  for (Index v = 0; v < scene.rest.size(); ++v) scene.corners.push_back({v, {}, {}});
-  scene.corners[3].pose = {0.2, 0.3, 1};
-  return scene;
+Deformation star_scene() {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(star());
+  deformation.method = "angles";
+  for (Index v = 0; v < deformation.rest.size(); ++v) deformation.corners.push_back({v, {}, {}});
+  deformation.corners[3].pose = {0.2, 0.3, 1};
+  return deformation;
 }
 
 }  // namespace
@@ -47,36 +47,37 @@ double angles_prepare_ms(int runs) {
 }
 
 double angles_drag_ms(int runs) {
-  Scene scene = star_scene();
-  const auto prepared = prepared_map(scene, Precision::single, {kAsked});
+  Deformation deformation = star_scene();
+  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
   SampledMap map;
   return median_ms(runs, [&] {
-    scene.corners[7].pose.before += 1e-3;
-    scene.corners[7].pose.after += 1e-3;
-    prepared->deformer->deform(pose_of(scene), map, {false, true});
+    deformation.corners[7].pose.before += 1e-3;
+    deformation.corners[7].pose.after += 1e-3;
+    map = prepared->deformer->deform(pose_of(deformation), {false, true});
   });
 }
 
 double angles_pose_ms(int runs) {
-  Scene scene = star_scene();
-  const auto prepared = prepared_map(scene, Precision::single, {kAsked});
+  Deformation deformation = star_scene();
+  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
   SampledMap map;
-  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+  return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
 
 double playback_ms(int runs) {
-  Scene scene = star_scene();
-  scene = with_key(std::move(scene), 0);
-  scene.corners[10].pose = {1, 1.2, 1};
-  scene = with_key(std::move(scene), 1);
-  const std::shared_ptr<PreparedMap> prepared = prepared_map(scene, Precision::single, {kAsked});
+  Deformation deformation = star_scene();
+  deformation = with_key(std::move(deformation), 0);
+  deformation.corners[10].pose = {1, 1.2, 1};
+  deformation = with_key(std::move(deformation), 1);
+  const std::shared_ptr<PreparedMap> prepared =
+      prepared_map(deformation, Precision::single, {kAsked});
   Motion motion;
-  motion.follow(scene, prepared);
+  motion.follow(deformation, false, prepared);
   double time = 0;
   return median_ms(runs, [&] {
     time = time < 0.9 ? time + 0.01 : 0.01;
     const VectorXc f = motion.map_at(time);
-    motion.scene_at(scene, time, f);
+    motion.deformation_at(deformation, time, f);
   });
 }
 

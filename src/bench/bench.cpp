@@ -32,12 +32,12 @@ Points wavy(int n, Complex center, double radius) {
   return polygon;
 }
 
-Scene scene_with(const Points& polygon) {
-  Scene scene;
-  scene.rest = scene.pose = polygon_cage(polygon);
-  for (Points& segment : scene.pose.segments)
+Deformation scene_with(const Points& polygon) {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(polygon);
+  for (Points& segment : deformation.pose.segments)
     segment[0] += 20.0 * std::sin(segment[0].imag() / 100);
-  return scene;
+  return deformation;
 }
 
 /// The number of vertices to ask for so that the mesh has about 15000.
@@ -106,10 +106,10 @@ Cage wavy_curves(int degree, double bulge) {
 }
 
 double curved_prepare_ms(int runs) {
-  Scene scene;
-  scene.rest = wavy_curves(3, 0.2);
-  scene.pose = wavy_curves(3, 0.1);
-  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {8700}); });
+  Deformation deformation;
+  deformation.rest = wavy_curves(3, 0.2);
+  deformation.pose = wavy_curves(3, 0.1);
+  return median_ms(runs, [&] { prepared_map(deformation, Precision::single, {8700}); });
 }
 
 /// The way over an intermediate polygon (Lin, Chen 2024): u2 after the inverse of u1, with u1
@@ -152,15 +152,14 @@ double raised_coordinates_ns(int degree, int runs) {
 
 /// 10000 preimages under 20 cubic segments, after the inverse is set up.
 double inverse_ms(int runs) {
-  Scene scene;
-  scene.rest = polygon_cage(wavy(20, {500, 500}, 350));
-  scene.pose = wavy_curves(3, 0.15);
-  const auto prepared = prepared_map(scene, Precision::full, {4000});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {});
-  const auto points = prepared->deformer->point_map(pose_of(scene));
+  Deformation deformation;
+  deformation.rest = polygon_cage(wavy(20, {500, 500}, 350));
+  deformation.pose = wavy_curves(3, 0.15);
+  const auto prepared = prepared_map(deformation, Precision::full, {4000});
+  SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
+  const auto points = prepared->deformer->point_map(pose_of(deformation));
   const std::span<const Complex> f(map.f.data(), static_cast<size_t>(map.f.size()));
-  const InverseMap inverse(scene.rest, *prepared->mesh, f, *points);
+  const InverseMap inverse(deformation.rest, *prepared->mesh, f, *points);
   const Mesh& mesh = *prepared->mesh;
   Points targets;  // a quarter next to the boundary
   for (size_t i = 0; i < 10000; ++i) {
@@ -177,31 +176,31 @@ double inverse_ms(int runs) {
 }
 
 /// A bar of 16 vertices with pins, one of which is dragged around until the reference folds.
-Scene pulled_bar() {
+Deformation pulled_bar() {
   Points bar;
   for (int i = 0; i < 8; ++i) bar.push_back({100.0 * i, 0});
   for (int i = 7; i >= 0; --i) bar.push_back({100.0 * i, 160});
-  Scene scene = scene_with(bar);
-  scene.method = "bounded";
+  Deformation deformation = scene_with(bar);
+  deformation.method = "bounded";
   for (const Complex z : {Complex(40, 80), Complex(350, 80), Complex(660, 80)})
-    scene.pins.push_back({z, z, {}, {}});
-  return scene;
+    deformation.pins.push_back({z, z, {}, {}});
+  return deformation;
 }
 
 /// 300 frames of a drag: the median or the longest frame, or how many frames were not certified.
 enum class DragFigure { median, longest, unproved };
 
 double bounded_drag(DragFigure figure) {
-  Scene scene = pulled_bar();
-  const auto prepared = prepared_map(scene, Precision::single, {5000});
+  Deformation deformation = pulled_bar();
+  const auto prepared = prepared_map(deformation, Precision::single, {5000});
   std::vector<double> times;
   int unproved = 0;
   SampledMap map;
   for (int frame = 0; frame < 300; ++frame) {
     const double t = frame / 300.0;
-    scene.pins[2].pose = Complex(350, 80) + (310 - 280 * t) * std::polar(1.0, 7 * t);
+    deformation.pins[2].pose = Complex(350, 80) + (310 - 280 * t) * std::polar(1.0, 7 * t);
     const double start = now_ms();
-    prepared->deformer->deform(pose_of(scene), map, {false, true});
+    map = prepared->deformer->deform(pose_of(deformation), {false, true});
     times.push_back(now_ms() - start);
     unproved += map.status != SampledMap::Status::certified;
   }
@@ -223,16 +222,16 @@ double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
 }
 
 double bounded_cold_ms(int runs) {
-  Scene scene = pulled_bar();
-  const auto prepared = prepared_map(scene, Precision::single, {5000});
-  scene.pins[2].pose = Complex(350, 80) + 120.0 * std::polar(1.0, 3.0);
+  Deformation deformation = pulled_bar();
+  const auto prepared = prepared_map(deformation, Precision::single, {5000});
+  deformation.pins[2].pose = Complex(350, 80) + 120.0 * std::polar(1.0, 3.0);
   SampledMap map;
-  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+  return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
 
 double prepare_ms(int runs) {
-  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
-  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}); });
+  const Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
+  return median_ms(runs, [&] { prepared_map(deformation, Precision::single, {kAsked}); });
 }
 
 double coordinates_ms(int runs) {
@@ -242,10 +241,10 @@ double coordinates_ms(int runs) {
 }
 
 double frame_ms(int runs) {
-  const Scene scene = scene_with(wavy(100, {500, 500}, 350));
-  const auto prepared = prepared_map(scene, Precision::single, {kAsked});
+  const Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
+  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
   SampledMap map;
-  return median_ms(runs, [&] { prepared->deformer->deform(pose_of(scene), map, {}); });
+  return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
 
 double mesh_ms(int runs) {
@@ -254,22 +253,23 @@ double mesh_ms(int runs) {
 }
 
 double add_pin_ms(int runs) {
-  Scene scene = scene_with(wavy(100, {500, 500}, 350));
-  scene.method = "pins";
+  Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
+  deformation.method = "pins";
   for (int i = 0; i < 10; ++i)
-    scene.pins.push_back({Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
-  const auto before = prepared_map(scene, Precision::single, {kAsked});
-  scene.pins.push_back({{510, 520}, {510, 520}, {}, {}});
-  return median_ms(runs, [&] { prepared_map(scene, Precision::single, {kAsked}, before.get()); });
+    deformation.pins.push_back(
+        {Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
+  const auto before = prepared_map(deformation, Precision::single, {kAsked});
+  deformation.pins.push_back({{510, 520}, {510, 520}, {}, {}});
+  return median_ms(runs,
+                   [&] { prepared_map(deformation, Precision::single, {kAsked}, before.get()); });
 }
 
 double export_ms(int runs, int threads) {
   const Image image = gradient(2000);
-  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
-  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
+  const Deformation deformation = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
   return median_ms(runs, [&] {
-    SampledMap map;
-    prepared->deformer->deform(pose_of(scene), map, {});
+    SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
     RasterJob job;
     job.mesh = prepared->mesh.get();
     job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
@@ -292,10 +292,9 @@ double auto_cage_ms(int runs) {
 
 double memory_mb(int) {
   const Image image = gradient(2000);
-  const Scene scene = scene_with(wavy(32, {1000, 1000}, 780));
-  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {true});
+  const Deformation deformation = scene_with(wavy(32, {1000, 1000}, 780));
+  const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
+  SampledMap map = prepared->deformer->deform(pose_of(deformation), {true});
   return resident_mb();
 }
 
@@ -379,15 +378,15 @@ constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: 
 
 std::vector<Result> comparison(const std::function<void(const Result&)>& report) {
   std::vector<Result> results;
-  Scene scene = pulled_bar();
-  scene.pins[2].pose = {180, 110};
-  Rest rest = rest_of(scene, Precision::full);
-  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest, {800}));
-  compare(rest, pose_of(scene), [&](const ComparedMap& row) {
+  Deformation deformation = pulled_bar();
+  deformation.pins[2].pose = {180, 110};
+  Rest rest = rest_of(deformation, Precision::full);
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest, {800}));
+  compare(rest, pose_of(deformation), [&](const ComparedMap& row) {
     char detail[160];
     std::snprintf(detail, sizeof detail,
                   "max k %.4f, tau %.4f, %d flips, turning number %.3f, %d steps%s", row.max_k,
-                  row.max_tau, row.flips, row.turning_number, row.iterations,
+                  row.max_tau, row.flipped_triangles, row.turning_number, row.iterations,
                   row.settled ? "" : ", not settled");
     results.push_back({kCompared + row.label, "ms", row.milliseconds, 0, 1, detail});
     report(results.back());

@@ -64,33 +64,33 @@ void run(const NewCommand& command) {
   say_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
-  Scene scene = with_cage(
-      loaded.scene,
-      command.cage
-          ? cage_of_file(*command.cage, picture)
-          : auto_cage(picture, {command.vertices, command.margin.value_or(-1), command.curved}));
-  check_rest_cage(scene.rest);
+  Deformation deformation = with_cage(
+      {}, command.cage ? cage_of_file(*command.cage, picture)
+                       : auto_cage(picture, {command.vertices, command.margin.value_or(-1),
+                                             command.curved}));
+  check_rest_cage(deformation.rest);
   if (command.pose)
-    scene.pose =
+    deformation.pose =
         cage_of_svg(read_file(*command.pose), command.pose->string(), height, PathUse::pose);
-  if (scene.pose.size() != scene.rest.size())
-    throw Error(ErrorKind::bad_input, command.pose->string() + ": the posed cage has " +
-                                          std::to_string(scene.pose.size()) +
-                                          " segments and the cage " +
-                                          std::to_string(scene.rest.size()) + "; they must agree");
+  if (deformation.pose.size() != deformation.rest.size())
+    throw Error(ErrorKind::bad_input,
+                command.pose->string() + ": the posed cage has " +
+                    std::to_string(deformation.pose.size()) + " segments and the cage " +
+                    std::to_string(deformation.rest.size()) + "; they must agree");
   if (command.outline) {
     const Flattening flattening = flattening_named(command.flattening);
-    scene.outline =
-        outline_of_file(*command.outline, height, box_of(outline_of(scene.rest)), flattening);
-    scene.surface = surface_of_file(*command.outline, flattening);
-    scene.method = "outline";
+    deformation.outline =
+        outline_of_file(*command.outline, height, box_of(outline_of(deformation.rest)), flattening);
+    deformation.surface = surface_of_file(*command.outline, flattening);
+    deformation.method = "outline";
   }
   const auto absolute = [](const Path& path) { return absolute_path(path); };
-  const std::string text = json_of(portable(scene, absolute(command.out).parent_path()));
+  const std::string text = json_of(
+      portable(with_deformation(loaded.scene, deformation), absolute(command.out).parent_path()));
   scene_from_json(text, command.out.string());  // what could not be read again is not written
   write_result(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
-               static_cast<size_t>(scene.rest.size()));
+               static_cast<size_t>(deformation.rest.size()));
 }
 
 void run(const BenchCommand& command) {

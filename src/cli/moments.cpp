@@ -37,11 +37,11 @@ void require_keyframes(const Scene& scene, const Path& path) {
                 shown_name(path) + ": the scene has no keyframes, so there are no times in it");
 }
 
-std::vector<Moment> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {
+std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {
   if (!wanted.any()) return {{}};
   require_keyframes(scene, path);
   if (!wanted.frames) return {{{}, wanted.time}};
-  std::vector<Moment> moments;
+  std::vector<FrameTime> moments;
   const FrameRange range = frames_named(*wanted.frames, scene);
   for (int i = range.first; i <= range.last; ++i)
     moments.push_back({i, i / scene.animation.frames_per_second});

@@ -25,12 +25,12 @@ struct FrameRange {
 FrameRange frames_named(const std::string& text, const Scene& scene);
 
 /// One of them; neither: the scene as it stands.
-struct Moment {
+struct FrameTime {
   std::optional<int> frame = {};
   std::optional<double> time = {};
 };
 /// At least one. Throws Error as frames_named, and for times of a scene without keyframes.
-std::vector<Moment> moments_of(const Moments& wanted, const Scene& scene, const Path& path);
+std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path);
 
 /// Throws Error unless a scene has keyframes. `path` is where it came from.
 void require_keyframes(const Scene& scene, const Path& path);

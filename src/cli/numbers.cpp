@@ -15,7 +15,7 @@ namespace holomorph {
 namespace {
 
 /// The start of a CSV row: the frame, if there are several.
-std::string frame_column(const Moment& moment) {
+std::string frame_column(const FrameTime& moment) {
   return moment.frame ? std::to_string(*moment.frame) + "," : "";
 }
 
@@ -47,17 +47,17 @@ size_t points_at_once(const TimedMap& map) {
 void run(const MapCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
   const auto [scene, points] = read_scene_and_points(command, command.points);
-  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  const std::vector<FrameTime> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("map");
   ResultWriter out(command.out);
   out.write(std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n");
   TimedMap timed(scene);
   Lost lost;
   std::vector<char> inside;
-  for (const Complex& z : points) inside.push_back(contains(scene.rest, z));
+  for (const Complex& z : points) inside.push_back(contains(scene.deformation().rest, z));
   const size_t block = points_at_once(timed), blocks = (points.size() + block - 1) / block;
   for (size_t k = 0; k < moments.size(); ++k) {
-    const TimedMap::Frame frame = timed.frame(moments[k].time);
+    const TimedFrame frame = timed.frame(moments[k].time);
     for (size_t b = 0; b < blocks; ++b) {
       progress.step(k * blocks + b, moments.size() * blocks);
       const size_t from = b * block, to = std::min(points.size(), from + block);
@@ -83,7 +83,7 @@ void run(const MapCommand& command) {
 void run(const InverseCommand& command) {
   check_out(command.out, command.force, {command.scene, command.points});
   const auto [scene, points] = read_scene_and_points(command, command.points, true);
-  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  const std::vector<FrameTime> moments = moments_of(command.moments, scene, command.scene);
   Progress progress("inverse", "point");
   ResultWriter out(command.out);
   out.write(std::string(moments[0].frame ? "frame," : "") +
@@ -91,7 +91,9 @@ void run(const InverseCommand& command) {
   TimedMap timed(scene);
   for (size_t k = 0; k < moments.size(); ++k) {
     const auto inverse = timed.inverse(timed.frame(moments[k].time));
-    if (!inverse) throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse");
+    if (!inverse)
+      throw Error(ErrorKind::bad_input,
+                  "method '" + scene.deformation().method + "' has no inverse");
     for (size_t i = 0; i < points.size(); ++i) {
       progress.step(k * points.size() + i, moments.size() * points.size());
       std::vector<Preimage> found = inverse->inverse.at(points[i]);
@@ -113,25 +115,28 @@ void run(const CoordinatesCommand& command) {
   const auto [scene, points] = read_scene_and_points(command, command.points);
   if (command.order > 12)
     throw Error(ErrorKind::bad_input, "--order: the order of a derivative is at most 12");
-  check_budget(&Budget::coordinates,
-               static_cast<double>(points.size()) *
-                   static_cast<double>(elevated_to(scene.rest, scene.pose).control_count()),
-               "the points have");
+  check_budget(
+      &Budget::coordinates,
+      static_cast<double>(points.size()) *
+          static_cast<double>(
+              elevated_to(scene.deformation().rest, scene.deformation().pose).control_count()),
+      "the points have");
   const Progress progress("coordinates");
   // Columns are the pose's control points: the rest cage at the pose's degrees.
-  for (Index i = 0; i < scene.rest.size(); ++i)
-    if (scene.rest.degree(i) > scene.pose.degree(i))
+  for (Index i = 0; i < scene.deformation().rest.size(); ++i)
+    if (scene.deformation().rest.degree(i) > scene.deformation().pose.degree(i))
       throw Error(ErrorKind::bad_input, shown_name(command.scene) + ": /cage/rest/" +
                                             std::to_string(i) +
                                             ": the rest segment's degree is above the posed one's");
-  write_result(command.out, npy_of(cauchy_coordinates(elevated_to(scene.rest, scene.pose), points,
-                                                      command.order)));
+  write_result(command.out, npy_of(cauchy_coordinates(
+                                elevated_to(scene.deformation().rest, scene.deformation().pose),
+                                points, command.order)));
 }
 
 void run(const InfoCommand& command) {
   const Scene scene = read_scene(command).scene;
   require_cage(scene, command.scene);
-  const std::vector<Moment> moments = moments_of(command.moments, scene, command.scene);
+  const std::vector<FrameTime> moments = moments_of(command.moments, scene, command.scene);
   std::vector<SceneReport> reports;
   {
     Progress progress("info", "frame");

@@ -110,12 +110,12 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
 
 void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
   require_cage(loaded.scene, command.scene);
-  const LaidSurface surface = laid_surface_of(loaded.scene);
+  const LaidSurface surface = laid_surface_of(loaded.scene.deformation());
   for (const Path& file : files_of_textured(command.out))
     check_out(file, command.force, command.scene, loaded);
   const Progress progress("export");
   const TexturedSurface on =
-      textured(surface, loaded.scene, loaded.image(), command.scale.value_or(1));
+      textured(surface, loaded.scene.deformation(), loaded.image(), command.scale.value_or(1));
   const TidyStop tidy;
   write_textured(command.out, surface, on);
   std::fprintf(stderr, "%s, with material and a picture of %d x %d pixels\n", command.out.c_str(),
@@ -137,14 +137,14 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
         });
     return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
   }
-  if (format == "svg" && !time) return svg_of(loaded.scene);
+  const auto& image = loaded.scene.layer().image;
+  if (format == "svg" && !time) return svg_of(loaded.scene.deformation(), image);
   TimedMap timed(loaded.scene);
-  const TimedMap::Frame frame = timed.frame(time);
-  if (format == "svg") return svg_of(frame.scene);
+  const TimedFrame frame = timed.frame(time);
+  if (format == "svg") return svg_of(frame.deformation, image);
   const VectorXc f = timed.on_mesh(frame).f;
   const std::span<const Complex> positions(f.data(), static_cast<size_t>(f.size()));
   if (format == "npy") return npy_of(positions);
-  const auto& image = loaded.scene.image;
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 

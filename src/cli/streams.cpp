@@ -46,7 +46,7 @@ LoadedScene read_scene(const OfScene& command) {
 }
 
 void require_cage(const Scene& scene, const Path& input) {
-  if (!scene.has_cage())
+  if (!scene.deformation().has_cage())
     throw Error(ErrorKind::bad_input, shown_name(input) +
                                           ": /cage/rest: the scene has no cage yet; draw one in "
                                           "the editor or make one with 'holomorph new'");

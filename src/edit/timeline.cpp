@@ -34,10 +34,10 @@ double time_of_frame(const Scene& scene, int frame) {
   return std::clamp(frame / scene.animation.frames_per_second, 0.0, kLongestTime);
 }
 
-std::optional<double> next_key(const Scene& scene, double time, bool forwards) {
+std::optional<double> next_key(const Deformation& deformation, double time, bool forwards) {
   constexpr double kHere = 1e-3;
   std::optional<double> next;
-  for (const Keyframe& key : scene.keyframes) {
+  for (const Keyframe& key : deformation.keyframes) {
     if (forwards && key.time > time + kHere && !next) next = key.time;
     if (!forwards && key.time < time - kHere) next = key.time;
   }

@@ -36,6 +36,6 @@ int frame_at(const Scene& scene, double time);
 double time_of_frame(const Scene& scene, int frame);
 
 /// The next key's time behind a time (or before it); none behind the last one.
-std::optional<double> next_key(const Scene& scene, double time, bool forwards);
+std::optional<double> next_key(const Deformation& deformation, double time, bool forwards);
 
 }  // namespace holomorph

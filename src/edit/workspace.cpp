@@ -38,100 +38,108 @@ bool advance(Playback& playback, const LiveMap& map, double now_ms) {
   return true;
 }
 
+bool Workspace::shows_outline() const {
+  const Deformation& deformation = shown.deformation();
+  return mode == EditMode::pose && display.show_cage && !display.hide_overlays &&
+         !deformation.outline.empty() && method_named(deformation.method).uses_outline;
+}
+
 bool Workspace::accepts(const Scene& scene) {
-  if (!scene.has_cage() || scene == document.scene()) return true;
+  const Deformation &after = scene.deformation(), &before = document.scene().deformation();
+  if (!after.has_cage() || scene == document.scene()) return true;
   try {
-    if (scene.rest != document.scene().rest) check_rest_cage(scene.rest);
+    if (after.rest != before.rest) check_rest_cage(after.rest);
     scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
   } catch (const Error& error) {
-    complain(Error(error.kind(), "Not done: " + std::string(error.what()), error.where()));
+    messages.complain("Not done: " + std::string(error.what()), error.where());
     return false;
   }
   return true;
 }
 
-bool Workspace::commit(const std::string& label, Scene scene, From from) {
-  carried_on.reset();
-  preview.reset();
-  const std::optional<double> at = shown_time();
-  return enter(std::move(scene), from,
+bool Workspace::commit(const std::string& label, Deformation deformation, EditBase base) {
+  mergeable_selection_.reset();
+  shown.preview.reset();
+  const std::optional<double> at = shown.time();
+  return enter(with_deformation(document.scene(), std::move(deformation)), base,
                [&](Scene entered) { document.commit(label, std::move(entered), at); });
 }
 
-bool Workspace::amend(Scene scene, From from) {
-  return enter(std::move(scene), from, [&](Scene entered) { document.amend(std::move(entered)); });
+bool Workspace::amend(Deformation deformation, EditBase base) {
+  return enter(with_deformation(document.scene(), std::move(deformation)), base,
+               [&](Scene entered) { document.amend(std::move(entered)); });
+}
+
+bool Workspace::commit_layers(const std::string& label, Scene scene) {
+  if (scene.layer().id != document.scene().layer().id) leave_layer();
+  mergeable_selection_.reset();
+  shown.preview.reset();
+  const std::optional<double> at = shown.time();
+  if (!enter(std::move(scene), EditBase::document,
+             [&](Scene entered) { document.commit(label, std::move(entered), at); }))
+    return false;
+  if (!document.scene().deformation().has_cage() && tools.active != ToolId::pen)
+    tools.active = ToolId::select;
+  return true;
 }
 
 bool Workspace::require_open_layer() {
-  const LayerState& layer = document.scene().layer;
-  if (layer.locked || !layer.visible) {
-    say(layer.locked ? "The layer is locked: " + key_of("layer.lock") + " unlocks it."
-                     : "The layer is hidden: " + key_of("layer.visible") + " shows it.");
-  }
+  const Layer& layer = document.scene().layer();
+  if (layer.locked || !layer.visible)
+    messages.say(layer.locked ? "The layer is locked: " + key_of("layer.lock") + " unlocks it."
+                              : "The layer is hidden: " + key_of("layer.visible") + " shows it.");
   return !layer.locked && layer.visible;
 }
 
-/// Whether a scene has other contents in a layer that cannot be edited before and after.
+/// Whether a scene changes the contents of a layer that is locked or hidden before and after.
 bool Workspace::changes_closed_layer(const Scene& scene) const {
-  const Scene& before = document.scene();
-  if ((!before.layer.locked && before.layer.visible) || scene.layer != before.layer) return false;
-  Scene with_others = scene;
-  with_others.below = before.below;
-  with_others.above = before.above;
-  with_others.background = before.background;
-  with_others.animation = before.animation;
-  if (before.image && !document.image()) with_others.image = before.image;  // found again
-  return with_others != before;
+  const Layer& before = document.scene().layer();
+  if (!before.locked && before.visible) return false;
+  const size_t number = layer_of_id(scene, before.id);
+  if (number == scene.layers.size()) return false;
+  const Layer& after = *scene.layers[number];
+  if (after.locked != before.locked || after.visible != before.visible) return false;
+  // A picture that was missing may be found again.
+  const bool other_image = before.image && document.image() && after.image != before.image;
+  return other_image || after.deformation != before.deformation;
 }
 
-bool Workspace::enter(Scene scene, From from, const std::function<void(Scene)>& put) {
-  preview.reset();
+bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
+  shown.preview.reset();
   playback = {};
   if (changes_closed_layer(scene)) return require_open_layer();
-  const Pose own = whole_pose_of(document.scene()), before = whole_pose_of(unedited());
-  const Pose shown = from == From::shown ? whole_pose_of(scene) : before;
-  const bool moves = from == From::shown && fits(scene, before) && shown != before,
-             sets_key = moves && timeline.auto_key;
-  if (sets_key && !require_pose()) return false;
-  if (sets_key)
-    scene = keyed(std::move(scene));
-  else if (from == From::shown && !moves && fits(scene, own))
-    scene = posed_as(std::move(scene), own);
+  Shown::Entry entry = shown.entry_of(scene.deformation(), base);
+  if (entry.sets_key && !require_pose()) return false;
+  if (entry.sets_key) entry.deformation = keyed(std::move(entry.deformation));
+  if (entry.deformation != scene.deformation())
+    scene = with_deformation(std::move(scene), entry.deformation);
   if (!accepts(scene)) return false;
-  if (sets_key)
-    timeline.visible = timeline.shows = true;
-  else if (moves)
-    timeline.shows = timeline.playing = false;
-  const int layer = document.scene().layer.id;
+  if (entry.sets_key)
+    shown.timeline.visible = shown.timeline.shows = true;
+  else if (entry.moves)
+    shown.timeline.shows = shown.timeline.playing = false;
+  const int layer = document.scene().layer().id;
   put(std::move(scene));
-  timed.reset();
-  if (layer == document.scene().layer.id && shown_time() && fits(document.scene(), shown))
-    timed = posed_as(document.scene(), shown);
+  shown.follow(entry, layer == document.scene().layer().id);
   prune_selection();
   return true;
 }
 
-/// What belongs to the edited layer alone, when it is another one.
+/// Drops what belongs to the edited layer alone.
 void Workspace::leave_layer() {
-  preview.reset();
-  timed.reset();
-  carried_on.reset();
+  shown.preview.reset();
+  shown.set_timed({});
+  mergeable_selection_.reset();
   selection.clear();
   playback = {};
-  posture = Posture::pose;
-}
-
-bool Workspace::commit_layers(const std::string& label, Scene scene) {
-  if (scene.layer.id != document.scene().layer.id) leave_layer();
-  if (!commit(label, std::move(scene), From::document)) return false;
-  if (!document.scene().has_cage() && tool != ToolId::pen) tool = ToolId::select;
-  return true;
+  mode = EditMode::pose;
 }
 
 void Workspace::choose_layer(size_t number) {
   static const std::string kLabel = "Edit another layer";
-  if (number == edited_layer(document.scene())) return;
-  Scene chosen = with_layer_chosen(document.scene(), number);
+  if (number == document.scene().edited) return;
+  Scene chosen = document.scene();
+  chosen.edited = number;
   leave_layer();
   const History& history = document.history();
   // Looking through the layers is one step, not many.
@@ -141,64 +149,56 @@ void Workspace::choose_layer(size_t number) {
   commit_layers(kLabel, std::move(chosen));
 }
 
-/// With the scene's pose as the key at the time, and the document's own pose.
-Scene Workspace::keyed(Scene scene) {
-  const Scene& before = document.scene();
-  if (const size_t there = key_at(before, timeline.time);
+/// With the deformation's pose as the key at the time, and the document's own pose.
+Deformation Workspace::keyed(Deformation deformation) {
+  const Deformation& before = shown.own();
+  const double time = shown.timeline.time;
+  if (const size_t there = key_at(before, time);
       there < before.keyframes.size() && !fits(before, before.keyframes[there].pose))
-    say("A key that did not play was there; undo brings it back.");
-  scene = with_key(std::move(scene), timeline.time);
+    messages.say("A key that did not play was there; undo brings it back.");
+  deformation = with_key(std::move(deformation), time);
   if (map().posed() && map().posed()->keyframes == before.keyframes) {
     map().follow_keys();
-    keep_turns(scene, before, map().motion());
+    keep_turns(deformation, before, map().motion());
   }
   const Pose own = whole_pose_of(before);
-  return fits(scene, own) ? posed_as(std::move(scene), own) : scene;
+  return fits(deformation, own) ? posed_as(std::move(deformation), own) : deformation;
 }
 
 bool Workspace::require_pose() {
-  if (!knows_pose()) say("One moment, the picture at this time is being prepared.");
-  return knows_pose();
-}
-
-bool Workspace::knows_pose() const {
-  return !shown_time() || timed || playing_keys(document.scene()).empty();
+  if (!shown.knows_pose()) messages.say("One moment, the picture at this time is being prepared.");
+  return shown.knows_pose();
 }
 
 void Workspace::go_to_time(double seconds) {
-  preview.reset();
-  if (!timeline.shows && seconds != timeline.time && leaves_a_pose()) say(left_text());
-  if (seconds != timeline.time) timed.reset();
-  timeline.go_to(seconds);
-}
-
-/// Whether the scene's own pose is in none of its keyframes.
-bool Workspace::leaves_a_pose() const {
-  const Scene& scene = document.scene();
-  return document.history().can_undo() && !playing_keys(scene).empty() &&
-         std::ranges::find(scene.keyframes, whole_pose_of(scene), &Keyframe::pose) ==
-             scene.keyframes.end();
+  shown.preview.reset();
+  const Timeline& timeline = shown.timeline;
+  if (!timeline.shows && seconds != timeline.time && shown.leaves_a_pose())
+    messages.say(left_text());
+  shown.go_to_time(seconds);
 }
 
 void Workspace::set_key() {
   if (!require_pose()) return;
   char label[32];
-  std::snprintf(label, sizeof label, "Key at %.2f s", timeline.time);
-  const Scene shown = scene();
-  if (!commit(label, keyed(shown), From::document)) return;
-  timeline.visible = timeline.shows = true;
-  timed = posed_as(document.scene(), whole_pose_of(shown));
+  std::snprintf(label, sizeof label, "Key at %.2f s", shown.timeline.time);
+  const Deformation deformation = shown.deformation();
+  if (!commit(label, keyed(deformation), EditBase::document)) return;
+  shown.timeline.visible = shown.timeline.shows = true;
+  shown.set_timed_pose(whole_pose_of(deformation));
 }
 
 std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
-  const Scene& scene = document.scene();
-  if (scene.keyframes.empty() || !map().has_map() || map().posed() != scene) return {};
-  std::vector<Points> places;
-  for (const Keyframe& key : scene.keyframes) places.push_back(map().places_at(key.time, rest));
-  return places;
+  const Deformation& deformation = shown.own();
+  if (deformation.keyframes.empty() || !map().has_map() || map().posed() != deformation) return {};
+  std::vector<Points> images;
+  for (const Keyframe& key : deformation.keyframes)
+    images.push_back(map().places_at(key.time, rest));
+  return images;
 }
 
 std::vector<OnionSkin> Workspace::onion_skins() const {
+  const Timeline& timeline = shown.timeline;
   if (!timeline.onion || timeline.playing || at_rest() || !map().has_map()) return {};
   std::vector<OnionSkin> skins;
   for (const bool later : {false, true})
@@ -208,50 +208,66 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
   return skins;
 }
 
-bool Workspace::update_map(Wanted wanted) {
-  const std::optional<double> time = shown_time();
-  const bool others = maps.update_others(document.scene(), time_of_layers());
-  const bool changed = map().update(preview ? *preview : document.scene(), wanted, time) || others;
-  if (preview) timeline.playing = false;
-  if (timeline.onion && map().has_map()) map().follow_keys();
-  if (preview) return changed;  // an edit of what was shown
+bool Workspace::update_map(EvalOptions options) {
+  const Deformation& own = shown.own();
+  const std::optional<double> time = shown.time();
+  const bool others = maps.update_others(document.scene(), shown.moment_of_layers());
+  const bool changed =
+      map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
+  if (shown.preview) shown.timeline.playing = false;
+  if (shown.timeline.onion && map().has_map()) map().follow_keys();
+  if (shown.preview) return changed;  // an edit of what was shown
   // While another method is being prepared, handles stay where they were at the time.
-  if (!time || (timed && !fits(document.scene(), whole_pose_of(*timed)))) timed.reset();
-  if (time && map().posed() == document.scene()) timed = map().timed();
+  if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
+  if (time && map().posed() == own) shown.set_timed(map().timed());
   prune_selection();  // degrees of posed segments vary with time
   return changed;
 }
 
-void Workspace::commit_or_amend(const std::string& label, Scene scene, From from) {
+bool Workspace::continues_step(const std::string& label) const {
   const History& history = document.history();
-  if (carried_on == selection && posture == Posture::pose && history.can_undo() &&
-      history.entries()[history.index()].label == label)
-    amend(std::move(scene), from);
-  else if (commit(label, std::move(scene), from))
-    carried_on = selection;
+  return mergeable_selection_ == selection && mode == EditMode::pose && history.can_undo() &&
+         history.entries()[history.index()].label == label;
+}
+
+void Workspace::commit_or_amend(const std::string& label, Deformation deformation, EditBase base) {
+  if (continues_step(label))
+    amend(std::move(deformation), base);
+  else if (commit(label, std::move(deformation), base))
+    mergeable_selection_ = selection;
+}
+
+void Workspace::commit_or_amend_layers(const std::string& label, Scene scene) {
+  if (continues_step(label))
+    enter(std::move(scene), EditBase::document,
+          [&](Scene entered) { document.amend(std::move(entered)); });
+  else if (commit_layers(label, std::move(scene)))
+    mergeable_selection_ = selection;
 }
 
 void Workspace::go_to(size_t entry) {
   if (entry == document.history().index()) return;
-  preview.reset();
+  shown.preview.reset();
   const Scene before = document.scene();
   const size_t from = document.history().index();
-  carried_on.reset();
+  mergeable_selection_.reset();
   playback = {};
   document.go_to(entry);
-  timed.reset();
+  shown.set_timed({});
+  Timeline& timeline = shown.timeline;
   timeline.playing = false;
-  // What was undone or done again last is to be seen, at its time.
+  // What was undone or redone last is shown, at its time.
   const std::optional<double> at =
       document.history().entries()[entry < from ? entry + 1 : entry].at;
-  const bool other_layer = before.layer.id != document.scene().layer.id,
-             poses = !other_layer && whole_pose_of(before) != whole_pose_of(document.scene());
+  const Deformation &was = before.deformation(), &is = shown.own();
+  const bool other_layer = before.layer().id != document.scene().layer().id,
+             poses = !other_layer && whole_pose_of(was) != whole_pose_of(is);
   if (at) timeline.time = *at;
   if (at || poses) timeline.shows = at && (entry < from || !poses);
-  // Numbers mean other points in another structure.
-  const bool other_cage = before.rest.size() != scene().rest.size(),
-             other_pins = before.pins.size() != scene().pins.size(),
-             other_strokes = before.strokes.size() != scene().strokes.size();
+  // Numbers mean other handles in another structure.
+  const bool other_cage = was.rest.size() != is.rest.size(),
+             other_pins = was.pins.size() != is.pins.size(),
+             other_strokes = was.strokes.size() != is.strokes.size();
   std::erase_if(selection, [&](const Handle& handle) {
     return other_layer                           ? true
            : handle.kind == Handle::Kind::pin    ? other_pins
@@ -264,25 +280,23 @@ void Workspace::go_to(size_t entry) {
 void Workspace::show_next_fold() {
   const Injectivity& found = map().injectivity();
   if (found.folds_at.empty()) {
-    if (found.crossing) viewport.center = *found.crossing;
-    return found.crossing ? toasts.push_back({"Nothing folds; two parts lie over each other here.",
-                                              false, found.crossing})
-                          : say("Nothing folds.");
+    if (!found.crossing) return messages.say("Nothing folds.");
+    display.viewport.center = *found.crossing;
+    return messages.say("Nothing folds; two parts lie over each other here.", found.crossing);
   }
-  fold_shown = folds_walked == found.folds_at ? (fold_shown + 1) % folds_walked.size() : 0;
-  folds_walked = found.folds_at;
-  posture = Posture::pose;
-  viewport.center = folds_walked[fold_shown];
-  const std::string number = folds_walked.size() == 1
-                                 ? ""
-                                 : " (" + std::to_string(fold_shown + 1) + " of " +
-                                       std::to_string(folds_walked.size()) + ")";
-  toasts.push_back({"The picture folds over itself here" + number + ".", true, viewport.center});
+  fold_ = folds_ == found.folds_at ? (fold_ + 1) % folds_.size() : 0;
+  folds_ = found.folds_at;
+  mode = EditMode::pose;
+  display.viewport.center = folds_[fold_];
+  const std::string number = folds_.size() == 1 ? ""
+                                                : " (" + std::to_string(fold_ + 1) + " of " +
+                                                      std::to_string(folds_.size()) + ")";
+  messages.complain("The picture folds over itself here" + number + ".", folds_[fold_]);
 }
 
 void Workspace::perform(const std::string& title, const Job::Work& work,
                         const std::function<void()>& then) {
-  if (beside) return beside(title, work, then);
+  if (run_in_background) return run_in_background(title, work, then);
   Job::Progress progress;
   work(progress);
   then();
@@ -292,66 +306,73 @@ void Workspace::erase(const Selection& handles, Refit refit) {
   if (!require_open_layer()) return;
   const std::string what = "Delete " + kind_of(handles);
   try {
-    Scene after = erased(scene(), handles, refit);
+    Deformation after = erased(shown.deformation(), handles, refit);
     selection.clear();
     commit(handles.size() == 1 ? what : what + "s", std::move(after));
   } catch (const Error& error) {
-    complain(error);
+    messages.complain(error);
   }
 }
 
-void Workspace::say(const std::string& text) {
-  toasts.push_back({printable(text), false, {}});
-}
-
-void Workspace::complain(const Error& error) {
-  toasts.push_back({printable(error.what()), true, error.where()});
-}
-
-void Workspace::complain(const std::string& problem) {
-  if (!problem.empty()) toasts.push_back({printable(problem), true, {}});
-}
-
 void Workspace::prune_selection() {
-  std::erase_if(selection, [&](const Handle& handle) { return !exists(scene(), handle, posture); });
+  std::erase_if(selection,
+                [&](const Handle& handle) { return !exists(shown.deformation(), handle, mode); });
 }
 
-std::optional<Complex> Workspace::rest_at(Complex z) const {
-  if (!map().has_map()) return {};
-  const Mesh& mesh = *map().drawn();
+void Workspace::open(Document opened) {
+  document = std::move(opened);
+  maps.clear();
+  selection.clear();
+  mergeable_selection_.reset();
+  playback = {};
+  shown = Shown(document);
+  shown.timeline.visible = shown.timeline.shows = has_keyframes(document.scene());
+  mode = EditMode::pose;
+  display.split.reset();
+  display.view = View::image;
+  tools.active = shown.own().has_cage() ? ToolId::select : ToolId::pen;
+  // A picture that is missing is offered to be found for as long as it is.
+  if (document.without_picture().empty()) messages.complain(document.warning());
+}
+
+std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
+  const LiveMap& map = workspace.map();
+  if (!map.has_map()) return {};
+  const Mesh& mesh = *map.drawn();
   const std::span<const Complex> positions =
-      at_rest() ? std::span<const Complex>(mesh.vertices)
-                : std::span<const Complex>(map().map().f.data(),
-                                           static_cast<size_t>(map().map().f.size()));
+      workspace.at_rest()
+          ? std::span<const Complex>(mesh.vertices)
+          : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
   const auto found = locate(mesh, positions, z);
   if (!found) return {};
   return found->in(mesh, mesh.vertices);
 }
 
-Complex Workspace::posed_at(Complex rest) const {
-  if (!map().has_map()) return rest;
-  const Mesh& mesh = *map().drawn();
-  const VectorXc& f = map().map().f;
+Complex posed_at(const LiveMap& map, Complex rest) {
+  if (!map.has_map()) return rest;
+  const Mesh& mesh = *map.drawn();
+  const VectorXc& f = map.map().f;
   const auto found = locate(mesh, mesh.vertices, rest);
   return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
 }
 
-std::optional<Cage> Workspace::solved_cage() const {
-  if (!map().has_map() || !map().posed()) return {};
-  const std::optional<Scene>& shown = map().timed() ? map().timed() : map().posed();
-  if (map().timed() && key_at(*shown, timeline.time) == shown->keyframes.size())
+std::optional<Cage> solved_cage(const Workspace& workspace) {
+  const LiveMap& map = workspace.map();
+  if (!map.has_map() || !map.posed()) return {};
+  const std::optional<Deformation>& posed = map.timed() ? map.timed() : map.posed();
+  if (map.timed() && key_at(*posed, workspace.shown.timeline.time) == posed->keyframes.size())
     return {};  // on the way between keys there is none
-  return map().prepared()->deformer->solved_cage(pose_of(*shown));
+  return map.prepared()->deformer->solved_cage(pose_of(*posed));
 }
 
 namespace {
 
 /// The rectangle of a layer's picture where parts of it stay in it; none when the cage takes all of
 /// its corners along.
-Box what_stays(const Scene& layer, const Image* image) {
+Box what_stays(const Cage& cage, const Image* image) {
   if (!image) return {};
   constexpr double kOnEdge = 1e-6;  // px
-  const Points outline = outline_of(layer.rest);
+  const Points outline = outline_of(cage);
   const double width = image->width, height = image->height;
   Box box;
   bool stays = false;
@@ -366,63 +387,50 @@ Box what_stays(const Scene& layer, const Image* image) {
 
 }  // namespace
 
-Box Workspace::content_box() const {
+Box content_box(const Workspace& workspace) {
+  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation = workspace.shown.deformation();
+  const bool at_rest = workspace.at_rest();
   Box box;
   const auto include = [&](const Box& part) {
     if (part.empty()) return;
     box.include({part.left, part.bottom});
     box.include({part.right, part.top});
   };
-  include(what_stays(at_rest() ? Scene{} : document.scene(), document.image()));
-  for (size_t i = 0; i < layer_count(document.scene()); ++i) {
-    const Scene& layer = layer_at(document.scene(), i);
-    if (i == edited_layer(document.scene()) || !layer.layer.visible) continue;
-    include(what_stays(layer, document.pictures().of(layer)));
-    for (const Complex& z : maps.of(layer.layer.id).map().f)
+  const auto include_map = [&](const LiveMap& map) {
+    for (const Complex& z : map.map().f)
       if (is_finite(z)) box.include(z);
+  };
+  include(what_stays(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
+  for (const SharedLayer& layer : scene.layers) {
+    if (layer->id == scene.layer().id || !layer->visible) continue;
+    include(what_stays(layer->deformation.rest, workspace.document.pictures().of(*layer)));
+    include_map(workspace.maps.of(layer->id));
   }
-  for (const Complex& z : outline_of(cage_of(scene(), posture))) box.include(z);
-  if (!at_rest())
-    for (const Complex& z : scene().outline) box.include(z);
-  if (method_named(scene().method).uses_strokes)
-    for (size_t i = 0; i < scene().strokes.size(); ++i)
-      for (const Complex& z : curve_of(scene(), static_cast<Index>(i), posture)) box.include(z);
-  if (!at_rest() && map().has_map())
-    for (const Complex& z : map().map().f)
-      if (is_finite(z)) box.include(z);
+  for (const Complex& z : outline_of(cage_of(deformation, workspace.mode))) box.include(z);
+  if (!at_rest)
+    for (const Complex& z : deformation.outline) box.include(z);
+  if (method_named(deformation.method).uses_strokes)
+    for (size_t i = 0; i < deformation.strokes.size(); ++i)
+      for (const Complex& z : curve_of(deformation, static_cast<Index>(i), workspace.mode))
+        box.include(z);
+  if (!at_rest && workspace.map().has_map()) include_map(workspace.map());
   return box;
-}
-
-void Workspace::open(Document opened) {
-  document = std::move(opened);
-  maps.clear();
-  preview.reset();
-  selection.clear();
-  carried_on.reset();
-  playback = {};
-  timeline = {};
-  timed.reset();
-  timeline.visible = timeline.shows = has_keyframes(document.scene());
-  posture = Posture::pose;
-  split.reset();
-  view = View::image;
-  tool = document.scene().has_cage() ? ToolId::select : ToolId::pen;
-  // A picture that is missing is offered to be found for as long as it is.
-  if (document.without_picture().empty()) complain(document.warning());
 }
 
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
-  const CageHit hit = nearest_on_cage(cage_of(workspace.scene(), workspace.posture),
-                                      workspace.viewport.plane_at_px(px));
-  if (hit.distance * workspace.viewport.zoom > workspace.handle_px || hit.t < kAtVertex ||
-      hit.t > 1 - kAtVertex)
+  const CageHit hit = nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
+                                      workspace.display.viewport.plane_at_px(px));
+  if (hit.distance * workspace.display.viewport.zoom > workspace.display.handle_px ||
+      hit.t < kAtVertex || hit.t > 1 - kAtVertex)
     return {};
   return hit;
 }
 
 bool insert_at(Workspace& workspace, const CageHit& hit) {
-  if (!workspace.commit("Insert point", inserted(workspace.scene(), hit.segment, hit.t)))
+  if (!workspace.commit("Insert point",
+                        inserted(workspace.shown.deformation(), hit.segment, hit.t)))
     return false;
   workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
   return true;
@@ -437,13 +445,14 @@ std::string kind_of(const Selection& handles) {
 
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   std::optional<Handle> best;
-  if (!workspace.show_cage || workspace.hide_overlays) return best;
-  double distance = workspace.handle_px;
-  const Scene& scene = workspace.scene();
-  for (const Handle& handle : handles_of(scene, workspace.posture)) {
+  if (!workspace.display.show_cage || workspace.display.hide_overlays) return best;
+  double distance = workspace.display.handle_px;
+  const Deformation& deformation = workspace.shown.deformation();
+  for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind == Handle::Kind::stroke) continue;
     const double here = std::abs(
-        workspace.viewport.px_at_plane(position_of(scene, handle, workspace.posture)) - px);
+        workspace.display.viewport.px_at_plane(position_of(deformation, handle, workspace.mode)) -
+        px);
     // A pin on a cage point's spot is picked first: it lies on top.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;
@@ -452,12 +461,12 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   }
   if (best) return best;
   // Points lie on top of strokes.
-  for (const Handle& handle : handles_of(scene, workspace.posture)) {
+  for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind != Handle::Kind::stroke) continue;
     const double here =
-        workspace.viewport.zoom *
-        Polyline(without_repeats(curve_of(scene, handle.index, workspace.posture)), false)
-            .nearest(workspace.viewport.plane_at_px(px))
+        workspace.display.viewport.zoom *
+        Polyline(without_repeats(curve_of(deformation, handle.index, workspace.mode)), false)
+            .nearest(workspace.display.viewport.plane_at_px(px))
             .distance;
     if (here >= distance) continue;
     best = handle;

@@ -22,7 +22,7 @@ void blend(const std::uint8_t* over, std::uint8_t* under) {
   under[3] = static_cast<std::uint8_t>((all + 127) / 255);
 }
 
-struct Place {
+struct PixelOffset {
   int column = 0, row = 0;
 };
 
@@ -41,11 +41,11 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
     throw Error(ErrorKind::bad_input,
                 "the picture would have more than 16384 pixels a side; choose a smaller scale");
   const auto place_of = [&](const Image& image, int x, int y) {
-    return Place{x - left_edge, height - (y - bottom_edge) - image.height};
+    return PixelOffset{x - left_edge, height - (y - bottom_edge) - image.height};
   };
   RasterResult result = std::move(under);
   if (width != result.image.width || height != result.image.height) {
-    const Place at = place_of(result.image, 0, 0);
+    const PixelOffset at = place_of(result.image, 0, 0);
     Image larger(width, height);
     for (int r = 0; r < result.image.height; ++r)
       std::memcpy(larger.at(at.column, at.row + r), result.image.at(0, r),
@@ -53,7 +53,7 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
     result.image = std::move(larger);
     result.corner += Complex(left_edge, bottom_edge) / pixels_per_unit;
   }
-  const Place at = place_of(over.image, right, up);
+  const PixelOffset at = place_of(over.image, right, up);
   for (int r = 0; r < over.image.height; ++r)
     for (int c = 0; c < over.image.width; ++c)
       blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r));

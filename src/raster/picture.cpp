@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/maps/distortion.h"
-#include "core/mesh/mesher.h"
 #include "raster/compose.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
@@ -18,14 +17,18 @@ RasterResult picture_of(const Scene& scene, const Image* source, const PictureOp
 /// One layer, prepared when it is first drawn.
 class PictureMaker::LayerMaker {
  public:
-  LayerMaker(const Scene& layer, const Image* source) : layer_(layer), source_(source) {}
+  LayerMaker(const Layer& layer, bool linear_blend, const Image* source)
+      : layer_(layer),
+        deformation_(layer.deformation),
+        linear_blend_(linear_blend),
+        source_(source) {}
 
   const Image* source() const { return source_; }
-  bool visible() const { return layer_.layer.visible && source_; }
+  bool visible() const { return layer_.visible && source_; }
 
   RasterResult picture(const PictureOptions& options, double top) {
     RasterJob job = job_of(options, top);
-    if (!layer_.has_cage()) {
+    if (!deformation_.has_cage()) {
       if (options.view != View::image)
         throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
       return rasterized(job);
@@ -38,7 +41,7 @@ class PictureMaker::LayerMaker {
       job.heat = heat_values(options.view, distortion_of(map));
       job.scale = heat_scale(options.view, job.heat, options.automatic_range);
     }
-    if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, layer_);
+    if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, depths_of(deformation_));
     job.mesh = drawn_.get();
     job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
     return rasterized(job);
@@ -51,7 +54,7 @@ class PictureMaker::LayerMaker {
 
   /// Wherever the motion takes the mesh. Returns false when `go_on` says so.
   bool include_motion(Box& box, const std::function<bool()>& go_on) {
-    if (!layer_.has_cage()) return true;
+    if (!deformation_.has_cage()) return true;
     const auto map = [&](double time) { return map_at(time, false).f; };
     VectorXc before = map(0);
     for (const Complex& z : before) box.include(z);
@@ -117,24 +120,18 @@ class PictureMaker::LayerMaker {
   }
 
   SampledMap map_at(const std::optional<double>& time, bool derivatives) {
-    if (!prepared_) prepared_ = prepared_map(layer_, Precision::single, MeshOptions{});
-    SampledMap map;
-    if (!time || layer_.keyframes.empty()) {
-      prepared_->deformer->deform(pose_of(layer_), map, {derivatives});
-      return map;
-    }
-    motion_.follow(layer_, prepared_);
+    if (!prepared_) prepared_ = prepared_map(deformation_, Precision::single, MeshOptions{});
+    if (!time || deformation_.keyframes.empty())
+      return prepared_->deformer->deform(pose_of(deformation_), {derivatives});
+    motion_.follow(deformation_, linear_blend_, prepared_);
     if (motion_.error()) throw Error(*motion_.error());
     if (!motion_.plays()) return map_at({}, derivatives);
-    map.f = motion_.map_at(*time);
-    if (!derivatives) return map;
-    VertexDerivatives at = vertex_derivatives(*prepared_->mesh, map.f);
-    map.fz = std::move(at.fz);
-    map.fzbar = std::move(at.fzbar);
-    return map;
+    return blended_map(*prepared_->mesh, motion_.map_at(*time), derivatives);
   }
 
-  const Scene& layer_;
+  const Layer& layer_;
+  const Deformation& deformation_;
+  bool linear_blend_;
   const Image* source_;
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
@@ -143,10 +140,10 @@ class PictureMaker::LayerMaker {
 
 PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictures& others)
     : scene_(scene) {
-  for (size_t i = 0; i < layer_count(scene); ++i) {
-    const Scene& layer = layer_at(scene, i);
-    layers_.push_back(
-        std::make_unique<LayerMaker>(layer, i == edited_layer(scene) ? source : others.of(layer)));
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    layers_.push_back(std::make_unique<LayerMaker>(layer, scene.animation.linear_blend,
+                                                   i == scene.edited ? source : others.of(layer)));
   }
 }
 
@@ -159,17 +156,17 @@ Box PictureMaker::rectangle() const {
   return box;
 }
 
-RasterResult PictureMaker::picture(const PictureOptions& wanted) {
-  PictureOptions options = wanted;
+RasterResult PictureMaker::picture(const PictureOptions& asked) {
+  PictureOptions options = asked;
   if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_)) throw no_key_plays();
-  LayerMaker& edited = *layers_[edited_layer(scene_)];
+  LayerMaker& edited = *layers_[scene_.edited];
   if (options.view != View::image || !has_layers(scene_)) {
     const double top = edited.source() ? edited.source()->height : 0;
     RasterResult result = edited.picture(options, top);
     if (options.view != View::image) return result;
-    if (scene_.background.kind == Background::Kind::original)
+    if (scene_.background.fill == Background::Fill::original)
       result = composed(edited.original(options, top), result, options.scale);
-    if (scene_.background.kind == Background::Kind::color)
+    if (scene_.background.fill == Background::Fill::color)
       lay_on(result.image, scene_.background.color);
     return result;
   }
@@ -180,13 +177,13 @@ RasterResult PictureMaker::picture(const PictureOptions& wanted) {
   const auto add = [&](RasterResult over) {
     result = result ? composed(std::move(*result), over, options.scale) : std::move(over);
   };
-  if (scene_.background.kind == Background::Kind::original)
+  if (scene_.background.fill == Background::Fill::original)
     for (const auto& layer : layers_)
       if (layer->visible() && layer->source()) add(layer->original(options, top));
   for (const auto& layer : layers_)
     if (layer->visible()) add(layer->picture(options, top));
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
-  if (scene_.background.kind == Background::Kind::color)
+  if (scene_.background.fill == Background::Fill::color)
     lay_on(result->image, scene_.background.color);
   return std::move(*result);
 }

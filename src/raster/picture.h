@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "raster/raster.h"
-#include "scene/live_map.h"
+#include "scene/motion.h"
 #include "scene/pictures.h"
 
 namespace holomorph {

@@ -11,12 +11,12 @@ namespace holomorph {
 namespace {
 
 /// Whole output pixels around a box, at least the source's rectangle.
-struct Frame {
+struct PixelRect {
   int left, top, width, height;  ///< top counts down from the source's top
 };
 
 /// Cuts away transparent rows and columns that lie beyond the source's rectangle.
-void trim(Image& image, Frame& frame, const Frame& least) {
+void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   const auto row_empty = [&](int r) {
     for (int c = 0; c < image.width; ++c)
       if (image.at(c, r)[3]) return false;
@@ -90,7 +90,7 @@ RasterResult rasterized(const RasterJob& job) {
                   "the picture would have more than 16384 pixels a side; choose a smaller scale");
   };
   if (job.source) check_size(job.source->width * scale, height * scale);
-  Frame least{0, 0, 0, 0};
+  PixelRect least{0, 0, 0, 0};
   if (job.source) {
     const int top = static_cast<int>(std::floor((top_edge - height) * scale));
     least = {0, top, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
@@ -121,8 +121,8 @@ RasterResult rasterized(const RasterJob& job) {
   check_size(right - left, bottom - top);
   if (right <= left || bottom <= top)
     throw Error(ErrorKind::bad_input, "there is nothing to draw: no picture and no cage");
-  Frame frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
-              static_cast<int>(bottom - top)};
+  PixelRect frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
+                  static_cast<int>(bottom - top)};
   Image image =
       drawn(job, frame.left / scale, top_edge - frame.top / scale, frame.width, frame.height);
   if (!job.crop && !job.shows) trim(image, frame, least);

@@ -8,7 +8,7 @@
 #include "core/mesh/mesher.h"
 #include "raster/bleed.h"
 #include "raster/raster.h"
-#include "scene/live_map.h"
+#include "scene/prepared_map.h"
 #include "system/file.h"
 
 namespace holomorph {
@@ -25,15 +25,14 @@ std::vector<bool> covered(RasterJob job) {
 
 }  // namespace
 
-TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const Image* source,
-                         double scale) {
+TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
+                         const Image* source, double scale) {
   // Of the picture, more than most outlines are missed by; and px that filters look at.
   constexpr double kReach = 0.03, kFilter = 2;
-  if (!source || !scene.has_cage())
+  if (!source || !deformation.has_cage())
     throw Error(ErrorKind::bad_input, "a texture needs a picture and a cage");
-  const auto prepared = prepared_map(scene, Precision::single, MeshOptions{});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {});
+  const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
+  SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
   RasterJob job;
   job.mesh = prepared->mesh.get();
   job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};

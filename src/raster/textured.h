@@ -17,8 +17,8 @@ struct TexturedSurface {
 /// The posed cage's part of the picture around the surface, its colours carried to the surface's
 /// edge and a little beyond, and where on it the surface's vertices are. Throws Error for a scene
 /// without picture or cage and for what rasterized refuses.
-TexturedSurface textured(const LaidSurface& surface, const Scene& scene, const Image* source,
-                         double scale = 1);
+TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
+                         const Image* source, double scale = 1);
 
 /// The three files that write_textured writes for a path.
 std::array<std::filesystem::path, 3> files_of_textured(const std::filesystem::path& path);

@@ -14,7 +14,7 @@ namespace holomorph {
 namespace {
 
 /// The places of one row of pixels.
-void fill_row(const Scene& scene, const InverseMap& inverse, double scale, int row, double height,
+void fill_row(const Cage& rest, const InverseMap& inverse, double scale, int row, double height,
               double width, StMap& map) {
   for (int c = 0; c < map.width; ++c) {
     const Complex w((c + 0.5) / scale, height - (row + 0.5) / scale);
@@ -22,7 +22,7 @@ void fill_row(const Scene& scene, const InverseMap& inverse, double scale, int r
     Complex z(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
     if (!found.empty())
       z = found[0].z;
-    else if (!contains(scene.rest, w))
+    else if (!contains(rest, w))
       z = w;  // what lies outside the cage stays
     float* out = &map.st[2 * (static_cast<size_t>(row) * map.width + c)];
     out[0] = static_cast<float>(z.real() / width);
@@ -44,7 +44,8 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
   TimedMap timed(scene);
   const auto inverse = timed.inverse(timed.frame(time));
   if (!inverse)
-    throw Error(ErrorKind::bad_input, "method '" + scene.method + "' has no inverse to export");
+    throw Error(ErrorKind::bad_input,
+                "method '" + scene.deformation().method + "' has no inverse to export");
   StMap map{std::max(1, static_cast<int>(std::lround(width * scale))),
             std::max(1, static_cast<int>(std::lround(height * scale))),
             {}};
@@ -52,7 +53,8 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
   std::atomic<int> next{0};
   const auto take_row = [&] {
     const int row = next++;
-    if (row < map.height) fill_row(scene, inverse->inverse, scale, row, height, width, map);
+    if (row < map.height)
+      fill_row(scene.deformation().rest, inverse->inverse, scale, row, height, width, map);
     return row < map.height;
   };
   {

@@ -36,7 +36,7 @@ int mode_of(Placement placement) {
 /// As the fragment shader counts them.
 enum class Coloring { picture, heat, checker, flat, ghost };
 
-void clear_canvas(const Frame& frame) {
+void clear_canvas(const RenderFrame& frame) {
   const int left = static_cast<int>(frame.canvas_left),
             width = static_cast<int>(frame.canvas_width),
             height = static_cast<int>(frame.canvas_height),
@@ -61,7 +61,7 @@ void clear_canvas(const Frame& frame) {
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void finish(const Frame& frame) {
+void finish(const RenderFrame& frame) {
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_SCISSOR_TEST);
@@ -368,7 +368,7 @@ void Renderer::set_controls(const VectorXc& controls) {
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RG32F, gl.controls);
 }
 
-void Renderer::draw(const Frame& frame) {
+void Renderer::draw(const RenderFrame& frame) {
   const Objects& gl = *gl_;
   clear_canvas(frame);
   const double sx = 2 * frame.zoom / std::floor(frame.canvas_width),

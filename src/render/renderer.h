@@ -30,7 +30,7 @@ struct Ghost {
 enum class Shows { map, original, nothing };
 
 /// One drawing of the canvas. Window px have x to the right and y down.
-struct Frame {
+struct RenderFrame {
   int window_width = 1, window_height = 1;  ///< of the framebuffer
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
   Complex center;   ///< plane point in the canvas' middle
@@ -80,7 +80,7 @@ class Renderer {
   bool set_operator(const PlanarMatrix<float>* matrix);
   void set_controls(const VectorXc& controls);
 
-  void draw(const Frame& frame);
+  void draw(const RenderFrame& frame);
 
   /// The vertex places that the shader computes, read back.
   std::vector<Complex> placed_vertices(Placement placement);

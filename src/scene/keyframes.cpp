@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -13,53 +12,55 @@ constexpr double kSameTime = 1e-3;
 
 }  // namespace
 
-size_t key_at(const Scene& scene, double time) {
-  const auto found = std::ranges::find_if(
-      scene.keyframes, [&](const Keyframe& key) { return std::abs(key.time - time) < kSameTime; });
-  return static_cast<size_t>(found - scene.keyframes.begin());
+size_t key_at(const Deformation& deformation, double time) {
+  const auto found = std::ranges::find_if(deformation.keyframes, [&](const Keyframe& key) {
+    return std::abs(key.time - time) < kSameTime;
+  });
+  return static_cast<size_t>(found - deformation.keyframes.begin());
 }
 
-Scene with_key(Scene scene, double time) {
-  const size_t there = key_at(scene, time);
-  Pose pose = whole_pose_of(scene);
-  if (there < scene.keyframes.size()) {
-    Keyframe& key = scene.keyframes[there];
-    if (!fits(scene, key.pose)) key.pose_extra.clear();
+Deformation with_key(Deformation deformation, double time) {
+  const size_t there = key_at(deformation, time);
+  Pose pose = whole_pose_of(deformation);
+  if (there < deformation.keyframes.size()) {
+    Keyframe& key = deformation.keyframes[there];
+    if (!fits(deformation, key.pose)) key.pose_extra.clear();
     key.pose = std::move(pose);
-    return scene;
+    return deformation;
   }
-  const auto next = std::ranges::upper_bound(scene.keyframes, time, {}, &Keyframe::time);
-  const Ease ease = next == scene.keyframes.begin() ? Ease::smooth : std::prev(next)->ease;
-  scene.keyframes.insert(next, {time, std::move(pose), ease});
-  return scene;
+  const auto next = std::ranges::upper_bound(deformation.keyframes, time, {}, &Keyframe::time);
+  const Ease ease = next == deformation.keyframes.begin() ? Ease::smooth : std::prev(next)->ease;
+  deformation.keyframes.insert(next, {time, std::move(pose), ease});
+  return deformation;
 }
 
-Scene without_key(Scene scene, size_t key) {
-  scene.keyframes.erase(scene.keyframes.begin() + static_cast<long>(key));
-  return scene;
+Deformation without_key(Deformation deformation, size_t key) {
+  deformation.keyframes.erase(deformation.keyframes.begin() + static_cast<long>(key));
+  return deformation;
 }
 
-std::pair<Scene, size_t> with_key_moved(Scene scene, size_t key, double time) {
-  Keyframe moved = scene.keyframes[key];
+std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t key, double time) {
+  Keyframe moved = deformation.keyframes[key];
   moved.time = std::clamp(time, 0.0, kLongestTime);
-  scene = without_key(std::move(scene), key);
-  if (const size_t there = key_at(scene, moved.time); there < scene.keyframes.size())
-    scene = without_key(std::move(scene), there);
-  const auto next = std::ranges::upper_bound(scene.keyframes, moved.time, {}, &Keyframe::time);
-  const size_t number = static_cast<size_t>(next - scene.keyframes.begin());
-  scene.keyframes.insert(next, std::move(moved));
-  return {std::move(scene), number};
+  deformation = without_key(std::move(deformation), key);
+  if (const size_t there = key_at(deformation, moved.time); there < deformation.keyframes.size())
+    deformation = without_key(std::move(deformation), there);
+  const auto next =
+      std::ranges::upper_bound(deformation.keyframes, moved.time, {}, &Keyframe::time);
+  const size_t number = static_cast<size_t>(next - deformation.keyframes.begin());
+  deformation.keyframes.insert(next, std::move(moved));
+  return {std::move(deformation), number};
 }
 
-Scene with_ease(Scene scene, size_t key, Ease ease) {
-  scene.keyframes[key].ease = ease;
-  return scene;
+Deformation with_ease(Deformation deformation, size_t key, Ease ease) {
+  deformation.keyframes[key].ease = ease;
+  return deformation;
 }
 
-std::vector<size_t> playing_keys(const Scene& scene) {
+std::vector<size_t> playing_keys(const Deformation& deformation) {
   std::vector<size_t> playing;
-  for (size_t i = 0; i < scene.keyframes.size(); ++i)
-    if (fits(scene, scene.keyframes[i].pose)) playing.push_back(i);
+  for (size_t i = 0; i < deformation.keyframes.size(); ++i)
+    if (fits(deformation, deformation.keyframes[i].pose)) playing.push_back(i);
   return playing;
 }
 
@@ -67,19 +68,18 @@ namespace {
 
 template <class Test>
 bool any_layer(const Scene& scene, Test test) {
-  for (size_t i = 0; i < layer_count(scene); ++i)
-    if (test(layer_at(scene, i))) return true;
-  return false;
+  return std::ranges::any_of(scene.layers,
+                             [&](const SharedLayer& layer) { return test(layer->deformation); });
 }
 
 }  // namespace
 
 bool has_keyframes(const Scene& scene) {
-  return any_layer(scene, [](const Scene& layer) { return !layer.keyframes.empty(); });
+  return any_layer(scene, [](const Deformation& layer) { return !layer.keyframes.empty(); });
 }
 
 bool has_playing_keys(const Scene& scene) {
-  return any_layer(scene, [](const Scene& layer) { return !playing_keys(layer).empty(); });
+  return any_layer(scene, [](const Deformation& layer) { return !playing_keys(layer).empty(); });
 }
 
 Error no_key_plays() {
@@ -88,13 +88,13 @@ Error no_key_plays() {
 }
 
 bool plays(const Scene& scene) {
-  return any_layer(scene, [](const Scene& layer) { return playing_keys(layer).size() > 1; });
+  return any_layer(scene, [](const Deformation& layer) { return playing_keys(layer).size() > 1; });
 }
 
 double length_of(const Scene& scene) {
   double length = 0;
-  for (size_t i = 0; i < layer_count(scene); ++i)
-    if (const auto& keys = layer_at(scene, i).keyframes; !keys.empty())
+  for (const SharedLayer& layer : scene.layers)
+    if (const auto& keys = layer->deformation.keyframes; !keys.empty())
       length = std::max(length, keys.back().time);
   return length;
 }

@@ -1,4 +1,4 @@
-// The scene knows where the boundary lies; the rest follows from it.
+// The deformation knows where the boundary lies; the rest follows from it.
 #include "scene/laid_surface.h"
 
 #include "core/error.h"
@@ -47,15 +47,15 @@ LaidSurface laid_along(LaidSurface laid, const Points& outline) {
   return laid;
 }
 
-LaidSurface laid_surface_of(const Scene& scene) {
-  if (!scene.surface)
+LaidSurface laid_surface_of(const Deformation& deformation) {
+  if (!deformation.surface)
     throw Error(ErrorKind::bad_input,
                 "the scene has no surface; take its outline from an OBJ file first");
-  const auto& [file, flattening, extra] = *scene.surface;
+  const auto& [file, flattening, extra] = *deformation.surface;
   try {
     Surface surface = surface_of_obj(read_file(file), file).surface;
     Points flat = flattened(surface, flattening);
-    return laid_along({std::move(surface), std::move(flat)}, scene.outline);
+    return laid_along({std::move(surface), std::move(flat)}, deformation.outline);
   } catch (const Error& error) {
     throw about(file, error);
   }

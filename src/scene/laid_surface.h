@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/mesh/mesh.h"
+#include "scene/deformation.h"
 #include "scene/formats/surface_file.h"
-#include "scene/scene.h"
 
 namespace holomorph {
 
@@ -24,9 +24,9 @@ LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto);
 /// Throws Error when it is of another shape.
 LaidSurface laid_along(LaidSurface laid, const Points& outline);
 
-/// The scene's surface, read from its file and laid along the outline. Throws Error when there is
-/// none, for what the file is not, and when the outline is not its boundary.
-LaidSurface laid_surface_of(const Scene& scene);
+/// The deformation's surface, read from its file and laid along the outline. Throws Error when
+/// there is none, for what the file is not, and when the outline is not its boundary.
+LaidSurface laid_surface_of(const Deformation& deformation);
 
 /// The boundary of a surface's texture coordinates in a picture of this size: the cage of what the
 /// surface shows. Throws Error when it has no such coordinates, or is no disk.

@@ -16,9 +16,9 @@ LiveMap& LayerMaps::of(int id) const {
   return *map;
 }
 
-bool LayerMaps::update_others(const Scene& scene, const std::optional<double>& time) {
+bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
   for (auto entry = maps_.begin(); entry != maps_.end();) {
-    const bool gone = layer_of_id(scene, entry->first) == layer_count(scene);
+    const bool gone = layer_of_id(scene, entry->first) == scene.layers.size();
     if (gone) {
       entry->second->clear();
       spare_.push_back(std::move(entry->second));
@@ -26,11 +26,9 @@ bool LayerMaps::update_others(const Scene& scene, const std::optional<double>& t
     entry = gone ? maps_.erase(entry) : std::next(entry);
   }
   bool changed = false;
-  for (size_t i = 0; i < layer_count(scene); ++i) {
-    const Scene& layer = layer_at(scene, i);
-    if (i == edited_layer(scene) || !layer.layer.visible) continue;
-    changed = of(layer.layer.id).update(layer, {}, time) || changed;
-  }
+  for (const SharedLayer& layer : scene.layers)
+    if (layer->id != scene.layer().id && layer->visible)
+      changed = of(layer->id).update(layer->deformation, {}, moment) || changed;
   return changed;
 }
 

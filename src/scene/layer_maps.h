@@ -20,7 +20,7 @@ class LayerMaps {
   LiveMap& of(int id) const;
   /// Brings the maps of all visible layers but the edited one up to date, at a time when there is
   /// one, and lets those of layers go that are not there any more. Returns whether any changed.
-  bool update_others(const Scene& scene, const std::optional<double>& time);
+  bool update_others(const Scene& scene, const Moment& moment);
   /// Forgets all of them and whatever workers are busy with.
   void clear();
 

@@ -1,6 +1,7 @@
-// Every change takes the stack apart and puts it together again: stacks are short.
+// Layers are shared values: an edit copies the one that it changes.
 #include "scene/layers.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 
@@ -8,136 +9,115 @@
 
 namespace holomorph {
 
-OtherLayer::OtherLayer(Scene layer) : layer_(std::make_shared<const Scene>(std::move(layer))) {}
+bool Layer::operator==(const Layer& other) const {
+  return name == other.name && visible == other.visible && locked == other.locked &&
+         image == other.image && deformation == other.deformation && extra == other.extra;
+}
 
-bool OtherLayer::operator==(const OtherLayer& other) const {
-  return layer_ == other.layer_ || *layer_ == *other.layer_;
+Scene with_layer(Scene scene, Layer layer) {
+  scene.layers[scene.edited] = std::move(layer);
+  return scene;
+}
+
+Scene with_deformation(Scene scene, Deformation deformation) {
+  Layer layer = scene.layer();
+  layer.deformation = std::move(deformation);
+  return with_layer(std::move(scene), std::move(layer));
+}
+
+Scene scene_of(Layer layer) {
+  return with_layer(Scene{}, std::move(layer));
+}
+
+Scene scene_of(Deformation deformation) {
+  return with_deformation(Scene{}, std::move(deformation));
 }
 
 namespace {
 
-/// Never one that was given before, though its layer be gone: the history may bring it back.
+/// Never one that was given before, even to a layer that is gone: the history may bring it back.
 int fresh_id() {
   static std::atomic<int> last = 1'000'000;
   return ++last;
 }
 
-/// Without others and without what all layers share but the settings that each of them plays by.
-Scene alone(Scene layer) {
-  layer.below.clear();
-  layer.above.clear();
-  layer.background = {};
-  layer.animation_extra.clear();
-  layer.extra.clear();
-  return layer;
-}
-
 }  // namespace
 
-const Scene& layer_at(const Scene& scene, size_t layer) {
-  check(layer < layer_count(scene), "layer_at: there is such a layer");
-  const size_t edited = edited_layer(scene);
-  return layer < edited    ? *scene.below[layer]
-         : layer == edited ? scene
-                           : *scene.above[layer - edited - 1];
-}
-
 size_t layer_of_id(const Scene& scene, int id) {
-  size_t layer = 0;
-  while (layer < layer_count(scene) && layer_at(scene, layer).layer.id != id) ++layer;
-  return layer;
+  const auto found =
+      std::ranges::find(scene.layers, id, [](const SharedLayer& l) { return l->id; });
+  return static_cast<size_t>(found - scene.layers.begin());
 }
 
 std::string title_of_layer(const Scene& scene, size_t layer) {
-  const Scene& it = layer_at(scene, layer);
-  if (!it.layer.name.empty()) return it.layer.name;
+  const Layer& it = *scene.layers[layer];
+  if (!it.name.empty()) return it.name;
   if (it.image) return std::filesystem::path(it.image->file).stem().string();
   return "Layer " + std::to_string(layer + 1);
 }
 
 bool has_layers(const Scene& scene) {
-  return layer_count(scene) > 1 || scene.layer != LayerState{};
+  const Layer& layer = scene.layer();
+  return scene.layers.size() > 1 || !layer.name.empty() || !layer.visible || layer.locked ||
+         !layer.extra.empty();
 }
 
-std::vector<Scene> layers_of(const Scene& scene) {
-  std::vector<Scene> layers;
-  for (size_t i = 0; i < layer_count(scene); ++i) layers.push_back(alone(layer_at(scene, i)));
-  return layers;
-}
-
-Scene scene_of_layers(std::vector<Scene> layers, size_t edited, const Scene& shared) {
-  check(edited < layers.size(), "scene_of_layers: one of the layers is edited");
-  for (size_t i = 0; i < layers.size(); ++i) {
-    LayerState& state = layers[i].layer;
-    bool taken = state.id == 0;
-    for (size_t j = 0; j < i; ++j) taken = taken || layers[j].layer.id == state.id;
-    if (taken && layers.size() > 1) state.id = fresh_id();
-    layers[i].animation = shared.animation;
-  }
-  Scene scene = std::move(layers[edited]);
-  scene.background = shared.background;
-  scene.animation_extra = shared.animation_extra;
-  scene.extra = shared.extra;
-  for (size_t i = 0; i < layers.size(); ++i)
-    if (i != edited) (i < edited ? scene.below : scene.above).emplace_back(std::move(layers[i]));
+Scene with_layer_at(Scene scene, size_t number, Layer layer) {
+  layer.id = scene.layers[number]->id;
+  scene.layers[number] = std::move(layer);
   return scene;
 }
 
-Scene with_layer_chosen(Scene scene, size_t layer) {
-  if (layer == edited_layer(scene)) return scene;
-  return scene_of_layers(layers_of(scene), layer, scene);
-}
-
-Scene with_layer_added(Scene scene, const Scene& added) {
-  if (layer_count(scene) + layer_count(added) > kMostLayers)
+Scene with_layers_added(Scene scene, const Scene& added) {
+  if (scene.layers.size() + added.layers.size() > kMostLayers)
     throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
-  std::vector<Scene> layers = layers_of(scene), more = layers_of(added);
-  const size_t place = edited_layer(scene) + 1;
-  for (Scene& layer : more) layer.layer.id = 0;
-  layers.insert(layers.begin() + static_cast<long>(place), more.begin(), more.end());
-  return scene_of_layers(std::move(layers), place + edited_layer(added), scene);
+  std::vector<Layer> more = layers_of(added);
+  for (Layer& layer : more) layer.id = fresh_id();
+  const std::vector<SharedLayer> above = shared(std::move(more));
+  const size_t place = scene.edited + 1;
+  scene.layers.insert(scene.layers.begin() + static_cast<long>(place), above.begin(), above.end());
+  scene.edited = place + added.edited;
+  return scene;
 }
 
 Scene with_layer_doubled(const Scene& scene) {
-  Scene copy = alone(scene);
-  copy.layer.name = title_of_layer(scene, edited_layer(scene)) + " copy";
-  return with_layer_added(scene, copy);
+  Layer copy = scene.layer();
+  copy.name = title_of_layer(scene, scene.edited) + " copy";
+  return with_layers_added(scene, scene_of(std::move(copy)));
 }
 
 Scene without_layer(Scene scene) {
-  check(layer_count(scene) > 1, "without_layer: one stays");
-  std::vector<Scene> layers = layers_of(scene);
-  const size_t gone = edited_layer(scene);
-  layers.erase(layers.begin() + static_cast<long>(gone));
-  return scene_of_layers(std::move(layers), gone > 0 ? gone - 1 : 0, scene);
+  check(scene.layers.size() > 1, "without_layer: one stays");
+  scene.layers.erase(scene.layers.begin() + static_cast<long>(scene.edited));
+  if (scene.edited > 0) --scene.edited;
+  return scene;
 }
 
 Scene with_layer_moved(Scene scene, size_t to) {
-  std::vector<Scene> layers = layers_of(scene);
-  check(to < layers.size(), "with_layer_moved: a place in the stack");
-  const auto from = layers.begin() + static_cast<long>(edited_layer(scene)),
-             target = layers.begin() + static_cast<long>(to);
+  check(to < scene.layers.size(), "with_layer_moved: a number in the stack");
+  const auto from = scene.layers.begin() + static_cast<long>(scene.edited),
+             target = scene.layers.begin() + static_cast<long>(to);
   if (from < target)
     std::rotate(from, from + 1, target + 1);
   else
     std::rotate(target, from, from + 1);
-  return scene_of_layers(std::move(layers), to, scene);
-}
-
-Scene with_layer_state(Scene scene, size_t layer, LayerState state) {
-  state.id = layer_at(scene, layer).layer.id;
-  if (layer == edited_layer(scene)) {
-    scene.layer = std::move(state);
-    return scene;
-  }
-  std::vector<Scene> layers = layers_of(scene);
-  layers[layer].layer = std::move(state);
-  return scene_of_layers(std::move(layers), edited_layer(scene), scene);
+  scene.edited = to;
+  return scene;
 }
 
 Scene with_animation(Scene scene, const AnimationSettings& settings) {
   scene.animation = settings;
-  return scene_of_layers(layers_of(scene), edited_layer(scene), scene);
+  return scene;
+}
+
+std::vector<Layer> layers_of(const Scene& scene) {
+  std::vector<Layer> layers;
+  for (const SharedLayer& layer : scene.layers) layers.push_back(*layer);
+  return layers;
+}
+
+std::vector<SharedLayer> shared(std::vector<Layer> layers) {
+  return {std::make_move_iterator(layers.begin()), std::make_move_iterator(layers.end())};
 }
 
 }  // namespace holomorph

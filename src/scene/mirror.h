@@ -1,17 +1,17 @@
-// Left to right through the middle of a scene's cage at rest.
+// Left to right through the middle of a deformation's cage at rest.
 #pragma once
 
 #include <algorithm>
 #include <optional>
 
-#include "scene/scene.h"
+#include "scene/deformation.h"
 
 namespace holomorph {
 
 class Mirror {
  public:
-  explicit Mirror(const Scene& scene) {
-    const Box box = box_of(outline_of(scene.rest));
+  explicit Mirror(const Deformation& deformation) {
+    const Box box = box_of(outline_of(deformation.rest));
     axis_ = box.center().real();
     far_ = 0.02 * box.diagonal();
   }

@@ -69,20 +69,20 @@ std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Str
   return result;
 }
 
-std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Scene& scene,
+std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Deformation& deformation,
                                          const std::vector<PoseCorner>& posed) {
-  const Points vertices = vertices_of(scene.rest);
+  const Points vertices = vertices_of(deformation.rest);
   const size_t count = posed.size();
   std::vector<PoseCorner> result;
   for (size_t k = 0; k < count; ++k) {
-    const Index vertex = static_cast<Index>(
-        counterpart(mirror, vertices, scene.rest.vertex(scene.corners[k].vertex), "cage point"));
-    const auto other = std::ranges::find(scene.corners, vertex, &Corner::vertex);
-    if (other == scene.corners.end())
+    const Index vertex = static_cast<Index>(counterpart(
+        mirror, vertices, deformation.rest.vertex(deformation.corners[k].vertex), "cage point"));
+    const auto other = std::ranges::find(deformation.corners, vertex, &Corner::vertex);
+    if (other == deformation.corners.end())
       throw Error(ErrorKind::bad_input,
                   "the pose cannot be mirrored: a corner's counterpart is none",
-                  scene.rest.vertex(vertex));
-    const size_t at = static_cast<size_t>(other - scene.corners.begin());
+                  deformation.rest.vertex(vertex));
+    const size_t at = static_cast<size_t>(other - deformation.corners.begin());
     // What comes after a corner comes before its counterpart.
     result.push_back(
         {-posed[at].after, -posed[at].before, posed[(at + count - 1) % count].tension});
@@ -92,14 +92,14 @@ std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Scene& scen
 
 }  // namespace
 
-Pose mirrored(const Scene& scene, const Pose& pose) {
-  check(fits(scene, pose), "mirrored: the pose fits");
-  const Mirror mirror(scene);
+Pose mirrored(const Deformation& deformation, const Pose& pose) {
+  check(fits(deformation, pose), "mirrored: the pose fits");
+  const Mirror mirror(deformation);
   Pose result = pose;
-  result.cage = mirrored_cage(mirror, scene.rest, pose.cage);
-  result.pins = mirrored_pins(mirror, scene.pins, pose.pins);
-  result.strokes = mirrored_strokes(mirror, scene.strokes, pose.strokes);
-  result.corners = mirrored_corners(mirror, scene, pose.corners);
+  result.cage = mirrored_cage(mirror, deformation.rest, pose.cage);
+  result.pins = mirrored_pins(mirror, deformation.pins, pose.pins);
+  result.strokes = mirrored_strokes(mirror, deformation.strokes, pose.strokes);
+  result.corners = mirrored_corners(mirror, deformation, pose.corners);
   return result;
 }
 

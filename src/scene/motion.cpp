@@ -6,7 +6,6 @@
 #include "core/maps/distortion.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
-#include "scene/live_map.h"
 
 namespace holomorph {
 namespace {
@@ -20,25 +19,26 @@ double eased(Ease ease, double u) {
 
 /// How much the picture is meant to turn from one pose to another, whole turns included: as a pin
 /// that turns does, or as corners do on average.
-ExpectedTurn expected_turn(const Scene& scene, const Pose& from, const Pose& to, int turns) {
+ExpectedTurn expected_turn(const Deformation& deformation, const Pose& from, const Pose& to,
+                           int turns) {
   ExpectedTurn expected;
   // Of two ways that are half a turn each, the shorter one.
   expected.radians = 2 * kPi * turns * (1 - kTie);
-  const Method& method = method_named(scene.method);
+  const Method& method = method_named(deformation.method);
   if (method.uses_pins)
-    for (size_t i = 0; i < scene.pins.size(); ++i)
-      if (scene.pins[i].angle) {
-        expected.at = scene.pins[i].rest;
+    for (size_t i = 0; i < deformation.pins.size(); ++i)
+      if (deformation.pins[i].angle) {
+        expected.at = deformation.pins[i].rest;
         expected.radians += to.pins[i].angle - from.pins[i].angle;
         return expected;
       }
-  if (!method.uses_corners || scene.corners.empty()) return expected;
+  if (!method.uses_corners || deformation.corners.empty()) return expected;
   const auto turned = [](const Pose& pose) {
     double sum = 0;
     for (const PoseCorner& corner : pose.corners) sum += 0.5 * (corner.before + corner.after);
     return sum;
   };
-  expected.radians += (turned(to) - turned(from)) / static_cast<double>(scene.corners.size());
+  expected.radians += (turned(to) - turned(from)) / static_cast<double>(deformation.corners.size());
   return expected;
 }
 
@@ -54,18 +54,30 @@ Points rest_controls(const Cage& rest, Index segment, int degree) {
 
 }  // namespace
 
-size_t Motion::unknown(const Scene& scene, const std::shared_ptr<PreparedMap>& prepared) const {
+SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives) {
+  SampledMap map;
+  map.f = std::move(f);
+  if (!derivatives) return map;
+  VertexDerivatives slopes = vertex_derivatives(mesh, map.f);
+  map.fz = std::move(slopes.fz);
+  map.fzbar = std::move(slopes.fzbar);
+  return map;
+}
+
+size_t Motion::unknown(const Deformation& deformation,
+                       const std::shared_ptr<PreparedMap>& prepared) const {
   size_t count = 0;
-  for (const size_t i : playing_keys(scene))
+  for (const size_t i : playing_keys(deformation))
     if (prepared != prepared_ ||
-        std::ranges::find(keys_, scene.keyframes[i].pose, &Key::pose) == keys_.end())
+        std::ranges::find(keys_, deformation.keyframes[i].pose, &Key::pose) == keys_.end())
       ++count;
   return count;
 }
 
-void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
-  bool changed = straight_ != scene.animation.straight;
-  straight_ = scene.animation.straight;
+void Motion::follow(const Deformation& deformation, bool linear_blend,
+                    std::shared_ptr<PreparedMap> prepared) {
+  bool changed = linear_blend_ != linear_blend;
+  linear_blend_ = linear_blend;
   if (prepared != prepared_) {
     if (!between_ || &between_->mesh() != prepared->mesh.get()) {
       between_ = inbetween_of(*prepared);
@@ -76,13 +88,13 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
     changed = true;
   }
   std::vector<Key> keys;
-  const std::vector<size_t> playing = playing_keys(scene);
+  const std::vector<size_t> playing = playing_keys(deformation);
   check_budget(
       &Budget::operators,
       static_cast<double>(playing.size() * prepared->mesh->vertices.size() * sizeof(Complex)),
       "the maps at " + std::to_string(playing.size()) + " keyframes need");
   const auto is_known = [&](size_t i, const Key& key) {
-    const Keyframe& frame = scene.keyframes[i];
+    const Keyframe& frame = deformation.keyframes[i];
     return frame.time == key.time && frame.ease == key.ease && frame.turns == key.turns &&
            frame.pose == key.pose;
   };
@@ -92,15 +104,14 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   }
   std::optional<Error> wrong;
   for (const size_t i : playing) {
-    const Keyframe& frame = scene.keyframes[i];
+    const Keyframe& frame = deformation.keyframes[i];
     const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
     Key key{frame.time, frame.ease, frame.turns, frame.pose, {}};
     if (known != keys_.end()) {
       key.f = known->f;
     } else {
       try {
-        SampledMap map;
-        prepared->deformer->deform(pose_of(posed_as(scene, frame.pose)), map, {});
+        SampledMap map = prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), {});
         key.f = std::move(map.f);
       } catch (const Error& error) {
         char when[48];
@@ -117,11 +128,11 @@ void Motion::follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared) {
   error_ = wrong;
   if (!changed && std::ranges::equal(keys, keys_, same)) return;
   keys_ = std::move(keys);
-  align(scene);
+  align(deformation);
 }
 
 /// Whole turns from key to key.
-void Motion::align(const Scene& scene) {
+void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
   Inbetween::Shape before;
@@ -129,8 +140,9 @@ void Motion::align(const Scene& scene) {
     Key& key = keys_[i];
     Inbetween::Shape shape =
         i == 0 ? between_->shape_of(key.f)
-               : between_->shape_of(key.f, &before,
-                                    expected_turn(scene, keys_[i - 1].pose, key.pose, key.turns));
+               : between_->shape_of(
+                     key.f, &before,
+                     expected_turn(deformation, keys_[i - 1].pose, key.pose, key.turns));
     key.whole_turns = shape.turns;
     key.turned = shape.logarithm.imag().mean();
     before = std::move(shape);
@@ -211,18 +223,19 @@ double Motion::turned_at(double time) const {
   return from + s * (keys_[i + 1].turned - from);
 }
 
-void keep_turns(Scene& scene, const Scene& before, const Motion& motion) {
+void keep_turns(Deformation& deformation, const Deformation& before, const Motion& motion) {
   const auto is_new = [&](const Keyframe& key) {
     return key_at(before, key.time) == before.keyframes.size();
   };
   const auto pose_at = [&](const Keyframe& key) {
-    return is_new(key) ? whole_pose_of(motion.scene_at(before, key.time, motion.map_at(key.time)))
-                       : before.keyframes[key_at(before, key.time)].pose;
+    return is_new(key)
+               ? whole_pose_of(motion.deformation_at(before, key.time, motion.map_at(key.time)))
+               : before.keyframes[key_at(before, key.time)].pose;
   };
-  const std::vector<size_t> playing = playing_keys(scene);
+  const std::vector<size_t> playing = playing_keys(deformation);
   for (size_t i = 1; i < playing.size(); ++i) {
-    const Keyframe& from = scene.keyframes[playing[i - 1]];
-    Keyframe& to = scene.keyframes[playing[i]];
+    const Keyframe& from = deformation.keyframes[playing[i - 1]];
+    Keyframe& to = deformation.keyframes[playing[i]];
     if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
       continue;
     const double given = expected_turn(before, pose_at(from), pose_at(to), 0).radians,
@@ -239,7 +252,7 @@ VectorXc Motion::map_at(double time) const {
   const Key& to = keys_[i + 1];
   const bool smooth = from.ease == Ease::smooth;
   VectorXc f;
-  if (straight_) {
+  if (linear_blend_) {
     const double share = eased(from.ease, u);
     f = (1 - share) * from.f + share * to.f;
   } else {
@@ -263,10 +276,11 @@ Motion::Frame Motion::frame_at(Complex rest, const VectorXc& map) const {
   return frame;
 }
 
-Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) const {
+Deformation Motion::deformation_at(const Deformation& deformation, double time,
+                                   const VectorXc& map) const {
   const auto [i, u] = place_of(time);
   const Key& a = keys_[i];
-  if (u == 0) return posed_as(scene, a.pose);
+  if (u == 0) return posed_as(deformation, a.pose);
   const Key& b = keys_[i + 1];
   const double s = eased(a.ease, u);
   // What stays where it is stays there on the way; other handles go with the picture.
@@ -278,26 +292,27 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
            now.fz * ((1 - s) * (at_a - before.f) / before.fz + s * (at_b - after.f) / after.fz);
   };
   Pose pose = a.pose;
-  for (Index e = 0; e < scene.rest.size(); ++e) {
+  for (Index e = 0; e < deformation.rest.size(); ++e) {
     const int degree = std::max(a.pose.cage.degree(e), b.pose.cage.degree(e));
-    const Points rest = rest_controls(scene.rest, e, degree),
+    const Points rest = rest_controls(deformation.rest, e, degree),
                  from = elevated(a.pose.cage.controls(e), degree),
                  to = elevated(b.pose.cage.controls(e), degree);
     Points& segment = pose.cage.segments[static_cast<size_t>(e)];
     segment.resize(static_cast<size_t>(degree));
     // Where the cage gives directions alone, the picture is elsewhere.
     for (size_t m = 0; m < segment.size(); ++m)
-      segment[m] = method_named(scene.method).uses_corners ? (1 - s) * from[m] + s * to[m]
-                                                           : carried(rest[m], from[m], to[m]);
+      segment[m] = method_named(deformation.method).uses_corners ? (1 - s) * from[m] + s * to[m]
+                                                                 : carried(rest[m], from[m], to[m]);
   }
   for (size_t p = 0; p < pose.pins.size(); ++p) {
     const PosePin &from = a.pose.pins[p], &to = b.pose.pins[p];
-    pose.pins[p] = {carried(scene.pins[p].rest, from.position, to.position),
+    pose.pins[p] = {carried(deformation.pins[p].rest, from.position, to.position),
                     (1 - s) * from.angle + s * to.angle,
                     std::pow(from.scale, 1 - s) * std::pow(to.scale, s)};
   }
   for (size_t k = 0; k < pose.strokes.size(); ++k) {
-    const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k], &rest = scene.strokes[k].rest;
+    const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k],
+                 &rest = deformation.strokes[k].rest;
     if (from.size() != to.size()) {  // drawn anew: no points belong to each other
       pose.strokes[k] = s < 0.5 ? from : to;
       continue;
@@ -309,13 +324,13 @@ Scene Motion::scene_at(const Scene& scene, double time, const VectorXc& map) con
   const auto corner = [](const Pose& of, size_t c) {
     return of.corners.empty() ? PoseCorner{} : of.corners[c];
   };
-  pose.corners.resize(scene.corners.size());
+  pose.corners.resize(deformation.corners.size());
   for (size_t c = 0; c < pose.corners.size(); ++c) {
     const PoseCorner from = corner(a.pose, c), to = corner(b.pose, c);
     pose.corners[c] = {(1 - s) * from.before + s * to.before, (1 - s) * from.after + s * to.after,
                        (1 - s) * from.tension + s * to.tension};
   }
-  return posed_as(scene, pose);
+  return posed_as(deformation, pose);
 }
 
 }  // namespace holomorph

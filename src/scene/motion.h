@@ -1,28 +1,39 @@
-// A scene's keyframes as one map at any time.
+// A deformation's keyframes as one map at any time.
 #pragma once
 
 #include <map>
 
 #include "core/error.h"
 #include "core/mesh/inbetween.h"
-#include "scene/scene.h"
+#include "scene/prepared_map.h"
 
 namespace holomorph {
 
-struct PreparedMap;
+/// Which time of its keyframes a deformation is shown at: none, its own pose; and how poses between
+/// them are blended, as AnimationSettings has it.
+struct Moment {
+  std::optional<double> time = {};  ///< seconds
+  bool linear_blend = false;
+  bool operator==(const Moment&) const = default;
+};
+
+/// The map that is linear in a mesh's triangles, from its values at the vertices.
+SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives);
 
 /// The maps at keyframes, kept until what they depend on changes; and what is between them.
 class Motion {
  public:
-  /// Brings the maps at a scene's keyframes up to date: those whose pose has changed are asked of
-  /// the deformer. The prepared map must be the scene's. Keyframes that cannot be mapped are left
-  /// out; the first one's reason is error(). Cost: a final pose for each changed keyframe. Throws
-  /// Error{bad_input} when the maps would need more memory than the budget has.
-  void follow(const Scene& scene, std::shared_ptr<PreparedMap> prepared);
+  /// Brings the maps at a deformation's keyframes up to date: those whose pose has changed are
+  /// asked of the deformer. The prepared map must be the deformation's. Keyframes that cannot be
+  /// mapped are left out; the first one's reason is error(). Cost: a final pose for each changed
+  /// keyframe. Throws Error{bad_input} when the maps would need more memory than the budget has.
+  void follow(const Deformation& deformation, bool linear_blend,
+              std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
 
   /// How many final poses follow() would cost now.
-  size_t unknown(const Scene& scene, const std::shared_ptr<PreparedMap>& prepared) const;
+  size_t unknown(const Deformation& deformation,
+                 const std::shared_ptr<PreparedMap>& prepared) const;
 
   /// Whether there is a map at any time.
   bool plays() const { return !keys_.empty(); }
@@ -49,9 +60,10 @@ class Motion {
 
   /// f at the mesh's vertices; before the first key and behind the last one as there.
   VectorXc map_at(double time) const;
-  /// The scene with its handles as they are in that map, which is map_at: on the way from one
+  /// The deformation with its handles as they are in that map, which is map_at: on the way from one
   /// keyframe to the next one they go with the picture around them.
-  Scene scene_at(const Scene& scene, double time, const VectorXc& map) const;
+  Deformation deformation_at(const Deformation& deformation, double time,
+                             const VectorXc& map) const;
 
  private:
   struct Key {
@@ -79,7 +91,7 @@ class Motion {
   };
   Place place_of(double time) const;
   Frame frame_at(Complex rest, const VectorXc& map) const;
-  void align(const Scene& scene);
+  void align(const Deformation& deformation);
   const Inbetween::Shape& shape_at(size_t key) const;
   VectorXc slopes_at(size_t key) const;
   const Slopes& slopes_from(size_t key) const;
@@ -87,7 +99,7 @@ class Motion {
   std::vector<Key> keys_;
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Inbetween> between_;
-  bool straight_ = false;
+  bool linear_blend_ = false;
   std::optional<Error> error_;
   mutable std::map<std::pair<double, double>, Location> locations_;
   // A shape takes eight times the memory of its map: those around the time that is asked for are
@@ -98,6 +110,6 @@ class Motion {
 
 /// Sets the whole turns of keys that `before` has not, and of those behind them, so that the
 /// picture turns as it did in the motion of `before`.
-void keep_turns(Scene& scene, const Scene& before, const Motion& motion);
+void keep_turns(Deformation& deformation, const Deformation& before, const Motion& motion);
 
 }  // namespace holomorph

@@ -40,12 +40,12 @@ ImageReference described(ImageReference reference, const Picture& picture) {
   return reference;
 }
 
-std::shared_ptr<const Image> Pictures::shared(const Scene& layer) const {
+std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {
   const Picture* found = layer.image ? find(*layer.image) : nullptr;
   return found ? found->image : nullptr;
 }
 
-const Image* Pictures::of(const Scene& layer) const {
+const Image* Pictures::of(const Layer& layer) const {
   return shared(layer).get();
 }
 

@@ -52,8 +52,8 @@ ImageReference described(ImageReference reference, const Picture& picture);
 class Pictures {
  public:
   /// The picture of a layer alone; null when it has none, or none that was read.
-  const Image* of(const Scene& layer) const;
-  std::shared_ptr<const Image> shared(const Scene& layer) const;
+  const Image* of(const Layer& layer) const;
+  std::shared_ptr<const Image> shared(const Layer& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
   /// Files that a scene names and that are not to be looked at before the user agrees.

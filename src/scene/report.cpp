@@ -24,12 +24,12 @@ double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map
   return total > 0 ? energy / total * length * length : 0;
 }
 
-double pin_distance(TimedMap& timed, const TimedMap::Frame& frame) {
+double pin_distance(TimedMap& timed, const TimedFrame& frame) {
   Points pins, targets;
   for (size_t i = 0; i < timed.prepared().rest.pins.size(); ++i)
-    if (contains(frame.scene.rest, timed.prepared().rest.pins[i].position)) {
+    if (contains(frame.deformation.rest, timed.prepared().rest.pins[i].position)) {
       pins.push_back(timed.prepared().rest.pins[i].position);
-      targets.push_back(frame.scene.pins[i].pose);
+      targets.push_back(frame.deformation.pins[i].pose);
     }
   if (targets.empty()) return 0;
   const SampledMap map = timed.at(frame, pins);
@@ -55,25 +55,25 @@ const char* name_of(SampledMap::Status status) {
   return "";
 }
 
-SceneReport report_of(TimedMap& timed, const TimedMap::Frame& frame) {
+SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   const PreparedMap& prepared = timed.prepared();
   const Mesh& mesh = timed.mesh();
   SceneReport report;
   const double start = now_ms();
   const SampledMap map = timed.on_mesh(frame);
   if (frame.pose) report.pose_milliseconds = now_ms() - start;
-  report.method = frame.scene.method;
+  report.method = frame.deformation.method;
   report.status = frame.pose ? name_of(map.status) : "blended";
   report.note = map.note;
   report.iterations = map.iterations;
-  report.cage_vertices = static_cast<int>(frame.scene.rest.size());
-  report.pins = static_cast<int>(frame.scene.pins.size());
+  report.cage_vertices = static_cast<int>(frame.deformation.rest.size());
+  report.pins = static_cast<int>(frame.deformation.pins.size());
   report.mesh_vertices = static_cast<int>(mesh.vertices.size());
   report.mesh_triangles = static_cast<int>(mesh.triangles.size());
   report.prepare_milliseconds = prepared.milliseconds;
   report.map = frame.pose ? report_of(mesh, map) : report_of_linear(mesh, map.f);
   report.folds_visibly = injectivity_of(mesh, map.f).folds();
-  const double length = perimeter(outline_of(frame.scene.rest)) / (2 * kPi);
+  const double length = perimeter(outline_of(frame.deformation.rest)) / (2 * kPi);
   report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, map, length);
   report.pin_rms = pin_distance(timed, frame);
   return report;

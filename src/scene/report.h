@@ -23,7 +23,7 @@ struct SceneReport {
 
 /// Measures a frame of a scene's map: at the mesh's vertices, or between keyframes in its
 /// triangles.
-SceneReport report_of(TimedMap& timed, const TimedMap::Frame& frame);
+SceneReport report_of(TimedMap& timed, const TimedFrame& frame);
 
 /// A report as readable lines.
 std::string text_of(const SceneReport& report);

@@ -31,39 +31,33 @@ constexpr char kBetween[] = "Between keyframes: blended, and not proved";
 
 }  // namespace
 
-TimedMap::TimedMap(const Scene& scene)
-    : scene_(scene), prepared_(prepared_map(scene, Precision::full, MeshOptions{})) {}
+TimedMap::TimedMap(const Deformation& deformation, bool linear_blend)
+    : deformation_(deformation),
+      linear_blend_(linear_blend),
+      prepared_(prepared_map(deformation, Precision::full, MeshOptions{})) {}
 
-TimedMap::Frame TimedMap::frame(std::optional<double> time) {
-  if (!time || scene_.keyframes.empty()) return {scene_, pose_of(scene_), {}};
-  if (playing_keys(scene_).empty()) throw no_key_plays();
-  motion_.follow(scene_, prepared_);
+TimedFrame TimedMap::frame(std::optional<double> time) {
+  if (!time || deformation_.keyframes.empty()) return {deformation_, pose_of(deformation_), {}};
+  if (playing_keys(deformation_).empty()) throw no_key_plays();
+  motion_.follow(deformation_, linear_blend_, prepared_);
   if (motion_.error()) throw Error(*motion_.error());
   if (const Pose* pose = motion_.pose_at(*time)) {
-    const Scene posed = posed_as(scene_, *pose);
+    const Deformation posed = posed_as(deformation_, *pose);
     return {posed, pose_of(posed), {}};
   }
   VectorXc f = motion_.map_at(*time);
-  Scene posed = motion_.scene_at(scene_, *time, f);
+  Deformation posed = motion_.deformation_at(deformation_, *time, f);
   return {std::move(posed), {}, std::move(f)};
 }
 
-SampledMap TimedMap::on_mesh(const Frame& frame) const {
-  SampledMap map;
-  if (frame.pose) {
-    prepared_->deformer->deform(*frame.pose, map, {true});
-    return map;
-  }
-  map.f = frame.between;
-  VertexDerivatives slopes = vertex_derivatives(*prepared_->mesh, map.f);
-  map.fz = std::move(slopes.fz);
-  map.fzbar = std::move(slopes.fzbar);
+SampledMap TimedMap::on_mesh(const TimedFrame& frame) const {
+  if (frame.pose) return prepared_->deformer->deform(*frame.pose, {true});
+  SampledMap map = blended_map(*prepared_->mesh, frame.between, true);
   map.note = kBetween;
   return map;
 }
 
-SampledMap TimedMap::at(const Frame& frame, const Points& points) {
-  SampledMap map;
+SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
   if (frame.pose) {
     if (!at_points_ || points_ != points) {
       Rest rest = prepared_->rest;
@@ -71,9 +65,9 @@ SampledMap TimedMap::at(const Frame& frame, const Points& points) {
       rest.derivative_samples.clear();
       at_points_ = method_named(prepared_->method).prepare(rest, nullptr);
     }
-    at_points_->deform(*frame.pose, map, {true});
-    return map;
+    return at_points_->deform(*frame.pose, {true});
   }
+  SampledMap map;
   const MeshPointMap between(prepared_->mesh, frame.between);
   const Index count = static_cast<Index>(points.size());
   for (VectorXc* part : {&map.f, &map.fz, &map.fzbar}) part->resize(count);
@@ -87,7 +81,7 @@ SampledMap TimedMap::at(const Frame& frame, const Points& points) {
   return map;
 }
 
-std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const Frame& frame) const {
+std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) const {
   std::unique_ptr<PointMap> map;
   if (frame.pose)
     map = prepared_->deformer->point_map(*frame.pose);
@@ -95,7 +89,7 @@ std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const Frame& frame) const {
     map = std::make_unique<MeshPointMap>(prepared_->mesh, frame.between);
   if (!map) return nullptr;
   const VectorXc f = frame.pose ? on_mesh(frame).f : frame.between;
-  return std::make_unique<Inverse>(std::move(map), scene_.rest, mesh(), f);
+  return std::make_unique<Inverse>(std::move(map), deformation_.rest, mesh(), f);
 }
 
 }  // namespace holomorph

@@ -1,38 +1,43 @@
-// A scene's map in full precision, as it stands or at a time of its keyframes.
+// A deformation's map in full precision, as it stands or at a time of its keyframes.
 #pragma once
 
 #include "core/maps/distortion.h"
 #include "core/maps/inverse.h"
-#include "scene/live_map.h"
+#include "scene/motion.h"
+#include "scene/scene.h"
 
 namespace holomorph {
 
-/// The map of a scene's edited layer at many moments, which share what is prepared.
+/// The map at a moment. Where a pose is shown, the deformation's or a keyframe's, it is the
+/// method's. On the way between keyframes it is linear in each triangle, and nothing is proved.
+struct TimedFrame {
+  Deformation deformation;   ///< with its handles there
+  std::optional<Pose> pose;  ///< none on the way between keyframes
+  VectorXc between;          ///< then the mesh's vertices
+};
+
+/// The map of a deformation at many moments, which share what is prepared.
 class TimedMap {
  public:
   /// Throws Error as preparing the map does.
-  explicit TimedMap(const Scene& scene);
+  explicit TimedMap(const Deformation& deformation, bool linear_blend = false);
+  /// Of the edited layer.
+  explicit TimedMap(const Scene& scene)
+      : TimedMap(scene.deformation(), scene.animation.linear_blend) {}
 
-  /// The map at a moment. Where a pose is shown, the scene's or a keyframe's, it is the method's.
-  /// On the way between keyframes it is linear in each triangle, and nothing is proved.
-  struct Frame {
-    Scene scene;               ///< with its handles there
-    std::optional<Pose> pose;  ///< none on the way between keyframes
-    VectorXc between;          ///< then the mesh's vertices
-  };
-  /// Without a time, or for a layer without keyframes, the scene as it stands. Throws Error when
+  /// Without a time, or without keyframes, the deformation as it stands. Throws Error when
   /// none of the keyframes plays or one of them has no map. Cost: all keyframes' maps for the first
   /// time, then a sparse solve.
-  Frame frame(std::optional<double> time);
+  TimedFrame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }
   const PreparedMap& prepared() const { return *prepared_; }
 
   /// At the mesh's vertices, with derivatives.
-  SampledMap on_mesh(const Frame& frame) const;
+  SampledMap on_mesh(const TimedFrame& frame) const;
   /// At any points, with derivatives: NaN where the method's own is, and nothing outside the cage.
   /// What is precomputed for points is kept for the next frame with the same ones.
-  SampledMap at(const Frame& frame, const Points& points);
+  SampledMap at(const TimedFrame& frame, const Points& points);
 
   /// The inverse of a frame's map, with the map.
   struct Inverse {
@@ -44,10 +49,11 @@ class TimedMap {
           inverse(rest, mesh, {f.data(), static_cast<size_t>(f.size())}, *map) {}
   };
   /// Null when the method knows its map at samples only. The TimedMap must outlive it.
-  std::unique_ptr<Inverse> inverse(const Frame& frame) const;
+  std::unique_ptr<Inverse> inverse(const TimedFrame& frame) const;
 
  private:
-  Scene scene_;
+  Deformation deformation_;
+  bool linear_blend_;
   std::shared_ptr<PreparedMap> prepared_;
   Motion motion_;
   Points points_;

@@ -17,7 +17,7 @@ struct TwoLayers : Desk {
     settle();
   }
   Complex corner(size_t layer) const {
-    return layer_at(workspace.document.scene(), layer).pose.vertex(0);
+    return workspace.document.scene().layers[layer]->deformation.pose.vertex(0);
   }
 };
 
@@ -38,7 +38,7 @@ TEST_CASE("Edits move the edited layer alone, and undo leads back through both")
   run(action_named("edit.undo"), desk.workspace);
   CHECK(desk.corner(0) == Complex(0, 0));
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(edited_layer(desk.workspace.document.scene()) == 1);
+  CHECK(desk.workspace.document.scene().edited == 1);
   run(action_named("edit.undo"), desk.workspace);
   CHECK(desk.corner(1) == Complex(0, 0));
 }
@@ -52,9 +52,9 @@ TEST_CASE("Looking through layers is one step of the history") {
   }
   run(action_named("layer.below"), desk.workspace);
   CHECK(desk.steps() == steps + 1);
-  CHECK(edited_layer(desk.workspace.document.scene()) == 0);
+  CHECK(desk.workspace.document.scene().edited == 0);
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(edited_layer(desk.workspace.document.scene()) == 1);
+  CHECK(desk.workspace.document.scene().edited == 1);
   CHECK_FALSE(action_named("layer.above").enabled(desk.workspace));
 }
 
@@ -64,21 +64,21 @@ TEST_CASE("A locked layer refuses edits and says so; the others do not") {
   const Scene before = desk.workspace.document.scene();
   desk.drag({0, 0}, {-20, 0});
   CHECK(desk.workspace.document.scene() == before);
-  REQUIRE_FALSE(desk.workspace.toasts.empty());
-  CHECK(desk.workspace.toasts.back().text.find("locked") != std::string::npos);
+  REQUIRE_FALSE(desk.workspace.messages.toasts.empty());
+  CHECK(desk.workspace.messages.toasts.back().text.find("locked") != std::string::npos);
   run(action_named("layer.delete"), desk.workspace);
-  CHECK(layer_count(desk.workspace.document.scene()) == 2);
+  CHECK(desk.workspace.document.scene().layers.size() == 2);
   run(action_named("layer.down"), desk.workspace);  // its place is not its content
-  CHECK(edited_layer(desk.workspace.document.scene()) == 0);
+  CHECK(desk.workspace.document.scene().edited == 0);
   run(action_named("layer.above"), desk.workspace);
   desk.settle();
   desk.drag({200, 200}, {220, 200});
-  CHECK(desk.workspace.document.scene().pose.vertex(2) == Complex(220, 200));
+  CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(220, 200));
   run(action_named("layer.below"), desk.workspace);
   run(action_named("layer.lock"), desk.workspace);
   desk.settle();
   desk.drag({0, 0}, {-20, 0});
-  CHECK(desk.workspace.document.scene().pose.vertex(0) == Complex(-20, 0));
+  CHECK(desk.workspace.shown.own().pose.vertex(0) == Complex(-20, 0));
 }
 
 TEST_CASE("Layers are hidden, ordered and deleted by actions, and each undoes") {
@@ -107,19 +107,19 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
   desk.drag({0, 0}, {-40, 0});
   w.set_key();
   run(action_named("layer.below"), w);
-  CHECK(w.document.scene().keyframes.empty());
+  CHECK(w.shown.own().keyframes.empty());
   w.go_to_time(1);
-  CHECK_FALSE(w.shown_time());
-  REQUIRE(w.time_of_layers() == 1.0);
+  CHECK_FALSE(w.shown.time());
+  REQUIRE(w.shown.time_of_layers() == 1.0);
   w.update_map({});
-  while (w.maps.of(w.document.scene().above[0]->layer.id).busy() || w.map().busy()) {
+  while (w.maps.of(w.document.scene().layers[1]->id).busy() || w.map().busy()) {
     std::this_thread::yield();
     w.update_map({});
   }
-  const LiveMap& upper = w.maps.of(w.document.scene().above[0]->layer.id);
+  const LiveMap& upper = w.maps.of(w.document.scene().layers[1]->id);
   REQUIRE(upper.timed());
   CHECK(upper.timed()->pose.vertex(0).real() == Approx(-20).margin(3));
-  CHECK(w.scene().pose.vertex(0) == Complex(0, 0));
+  CHECK(w.shown.deformation().pose.vertex(0) == Complex(0, 0));
   CHECK(action_named("time.play").enabled(w));
 }
 
@@ -128,10 +128,10 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
   Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
   Workspace& w = desk.workspace;
   run(action_named("view.fold"), w);
-  CHECK(w.toasts.back().text == "Nothing folds.");
-  Scene scene = desk.scene();
-  scene.method = "harmonic";
-  w.commit("Harmonic", scene);
+  CHECK(w.messages.toasts.back().text == "Nothing folds.");
+  Deformation deformation = desk.deformation();
+  deformation.method = "harmonic";
+  w.commit("Harmonic", deformation);
   desk.settle();
   desk.drag({0, 0}, {120, 190});
   desk.settle();
@@ -141,8 +141,8 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
   REQUIRE_FALSE(folds.empty());
   for (size_t i = 0; i <= folds.size(); ++i) {
     run(action_named("view.fold"), w);
-    CHECK(w.viewport.center == folds[i % folds.size()]);
-    CHECK(w.toasts.back().problem);
+    CHECK(w.display.viewport.center == folds[i % folds.size()]);
+    CHECK(w.messages.toasts.back().problem);
   }
 }
 
@@ -151,25 +151,25 @@ TEST_CASE("A box around a picture moves all of it, and the view is of where it i
   ImageReference reference = reference_in("/nowhere/blank.png");
   const Picture blank{std::make_shared<const Image>(100, 80), "", {}};
   reference = described(reference, blank);
-  Scene pictured;
+  Layer pictured;
   pictured.image = reference;
   desk.workspace.document.put_picture(reference, blank);
-  REQUIRE(desk.workspace.commit_layers("Add", pictured));
+  REQUIRE(desk.workspace.commit_layers("Add", scene_of(pictured)));
   const auto corners = [&] {
-    const Box box = desk.workspace.content_box();
+    const Box box = content_box(desk.workspace);
     return std::pair(Complex(box.left, box.bottom), Complex(box.right, box.top));
   };
   CHECK(corners() == std::pair(Complex(0, 0), Complex(100, 80)));
   run(action_named("cage.box"), desk.workspace);
   CHECK(desk.workspace.selection.size() == 4);
-  CHECK(desk.scene().rest.vertex(2) == Complex(100, 80));
+  CHECK(desk.deformation().rest.vertex(2) == Complex(100, 80));
   desk.settle();
   desk.drag({50, 40}, {350, 140});
   desk.workspace.update_map({});
   desk.settle();
   for (Index i = 0; i < 4; ++i)
-    CHECK(std::abs(desk.scene().pose.vertex(i) - desk.scene().rest.vertex(i) - Complex(300, 100)) <
-          1e-9);
+    CHECK(std::abs(desk.deformation().pose.vertex(i) - desk.deformation().rest.vertex(i) -
+                   Complex(300, 100)) < 1e-9);
   CHECK(std::abs(corners().first - Complex(300, 100)) < 1e-3);
   CHECK(std::abs(corners().second - Complex(400, 180)) < 1e-3);
 }

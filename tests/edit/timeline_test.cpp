@@ -26,9 +26,9 @@ void go_to(Desk& desk, double time) {
 /// A bar with keys at 0 (at rest) and at 1 s (moved to the right by 40).
 void set_two_keys(Desk& desk) {
   act(desk, "time.key");
-  desk.workspace.timeline.go_to(1);
-  desk.workspace.timeline.shows = false;
-  Scene moved = desk.scene();
+  desk.workspace.shown.timeline.go_to(1);
+  desk.workspace.shown.timeline.shows = false;
+  Deformation moved = desk.deformation();
   for (Points& segment : moved.pose.segments) segment[0] += 40.0;
   desk.workspace.commit("Move", moved);
   act(desk, "time.key");
@@ -39,11 +39,11 @@ void set_two_keys(Desk& desk) {
 TEST_CASE("Timeline: keys are set, and the picture between them is shown") {
   Desk desk(kBar);
   set_two_keys(desk);
-  CHECK(desk.scene().keyframes.size() == 2);
-  CHECK(desk.workspace.timeline.visible);
+  CHECK(desk.deformation().keyframes.size() == 2);
+  CHECK(desk.workspace.shown.timeline.visible);
   go_to(desk, 0.5);
-  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
-  CHECK(desk.workspace.document.scene().pose.vertex(0) == 40.0);  // its own stays
+  CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
+  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);  // its own stays
   CHECK(desk.workspace.map().map().f[0].real() -
             desk.workspace.map().prepared()->mesh->vertices[0].real() ==
         Approx(20).margin(1e-2));
@@ -54,28 +54,28 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   set_two_keys(desk);
   go_to(desk, 0.5);
   const size_t steps = desk.steps();
-  const Complex from = desk.scene().pose.vertex(2);
+  const Complex from = desk.deformation().pose.vertex(2);
   desk.press(from);
   desk.move({380, 170});
   desk.workspace.update_map({});  // as the window does while it is dragged
   desk.move({400, 200});
   desk.release({400, 200});
-  CHECK_FALSE(desk.workspace.timeline.shows);
-  CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(400, 200)) < 1e-6);
-  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
-  CHECK(desk.scene().keyframes.size() == 2);
+  CHECK_FALSE(desk.workspace.shown.timeline.shows);
+  CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-6);
+  CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
+  CHECK(desk.deformation().keyframes.size() == 2);
   CHECK(desk.steps() == steps + 1);
   go_to(desk, 0.9);
-  CHECK_FALSE(desk.workspace.toasts.empty());  // it has no key
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());  // it has no key
   act(desk, "edit.undo");
-  CHECK(desk.workspace.timeline.time == 0.5);  // where it was made
-  CHECK(desk.workspace.timeline.shows);
-  CHECK(desk.scene().pose.vertex(2).real() == Approx(320).margin(1e-3));
+  CHECK(desk.workspace.shown.timeline.time == 0.5);  // where it was made
+  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.deformation().pose.vertex(2).real() == Approx(320).margin(1e-3));
   act(desk, "edit.redo");
   act(desk, "time.key");  // now it is one
-  CHECK(desk.scene().keyframes.size() == 3);
-  CHECK(desk.workspace.timeline.shows);
-  CHECK(std::abs(desk.scene().keyframes[1].pose.cage.vertex(2) - Complex(400, 200)) < 1e-6);
+  CHECK(desk.deformation().keyframes.size() == 3);
+  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(std::abs(desk.deformation().keyframes[1].pose.cage.vertex(2) - Complex(400, 200)) < 1e-6);
 }
 
 TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
@@ -83,18 +83,18 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   set_two_keys(desk);
   act(desk, "time.auto_key");
   go_to(desk, 0.5);
-  desk.drag(desk.scene().pose.vertex(2), Complex(400, 200));
+  desk.drag(desk.deformation().pose.vertex(2), Complex(400, 200));
   desk.workspace.update_map({});
-  CHECK(desk.workspace.timeline.shows);
-  REQUIRE(desk.scene().keyframes.size() == 3);
-  CHECK(desk.scene().keyframes[1].time == 0.5);
-  CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(400, 200)) < 1e-3);
-  CHECK(desk.workspace.document.scene().pose.vertex(2) == Complex(340, 100));  // its own stays
+  CHECK(desk.workspace.shown.timeline.shows);
+  REQUIRE(desk.deformation().keyframes.size() == 3);
+  CHECK(desk.deformation().keyframes[1].time == 0.5);
+  CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-3);
+  CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(340, 100));  // its own stays
   act(desk, "edit.undo");
-  CHECK(desk.scene().keyframes.size() == 2);
+  CHECK(desk.deformation().keyframes.size() == 2);
   // The time stays shown, and the next edit is one of what is there.
-  CHECK(desk.workspace.timeline.shows);
-  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(1e-3));
+  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
 }
 
 TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
@@ -102,10 +102,10 @@ TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
   set_two_keys(desk);
   go_to(desk, 1);
   CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
-  desk.workspace.timeline.chosen = true;  // as the panel does
+  desk.workspace.shown.timeline.chosen = true;  // as the panel does
   act(desk, "edit.delete");
-  CHECK(desk.workspace.document.scene().keyframes.size() == 1);
-  CHECK(desk.workspace.document.scene().rest.size() == 4);
+  CHECK(desk.workspace.shown.own().keyframes.size() == 1);
+  CHECK(desk.workspace.shown.own().rest.size() == 4);
   act(desk, "edit.undo");
   go_to(desk, 0.5);  // another time: nothing is chosen
   CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
@@ -115,20 +115,20 @@ TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
   for (const bool auto_key : {false, true}) {
     Desk desk(kBar);
     set_two_keys(desk);
-    desk.workspace.timeline.auto_key = auto_key;
+    desk.workspace.shown.timeline.auto_key = auto_key;
     // The own pose is that of the second key: copied there, pasted onto the first.
     go_to(desk, 1);
     act(desk, "time.copy");
     go_to(desk, 0);
-    CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
+    CHECK(desk.deformation().pose.vertex(0) == Complex(0, 0));
     act(desk, "time.paste");
-    CHECK(desk.scene().pose.vertex(0) == Complex(40, 0));
-    CHECK(desk.workspace.timeline.shows == auto_key);
-    if (auto_key) CHECK(desk.scene().keyframes[0].pose.cage.vertex(0) == Complex(40, 0));
+    CHECK(desk.deformation().pose.vertex(0) == Complex(40, 0));
+    CHECK(desk.workspace.shown.timeline.shows == auto_key);
+    if (auto_key) CHECK(desk.deformation().keyframes[0].pose.cage.vertex(0) == Complex(40, 0));
     act(desk, "edit.undo");
     go_to(desk, 0.5);
     act(desk, "edit.reset");
-    CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
+    CHECK(desk.deformation().pose.vertex(0) == Complex(0, 0));
   }
 }
 
@@ -136,30 +136,30 @@ TEST_CASE("Timeline: while a time's picture is on its way no key is set from ano
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);
-  desk.workspace.commit("Method", with_method(desk.scene(), "harmonic"));
+  desk.workspace.commit("Method", with_method(desk.deformation(), "harmonic"));
   desk.workspace.go_to_time(0.5);
-  CHECK_FALSE(desk.workspace.knows_pose());
+  CHECK_FALSE(desk.workspace.shown.knows_pose());
   act(desk, "time.key");
-  CHECK(desk.workspace.document.scene().keyframes.size() == 2);
+  CHECK(desk.workspace.shown.own().keyframes.size() == 2);
   // Where the time is the same, so are the handles.
   desk.settle();
   go_to(desk, 1);
-  desk.workspace.commit("Method", with_method(desk.scene(), "mean_value"));
+  desk.workspace.commit("Method", with_method(desk.deformation(), "mean_value"));
   act(desk, "time.key");
-  CHECK(desk.workspace.document.scene().keyframes[1].pose.cage.vertex(0) == Complex(40, 0));
+  CHECK(desk.workspace.shown.own().keyframes[1].pose.cage.vertex(0) == Complex(40, 0));
 }
 
 TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
   Desk desk(kBar);
   act(desk, "time.key");
-  desk.workspace.timeline.time = 1;
+  desk.workspace.shown.timeline.time = 1;
   act(desk, "time.key");
   for (const int turns : {1, -2})
     for (const double time : {0.25, 0.4, 0.5, 0.625, 0.75}) {
-      Scene scene = desk.workspace.document.scene();
-      scene.keyframes[1].turns = turns;
-      scene.keyframes[0].ease = Ease::linear;
-      desk.workspace.commit("Turns", scene, From::document);
+      Deformation deformation = desk.workspace.shown.own();
+      deformation.keyframes[1].turns = turns;
+      deformation.keyframes[0].ease = Ease::linear;
+      desk.workspace.commit("Turns", deformation, EditBase::document);
       const auto turned = [&](double at) {
         go_to(desk, at);
         return desk.workspace.map().motion().turned_at(at);
@@ -167,8 +167,8 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       const double before = turned(0.9), mid = turned(time);
       CHECK(before == Approx(0.9 * 2 * kPi * turns).margin(1e-6));
       act(desk, "time.key");
-      REQUIRE(desk.workspace.document.scene().keyframes.size() == 3);
-      CHECK(desk.workspace.document.scene().keyframes[1].ease == Ease::linear);
+      REQUIRE(desk.workspace.shown.own().keyframes.size() == 3);
+      CHECK(desk.workspace.shown.own().keyframes[1].ease == Ease::linear);
       INFO(turns << " turns, a key at " << time);
       CHECK(turned(time) == Approx(mid).margin(1e-6));
       CHECK_FALSE(desk.workspace.map().injectivity().folds());
@@ -182,25 +182,25 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
   set_two_keys(desk);
   act(desk, "time.auto_key");
   go_to(desk, 0);
-  const Pose first = desk.workspace.document.scene().keyframes[0].pose;
+  const Pose first = desk.workspace.shown.own().keyframes[0].pose;
   const size_t steps = desk.steps();
-  desk.workspace.commit("Ease", with_ease(desk.workspace.document.scene(), 0, Ease::hold),
-                        From::document);
-  CHECK(desk.workspace.document.scene().keyframes[0].pose == first);
+  desk.workspace.commit("Ease", with_ease(desk.workspace.shown.own(), 0, Ease::hold),
+                        EditBase::document);
+  CHECK(desk.workspace.shown.own().keyframes[0].pose == first);
   CHECK(desk.steps() == steps + 1);
-  CHECK(desk.workspace.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.shows);
   desk.workspace.update_map({});
   for (const double time : {1.25, 1.5, 1.75}) {
     desk.workspace.commit_or_amend(
-        "Move key", with_key_moved(desk.workspace.document.scene(), 1, time).first, From::document);
+        "Move key", with_key_moved(desk.workspace.shown.own(), 1, time).first, EditBase::document);
     desk.workspace.go_to_time(time);
     desk.workspace.update_map({});
   }
-  CHECK(desk.workspace.document.scene().keyframes.size() == 2);
-  CHECK(desk.workspace.document.scene().keyframes[1].time == 1.75);
+  CHECK(desk.workspace.shown.own().keyframes.size() == 2);
+  CHECK(desk.workspace.shown.own().keyframes[1].time == 1.75);
   go_to(desk, 0);
   act(desk, "time.delete_key");
-  CHECK(desk.workspace.document.scene().keyframes.size() == 1);
+  CHECK(desk.workspace.shown.own().keyframes.size() == 1);
 }
 
 TEST_CASE("Timeline: two drags of keys are two steps") {
@@ -209,73 +209,73 @@ TEST_CASE("Timeline: two drags of keys are two steps") {
   const size_t steps = desk.steps();
   Workspace& w = desk.workspace;
   for (const double time : {1.25, 1.5}) {
-    w.carried_on.reset();  // as the panel does at a press
+    w.end_mergeable_step();  // as the panel does at a press
     for (const double nearer : {time - 0.125, time})
-      w.commit_or_amend("Move key", with_key_moved(w.document.scene(), 1, nearer).first,
-                        From::document);
+      w.commit_or_amend("Move key", with_key_moved(w.shown.own(), 1, nearer).first,
+                        EditBase::document);
   }
   CHECK(desk.steps() == steps + 2);
   act(desk, "edit.undo");
-  CHECK(w.document.scene().keyframes[1].time == 1.25);
+  CHECK(w.shown.own().keyframes[1].time == 1.25);
 }
 
 TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
   Desk desk(kBar);
-  Scene scene = desk.scene();
+  Deformation deformation = desk.deformation();
   for (size_t i = 0; i < kMostKeyframes; ++i)
-    scene.keyframes.push_back({static_cast<double>(i), whole_pose_of(scene)});
-  REQUIRE(desk.workspace.commit("Many keys", scene, From::document));
-  desk.workspace.timeline.auto_key = true;
-  desk.workspace.timeline.time = 0.5;
-  Scene moved = scene;
+    deformation.keyframes.push_back({static_cast<double>(i), whole_pose_of(deformation)});
+  REQUIRE(desk.workspace.commit("Many keys", deformation, EditBase::document));
+  desk.workspace.shown.timeline.auto_key = true;
+  desk.workspace.shown.timeline.time = 0.5;
+  Deformation moved = deformation;
   moved.pose.segments[0][0] += 5.0;
   CHECK_FALSE(desk.workspace.commit("Move", moved));
-  CHECK(desk.workspace.toasts.back().problem);
+  CHECK(desk.workspace.messages.toasts.back().problem);
   CHECK_FALSE(desk.workspace.amend(moved));
-  CHECK(desk.workspace.document.scene() == scene);
+  CHECK(desk.workspace.shown.own() == deformation);
 }
 
 TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the time") {
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.25);
-  Scene other = with_method(desk.scene(), "harmonic");
+  Deformation other = with_method(desk.deformation(), "harmonic");
   desk.workspace.commit("Method", other);
-  CHECK(desk.workspace.timeline.shows);
-  CHECK(desk.workspace.document.scene().pose.vertex(0) == 40.0);
+  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);
   // An inserted point goes into all keyframes; the own pose is then the shown one.
   desk.settle();
   desk.workspace.update_map({});
-  desk.workspace.commit("Insert", inserted(desk.scene(), 0, 0.5));
-  CHECK(playing_keys(desk.workspace.document.scene()).size() == 2);
-  CHECK(desk.scene().keyframes[1].pose.cage.vertex(1) == Complex(190, 0));
-  CHECK(desk.workspace.document.scene().pose.vertex(0).real() == Approx(6.25).margin(0.01));
+  desk.workspace.commit("Insert", inserted(desk.deformation(), 0, 0.5));
+  CHECK(playing_keys(desk.workspace.shown.own()).size() == 2);
+  CHECK(desk.deformation().keyframes[1].pose.cage.vertex(1) == Complex(190, 0));
+  CHECK(desk.workspace.shown.own().pose.vertex(0).real() == Approx(6.25).margin(0.01));
 }
 
 TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture is there") {
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
-  desk.workspace.tool = ToolId::pin;
+  desk.workspace.tools.active = ToolId::pin;
   desk.click({190, 50});
-  const Scene& scene = desk.workspace.document.scene();
-  REQUIRE(scene.pins.size() == 1);
-  CHECK(playing_keys(scene).size() == 2);
-  CHECK(std::abs(scene.keyframes[0].pose.pins[0].position - Complex(150, 50)) < 0.1);
-  CHECK(std::abs(scene.keyframes[1].pose.pins[0].position - Complex(190, 50)) < 0.1);
+  const Deformation& deformation = desk.workspace.shown.own();
+  REQUIRE(deformation.pins.size() == 1);
+  CHECK(playing_keys(deformation).size() == 2);
+  CHECK(std::abs(deformation.keyframes[0].pose.pins[0].position - Complex(150, 50)) < 0.1);
+  CHECK(std::abs(deformation.keyframes[1].pose.pins[0].position - Complex(190, 50)) < 0.1);
 }
 
 TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the picture is there") {
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
-  desk.workspace.tool = ToolId::stroke;
+  desk.workspace.tools.active = ToolId::stroke;
   desk.draw({{120, 50}, {160, 52}, {220, 50}});
-  const Scene& scene = desk.workspace.document.scene();
-  REQUIRE(scene.strokes.size() == 1);
-  CHECK(playing_keys(scene).size() == 2);
-  const Points &first = scene.keyframes[0].pose.strokes[0],
-               &second = scene.keyframes[1].pose.strokes[0];
+  const Deformation& deformation = desk.workspace.shown.own();
+  REQUIRE(deformation.strokes.size() == 1);
+  CHECK(playing_keys(deformation).size() == 2);
+  const Points &first = deformation.keyframes[0].pose.strokes[0],
+               &second = deformation.keyframes[1].pose.strokes[0];
   CHECK(std::abs(second.front() - Complex(120, 50)) < 0.1);
   REQUIRE(first.size() == second.size());
   for (size_t i = 0; i < first.size(); ++i)
@@ -294,15 +294,16 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
   CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
   CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
   // The own pose is compared with the keys as they are now.
-  Scene scene = desk.workspace.document.scene();
-  for (Points& segment : scene.keyframes[1].pose.cage.segments) segment[0] += 7.0;
-  desk.workspace.commit("Key", scene, From::document);
-  desk.workspace.timeline.shows = false;
+  Deformation deformation = desk.workspace.shown.own();
+  for (Points& segment : deformation.keyframes[1].pose.cage.segments) segment[0] += 7.0;
+  desk.workspace.commit("Key", deformation, EditBase::document);
+  desk.workspace.shown.timeline.shows = false;
   desk.workspace.update_map({});
   CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
-  scene.keyframes.insert(scene.keyframes.begin() + 1, {0.75, scene.keyframes[0].pose});
-  scene.keyframes[1].pose.pins.push_back({{5, 5}});  // does not play
-  desk.workspace.commit("Hollow", scene, From::document);
+  deformation.keyframes.insert(deformation.keyframes.begin() + 1,
+                               {0.75, deformation.keyframes[0].pose});
+  deformation.keyframes[1].pose.pins.push_back({{5, 5}});  // does not play
+  desk.workspace.commit("Hollow", deformation, EditBase::document);
   desk.workspace.update_map({});
   CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
   CHECK(desk.workspace.onion_skins().back().later);
@@ -343,31 +344,31 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
   Desk desk(kBar);
   const size_t steps = desk.steps();
   record(desk);
-  const Scene& scene = desk.workspace.document.scene();
+  const Deformation& deformation = desk.workspace.shown.own();
   CHECK(desk.steps() == steps + 1);
-  CHECK(scene.keyframes.size() >= 5);
-  CHECK(scene.keyframes.size() <= 15);
-  CHECK(scene.keyframes.front().time == 0);
-  CHECK(length_of(scene) == 2);
-  CHECK(scene.pose.vertex(2) == Complex(300, 100));  // its own pose stays
-  CHECK(desk.workspace.timeline.shows);
+  CHECK(deformation.keyframes.size() >= 5);
+  CHECK(deformation.keyframes.size() <= 15);
+  CHECK(deformation.keyframes.front().time == 0);
+  CHECK(length_of(desk.workspace.document.scene()) == 2);
+  CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // its own pose stays
+  CHECK(desk.workspace.shown.timeline.shows);
   for (const double time : {0.3, 0.77, 1.31, 1.9}) {
     go_to(desk, time);
     INFO("at " << time << " s");
-    CHECK(std::abs(desk.scene().pose.vertex(2) - on_arc(time)) < 4);
+    CHECK(std::abs(desk.deformation().pose.vertex(2) - on_arc(time)) < 4);
   }
   act(desk, "edit.undo");
-  CHECK(desk.workspace.document.scene().keyframes.empty());
+  CHECK(desk.workspace.shown.own().keyframes.empty());
 }
 
 TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
   Desk desk(kBar);
   record(desk, straight);
-  CHECK(desk.workspace.document.scene().keyframes.size() <= 10);
+  CHECK(desk.workspace.shown.own().keyframes.size() <= 10);
   for (const double time : {0.2, 0.9, 1.5, 1.95}) {
     go_to(desk, time);
     INFO("at " << time << " s");
-    CHECK(std::abs(desk.scene().pose.vertex(2) - straight(time)) < 3);
+    CHECK(std::abs(desk.deformation().pose.vertex(2) - straight(time)) < 3);
   }
   CHECK(length_of(desk.workspace.document.scene()) == 2);
 }
@@ -375,14 +376,14 @@ TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
 TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of others") {
   Desk desk(kBar);
   set_two_keys(desk);
-  Scene scene = desk.workspace.document.scene();
-  scene.keyframes[0].pose.pins.push_back({{5, 5}});  // another structure
-  scene.keyframes.push_back({3, scene.keyframes[1].pose});
-  scene.keyframes.back().turns = 1;
-  desk.workspace.commit("Hollow", scene, From::document);
-  const Keyframe hollow = scene.keyframes[0];
+  Deformation deformation = desk.workspace.shown.own();
+  deformation.keyframes[0].pose.pins.push_back({{5, 5}});  // another structure
+  deformation.keyframes.push_back({3, deformation.keyframes[1].pose});
+  deformation.keyframes.back().turns = 1;
+  desk.workspace.commit("Hollow", deformation, EditBase::document);
+  const Keyframe hollow = deformation.keyframes[0];
   go_to(desk, 0);
-  const Complex from = desk.scene().pose.vertex(2);
+  const Complex from = desk.deformation().pose.vertex(2);
   CHECK(from == Complex(340, 100));
   constexpr Modifiers kCtrl{true, false, false};
   desk.press(from, kCtrl);
@@ -391,7 +392,7 @@ TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of 
     desk.move(from + Complex(0, i), kCtrl);
   }
   desk.release(from + Complex(0, 60), kCtrl);
-  const Scene& after = desk.workspace.document.scene();
+  const Deformation& after = desk.workspace.shown.own();
   CHECK(after.keyframes[0] == hollow);
   CHECK(after.keyframes.back().time == 3);
   go_to(desk, 3);
@@ -401,15 +402,15 @@ TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of 
 TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
   Desk desk(kBar);
   set_two_keys(desk);
-  Scene scene = desk.workspace.document.scene();
-  Points& segment = scene.keyframes[1].pose.cage.segments[0];
+  Deformation deformation = desk.workspace.shown.own();
+  Points& segment = deformation.keyframes[1].pose.cage.segments[0];
   segment = {segment[0], segment[0] + Complex(100, -30), segment[0] + Complex(200, -30)};
-  desk.workspace.commit("Curved", scene, From::document);
+  desk.workspace.commit("Curved", deformation, EditBase::document);
   desk.settle();
   go_to(desk, 1);
   const Handle tangent{Handle::Kind::cage, 0, 1};
-  REQUIRE(exists(desk.scene(), tangent, Posture::pose));
-  const Complex at = position_of(desk.scene(), tangent, Posture::pose);
+  REQUIRE(exists(desk.deformation(), tangent, EditMode::pose));
+  const Complex at = position_of(desk.deformation(), tangent, EditMode::pose);
   const size_t steps = desk.steps();
   constexpr Modifiers kCtrl{true, false, false};
   desk.press(at, kCtrl);
@@ -419,11 +420,11 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
   }
   desk.release(at, kCtrl);
   CHECK(desk.steps() == steps);
-  CHECK_FALSE(desk.workspace.timeline.recording);
-  CHECK_FALSE(desk.workspace.toasts.empty());
+  CHECK_FALSE(desk.workspace.shown.timeline.recording);
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());
   // Its vertex is, and takes the tangents along that there are.
   desk.workspace.selection.clear();
-  const Complex vertex = desk.scene().pose.vertex(0);
+  const Complex vertex = desk.deformation().pose.vertex(0);
   desk.press(vertex, kCtrl);
   for (int i = 1; i <= 30; ++i) {
     desk.now_ms = 5000 + 50.0 * i;
@@ -431,7 +432,7 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
   }
   desk.release(vertex + Complex(-30, 0), kCtrl);
   CHECK(desk.steps() == steps + 1);
-  CHECK(desk.workspace.document.scene().keyframes.back().pose.cage.vertex(0).real() ==
+  CHECK(desk.workspace.shown.own().keyframes.back().pose.cage.vertex(0).real() ==
         Approx(vertex.real() - 30).margin(1));
 }
 
@@ -439,32 +440,32 @@ TEST_CASE("Timeline: another document opened during a recording keeps its time")
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.75);
-  const Complex from = desk.scene().pose.vertex(2);
+  const Complex from = desk.deformation().pose.vertex(2);
   desk.press(from, {true, false, false});
   desk.move(from + Complex(20, 0), {true, false, false});
-  REQUIRE(desk.workspace.timeline.recording);
+  REQUIRE(desk.workspace.shown.timeline.recording);
   desk.workspace.open(Document());
   desk.tool().cancel(desk.workspace);
-  CHECK(desk.workspace.timeline.time == 0);
-  CHECK_FALSE(desk.workspace.timeline.recording);
+  CHECK(desk.workspace.shown.timeline.time == 0);
+  CHECK_FALSE(desk.workspace.shown.timeline.recording);
 }
 
 TEST_CASE("Timeline: what moves already goes on under a recording") {
   Desk desk(kBar);
   set_two_keys(desk);
-  act(desk, "edit.reset");  // from the scene's own pose, too
-  CHECK_FALSE(desk.workspace.timeline.shows);
-  desk.workspace.timeline.time = 0;
+  act(desk, "edit.reset");  // from the deformation's own pose, too
+  CHECK_FALSE(desk.workspace.shown.timeline.shows);
+  desk.workspace.shown.timeline.time = 0;
   record(desk);
-  const Scene& scene = desk.workspace.document.scene();
-  REQUIRE(scene.keyframes.size() > 3);
-  const size_t there = key_at(scene, 1);
-  REQUIRE(there < scene.keyframes.size());
-  CHECK(scene.keyframes[there].pose.cage.vertex(0) == Complex(40, 0));
-  CHECK(std::abs(scene.keyframes[there].pose.cage.vertex(2) - on_arc(1)) < 1);
-  CHECK(scene.keyframes.back().pose.cage.vertex(0) == Complex(40, 0));
+  const Deformation& deformation = desk.workspace.shown.own();
+  REQUIRE(deformation.keyframes.size() > 3);
+  const size_t there = key_at(deformation, 1);
+  REQUIRE(there < deformation.keyframes.size());
+  CHECK(deformation.keyframes[there].pose.cage.vertex(0) == Complex(40, 0));
+  CHECK(std::abs(deformation.keyframes[there].pose.cage.vertex(2) - on_arc(1)) < 1);
+  CHECK(deformation.keyframes.back().pose.cage.vertex(0) == Complex(40, 0));
   go_to(desk, 0.5);
-  CHECK(desk.scene().pose.vertex(0).real() == Approx(20).margin(2));
+  CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(2));
 }
 
 TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing") {
@@ -474,24 +475,24 @@ TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing
   desk.press({300, 100}, kCtrl);
   desk.now_ms = 700;
   desk.move({320, 120}, kCtrl);
-  CHECK(desk.workspace.timeline.recording);
-  CHECK(desk.workspace.timeline.time == 0);
+  CHECK(desk.workspace.shown.timeline.recording);
+  CHECK(desk.workspace.shown.timeline.time == 0);
   desk.now_ms = 1200;
   desk.move({330, 120}, kCtrl);
-  CHECK(desk.workspace.timeline.time == Approx(0.5));
+  CHECK(desk.workspace.shown.timeline.time == Approx(0.5));
   desk.tool().key(Key::escape, desk.workspace);
-  CHECK_FALSE(desk.workspace.timeline.recording);
-  CHECK(desk.workspace.timeline.time == 0);
+  CHECK_FALSE(desk.workspace.shown.timeline.recording);
+  CHECK(desk.workspace.shown.timeline.time == 0);
   CHECK(desk.steps() == steps);
   desk.click({300, 100}, kCtrl);
-  CHECK(desk.scene().keyframes.empty());
-  CHECK(is_smooth(desk.scene(), 2, Posture::pose));
+  CHECK(desk.deformation().keyframes.empty());
+  CHECK(is_smooth(desk.deformation(), 2, EditMode::pose));
 }
 
 TEST_CASE("Timeline: time goes on, loops, and stops at the end") {
   Desk desk(kBar);
   set_two_keys(desk);
-  Timeline& timeline = desk.workspace.timeline;
+  Timeline& timeline = desk.workspace.shown.timeline;
   const Scene& scene = desk.workspace.document.scene();
   timeline.go_to(0.2);
   timeline.playing = true;
@@ -512,18 +513,18 @@ TEST_CASE("Timeline: steps by frames and keys") {
   set_two_keys(desk);
   go_to(desk, 0);
   act(desk, "time.forward");
-  CHECK(desk.workspace.timeline.time == Approx(1 / 24.0));
+  CHECK(desk.workspace.shown.timeline.time == Approx(1 / 24.0));
   act(desk, "time.next_key");
-  CHECK(desk.workspace.timeline.time == 1);
+  CHECK(desk.workspace.shown.timeline.time == 1);
   act(desk, "time.next_key");
-  CHECK(desk.workspace.timeline.time == 1);
+  CHECK(desk.workspace.shown.timeline.time == 1);
   act(desk, "time.back");
   act(desk, "time.previous_key");
-  CHECK(desk.workspace.timeline.time == 0);
+  CHECK(desk.workspace.shown.timeline.time == 0);
   act(desk, "time.back");
-  CHECK(desk.workspace.timeline.time == 0);
+  CHECK(desk.workspace.shown.timeline.time == 0);
   act(desk, "time.delete_key");
-  CHECK(desk.workspace.document.scene().keyframes.size() == 1);
+  CHECK(desk.workspace.shown.own().keyframes.size() == 1);
 }
 
 TEST_CASE("Timeline: poses are copied, pasted and mirrored") {
@@ -532,9 +533,9 @@ TEST_CASE("Timeline: poses are copied, pasted and mirrored") {
   act(desk, "time.copy");
   act(desk, "edit.undo");
   act(desk, "time.paste");
-  CHECK(desk.scene().pose.vertex(1) == Complex(360, 10));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(360, 10));
   act(desk, "edit.undo");
   act(desk, "time.paste_mirrored");
-  CHECK(desk.scene().pose.vertex(0) == Complex(-60, 10));
-  CHECK(desk.scene().pose.vertex(1) == Complex(300, 0));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(-60, 10));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(300, 0));
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "scene/keyframes.h"
 #include "support/folder.h"
+#include "support/scenes.h"
 #include "support/seeds.h"
 #include "system/job.h"
 
@@ -15,10 +16,10 @@ namespace {
 
 /// Two keys, half a second apart: 13 frames.
 Scene film_scene() {
-  Scene scene = with_cage(Scene{}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
-  scene = with_key(scene, 0);
-  for (Points& segment : scene.pose.segments) segment[0] += 8.0;
-  return with_key(scene, 0.5);
+  Deformation deformation = with_cage({}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
+  deformation = with_key(deformation, 0);
+  for (Points& segment : deformation.pose.segments) segment[0] += 8.0;
+  return scene_of(with_key(deformation, 0.5));
 }
 
 Image grey() {
@@ -113,7 +114,7 @@ TEST_CASE("A film on its own thread tells how far it is, and ends when it is can
     CHECK(bytes.substr(bytes.size() - 8, 4) == "IEND");
   }
   Scene still = film_scene();
-  still.keyframes.clear();
+  change(still, [](Deformation& d) { d.keyframes.clear(); });
   CHECK_THROWS_AS(write_film(out, still, &image, {}, [](int, int) { return true; }), Error);
 }
 
@@ -146,23 +147,25 @@ TEST_CASE("The rectangle of a film holds the whole motion, tightly, whatever its
     const auto number = [&](double low, double high) {
       return std::uniform_real_distribution(low, high)(random);
     };
-    Scene scene = with_cage(Scene{}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
-    const Cage rest = scene.rest;
+    Deformation deformation = with_cage(Deformation{}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
+    const Cage rest = deformation.rest;
     for (int key = 0; key < 4; ++key) {
       const Complex turn = std::polar(number(0.5, 3), number(-3, 3)),
                     by(number(-200, 200), number(-200, 200));
       for (size_t i = 0; i < rest.segments.size(); ++i)
-        scene.pose.segments[i][0] =
+        deformation.pose.segments[i][0] =
             turn * rest.segments[i][0] + by + Complex(number(-5, 5), number(-5, 5));
-      scene =
-          with_key(scene, key == 0 ? number(0, 1) : scene.keyframes.back().time + number(0.1, 3));
-      scene.keyframes.back().ease = static_cast<Ease>(random() % 3);
-      if (key > 0) scene.keyframes.back().turns = static_cast<int>(random() % 5) - 2;
+      deformation =
+          with_key(deformation,
+                   key == 0 ? number(0, 1) : deformation.keyframes.back().time + number(0.1, 3));
+      deformation.keyframes.back().ease = static_cast<Ease>(random() % 3);
+      if (key > 0) deformation.keyframes.back().turns = static_cast<int>(random() % 5) - 2;
     }
-    scene.pose = rest;
+    deformation.pose = rest;
     std::optional<Box> box;
     int asked = 0;
     for (const double rate : {1.0, 240.0}) {
+      Scene scene = scene_of(deformation);
       scene.animation.frames_per_second = rate;
       const int before = asked;
       const auto found = PictureMaker(scene, &image).shown([&] { return ++asked > 0; });
@@ -174,14 +177,14 @@ TEST_CASE("The rectangle of a film holds the whole motion, tightly, whatever its
       }
       box = found;
     }
-    const std::shared_ptr<PreparedMap> prepared = prepared_map(scene, Precision::single, {});
+    const std::shared_ptr<PreparedMap> prepared = prepared_map(deformation, Precision::single, {});
     Motion motion;
-    motion.follow(scene, prepared);
+    motion.follow(deformation, false, prepared);
     Box exact;
     exact.include(0);
     exact.include({40, 30});
     for (int i = 0; i < 3000; ++i)
-      for (const Complex& z : motion.map_at(scene.keyframes.back().time * i / 2999))
+      for (const Complex& z : motion.map_at(deformation.keyframes.back().time * i / 2999))
         exact.include(z);
     CHECK(box->left <= exact.left + 2e-3);
     CHECK(box->bottom <= exact.bottom + 2e-3);

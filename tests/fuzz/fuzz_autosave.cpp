@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/document.h"
+#include "scene/recovery.h"
 
 using namespace holomorph;
 

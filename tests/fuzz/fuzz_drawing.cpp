@@ -12,9 +12,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
       check(cage.size() <= 5000, "a loop has no more segments than scenes take");
       if (use != PathUse::rest) continue;
       check_rest_cage(cage);
-      const Scene scene = with_cage(Scene{}, cage);
-      check(scene_from_json(json_of(scene), "again").rest == cage, "a cage survives writing");
-      cage_of_svg(svg_of(scene), "again", 100, use);
+      const Deformation deformation = with_cage({}, cage);
+      check(scene_from_json(json_of(scene_of(deformation)), "again").deformation().rest == cage,
+            "a cage survives writing");
+      cage_of_svg(svg_of(deformation, {}), "again", 100, use);
     } catch (const Error&) {
     }
   return 0;

@@ -54,8 +54,7 @@ Pose pose_of(const Rest& rest, Complex shift) {
 double miss(const Method& method, const Rest& full, Complex shift) {
   const Rest rest = used_by(method, full);
   const auto deformer = method.prepare(rest, nullptr);
-  SampledMap map;
-  deformer->deform(used_by(method, pose_of(full, shift)), map, {.derivatives = true});
+  SampledMap map = deformer->deform(used_by(method, pose_of(full, shift)), {.derivatives = true});
   double worst = 0;
   for (Index i = 0; i < map.f.size(); ++i)
     worst = std::max(worst, std::abs(map.f[i] - full.samples[static_cast<size_t>(i)] - shift));

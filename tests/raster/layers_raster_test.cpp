@@ -5,6 +5,7 @@
 #include "raster/compose.h"
 #include "raster/picture.h"
 #include "scene/layers.h"
+#include "support/scenes.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -40,12 +41,13 @@ struct Two {
 
   Two() {
     const auto named = [](const char* file, double width, double height) {
-      Scene layer = with_cage(Scene{}, shapes::rectangle(width, height));
+      Layer layer;
       layer.image = reference(file);
-      return layer;
+      layer.deformation = with_cage({}, shapes::rectangle(width, height));
+      return scene_of(std::move(layer));
     };
     pictures.put(reference("red"), {std::make_shared<const Image>(filled(60, 40, kRed)), ""});
-    scene = with_layer_added(named("red", 60, 40), named("blue", 30, 20));
+    scene = with_layers_added(named("red", 60, 40), named("blue", 30, 20));
   }
   RasterResult drawn(const PictureOptions& options = {}) const {
     return picture_of(scene, &blue, options, pictures);
@@ -53,9 +55,10 @@ struct Two {
 };
 
 Scene moved(Scene scene, Complex by) {
-  for (Points& segment : scene.pose.segments)
+  Deformation deformation = scene.deformation();
+  for (Points& segment : deformation.pose.segments)
     for (Complex& z : segment) z += by;
-  return scene;
+  return with_deformation(std::move(scene), std::move(deformation));
 }
 
 }  // namespace
@@ -93,31 +96,31 @@ TEST_CASE("A layer that leaves the lowest picture enlarges the result, unless th
 
 TEST_CASE("Hidden layers are not drawn, and a scene of hidden layers says so") {
   Two two;
-  two.scene.layer.visible = false;
+  change_layer(two.scene, [](Layer& layer) { layer.visible = false; });
   CHECK(two.drawn().image == filled(60, 40, kRed));
-  LayerState state = two.scene.below[0]->layer;
+  Layer state = *two.scene.layers[0];
   state.visible = false;
-  two.scene = with_layer_state(two.scene, 0, state);
+  two.scene = with_layer_at(two.scene, 0, state);
   CHECK_THROWS_AS(two.drawn(), Error);
-  two.scene.layer.visible = true;
+  change_layer(two.scene, [](Layer& layer) { layer.visible = true; });
   CHECK(two.drawn().image == two.blue);
 }
 
 TEST_CASE("The background shows through where no layer is") {
   Two two;
-  LayerState state = two.scene.below[0]->layer;
+  Layer state = *two.scene.layers[0];
   state.visible = false;
-  two.scene = moved(with_layer_state(two.scene, 0, state), {40, 0});
+  two.scene = moved(with_layer_at(two.scene, 0, state), {40, 0});
   CHECK(pixel_at(two.drawn().image, 0, 0) == kNothing);
-  two.scene.background = {Background::Kind::color, {9, 8, 7}};
+  two.scene.background = {Background::Fill::color, {9, 8, 7}};
   CHECK(pixel_at(two.drawn().image, 0, 0) == Pixel{9, 8, 7, 255});
   CHECK(pixel_at(two.drawn().image, 69, 0) == kBlue);
-  two.scene.background.kind = Background::Kind::original;
+  two.scene.background.fill = Background::Fill::original;
   CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // as it was before it moved
   CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
   // The same in a scene of one layer.
-  Scene alone = moved(with_cage(Scene{}, shapes::rectangle(30, 20)), {40, 0});
-  alone.background = {Background::Kind::original};
+  Scene alone = moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0});
+  alone.background = {Background::Fill::original};
   const Image both = picture_of(alone, &two.blue).image;
   CHECK(pixel_at(both, 0, 0) == kBlue);
   CHECK(pixel_at(both, 69, 0) == kBlue);
@@ -163,16 +166,16 @@ TEST_CASE("Where a picture lies over itself, the higher pin's part is on top") {
   for (int row = 0; row < 40; ++row)
     for (int column = 150; column < 300; ++column)
       std::copy(kBlue.begin(), kBlue.end(), bar.at(column, row));
-  Scene scene = with_cage(Scene{}, shapes::rectangle(300, 40));
-  scene.method = "arap";
-  scene.pins = {{{10, 20}, {10, 20}, {}, {}},
-                {{120, 20}, {120, 20}, {}, {}},
-                {{180, 20}, {120, 80}, {}, {}},
-                {{290, 20}, {60, 20}, {}, {}}};
+  Deformation deformation = with_cage({}, shapes::rectangle(300, 40));
+  deformation.method = "arap";
+  deformation.pins = {{{10, 20}, {10, 20}, {}, {}},
+                      {{120, 20}, {120, 20}, {}, {}},
+                      {{180, 20}, {120, 80}, {}, {}},
+                      {{290, 20}, {60, 20}, {}, {}}};
   const auto seen = [&](int left, int right) {
-    scene.pins[0].depth = scene.pins[1].depth = left;
-    scene.pins[2].depth = scene.pins[3].depth = right;
-    const RasterResult result = picture_of(scene, &bar);
+    deformation.pins[0].depth = deformation.pins[1].depth = left;
+    deformation.pins[2].depth = deformation.pins[3].depth = right;
+    const RasterResult result = picture_of(scene_of(deformation), &bar);
     const int row = result.image.height - 1 - static_cast<int>(20 - result.corner.imag());
     return pixel_at(result.image, static_cast<int>(60 - result.corner.real()), row);
   };

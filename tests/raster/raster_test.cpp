@@ -49,11 +49,11 @@ TEST_CASE("The identity pose gives the source back bit for bit, whatever the cag
     CHECK(result.image.width == image.width);
     CHECK(result.image.height == image.height);
     CHECK(result.image == image);
-    Scene scene = with_cage(Scene{}, polygon);
-    CHECK(picture_of(scene, &image).image == image);
-    scene.method = "pins";
-    scene.pins = {{{30, 30}, {30, 30}, {}, {}}, {{40, 60}, {40, 60}, 0.0, {}}};
-    CHECK(picture_of(scene, &image).image == image);
+    Deformation deformation = with_cage(Deformation{}, polygon);
+    CHECK(picture_of(scene_of(deformation), &image).image == image);
+    deformation.method = "pins";
+    deformation.pins = {{{30, 30}, {30, 30}, {}, {}}, {{40, 60}, {40, 60}, 0.0, {}}};
+    CHECK(picture_of(scene_of(deformation), &image).image == image);
   }
 }
 
@@ -126,10 +126,11 @@ TEST_CASE("Shrinking averages instead of skipping pixels") {
       std::memset(stripes.at(c, r), value, 3);
       stripes.at(c, r)[3] = 255;
     }
-  const Scene scene = with_cage(Scene{}, Points{{-8, -8}, {264, -8}, {264, 264}, {-8, 264}});
+  const Deformation deformation =
+      with_cage(Deformation{}, Points{{-8, -8}, {264, -8}, {264, 264}, {-8, 264}});
   PictureOptions options;
   options.scale = 0.25;
-  const Image small = picture_of(scene, &stripes, options).image;
+  const Image small = picture_of(scene_of(deformation), &stripes, options).image;
   CHECK(small.width == 64);
   for (int c = 4; c < 60; ++c) CHECK(std::abs(small.at(c, 30)[0] - 128) <= 8);
 }
@@ -149,17 +150,18 @@ TEST_CASE("Later triangles lie on top, and a fold is drawn") {
 
 TEST_CASE("Nothing is cut off, unless asked") {
   const Image image = noise(50, 40, 6, true);
-  Scene scene = with_cage(Scene{}, Points{{-2, -2}, {52, -2}, {52, 42}, {-2, 42}});
-  for (Points& segment : scene.pose.segments) segment[0] *= 2.0;
-  const RasterResult whole = picture_of(scene, &image);
+  Deformation deformation =
+      with_cage(Deformation{}, Points{{-2, -2}, {52, -2}, {52, 42}, {-2, 42}});
+  for (Points& segment : deformation.pose.segments) segment[0] *= 2.0;
+  const RasterResult whole = picture_of(scene_of(deformation), &image);
   CHECK(whole.image.width == 100);
   CHECK(whole.image.height == 80);
   PictureOptions twice;
   twice.scale = 2;
-  CHECK(picture_of(at_rest(scene), &image, twice).image.width == 100);
+  CHECK(picture_of(scene_of(at_rest(deformation)), &image, twice).image.width == 100);
   PictureOptions options;
   options.crop = true;
-  CHECK(picture_of(scene, &image, options).image.width == 50);
+  CHECK(picture_of(scene_of(deformation), &image, options).image.width == 50);
 }
 
 TEST_CASE("Pictures that are too large, or of nothing, are refused") {
@@ -167,20 +169,20 @@ TEST_CASE("Pictures that are too large, or of nothing, are refused") {
   PictureOptions options;
   for (const double scale : {1e6, 1e9, 0.0, -1.0, std::nan("")}) {
     options.scale = scale;
-    CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), &image, options),
+    CHECK_THROWS_AS(picture_of(scene_of(with_cage({}, shapes::rectangle(10, 10))), &image, options),
                     Error);
     CHECK_THROWS_AS(picture_of(Scene{}, &image, options), Error);
     options.crop = true;
-    CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), &image, options),
+    CHECK_THROWS_AS(picture_of(scene_of(with_cage({}, shapes::rectangle(10, 10))), &image, options),
                     Error);
     options.crop = false;
   }
   CHECK_THROWS_AS(picture_of(Scene{}, nullptr), Error);
-  CHECK_THROWS_AS(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr), Error);
+  CHECK_THROWS_AS(picture_of(scene_of(with_cage({}, shapes::rectangle(10, 10))), nullptr), Error);
   options = {};
   options.view = View::area;
-  CHECK(picture_of(with_cage(Scene{}, shapes::rectangle(10, 10)), nullptr, options).image.width ==
-        10);
+  CHECK(picture_of(scene_of(with_cage({}, shapes::rectangle(10, 10))), nullptr, options)
+            .image.width == 10);
 }
 
 TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others stay") {
@@ -232,17 +234,18 @@ TEST_CASE("A texture has the picture's colours up to the surface's edge and a li
     for (int c = 0; c < 200; ++c)
       for (int k = 0; k < 4; ++k)
         image.at(c, r)[k] = static_cast<std::uint8_t>(k == 3 ? 255 : k == 0 ? c : 40);
-  Scene scene = with_cage(Scene{}, Points{{40, 30}, {160, 30}, {160, 130}, {40, 130}});
+  Deformation deformation =
+      with_cage(Deformation{}, Points{{40, 30}, {160, 30}, {160, 130}, {40, 130}});
   const std::string file = std::string(HOLOMORPH_SOURCE) + "/assets/mask.obj";
-  scene.surface = SurfaceReference{file, Flattening::circle};
+  deformation.surface = SurfaceReference{file, Flattening::circle};
   Box onto;
   onto.include({40, -20});
   onto.include({160, 190});  // beyond the picture
-  scene.outline =
+  deformation.outline =
       laid_onto(surface_of_obj(read_file(file), file).surface, Flattening::circle, onto).outline();
-  scene.method = "outline";
+  deformation.method = "outline";
   for (const double scale : {0.5, 1.0, 3.0}) {
-    const TexturedSurface on = textured(laid_surface_of(scene), scene, &image, scale);
+    const TexturedSurface on = textured(laid_surface_of(deformation), deformation, &image, scale);
     const int w = on.texture.width, h = on.texture.height;
     CHECK(on.texture.at(0, 0)[3] == 0);  // what is around the surface is not part of it
     for (const Complex& uv : on.coordinates) {
@@ -256,12 +259,12 @@ TEST_CASE("A texture has the picture's colours up to the surface's edge and a li
       }
     }
     // The same similarity everywhere: a pixel is a pixel.
-    const LaidSurface laid = laid_surface_of(scene);
+    const LaidSurface laid = laid_surface_of(deformation);
     const Complex first = on.coordinates[0], last = on.coordinates.back();
     CHECK((last - first).real() * w ==
           Approx(scale * (laid.plane.back() - laid.plane[0]).real()).margin(1e-6));
     CHECK((last - first).imag() * h ==
           Approx(scale * (laid.plane.back() - laid.plane[0]).imag()).margin(1e-6));
   }
-  CHECK_THROWS_AS(textured(laid_surface_of(scene), scene, nullptr), Error);
+  CHECK_THROWS_AS(textured(laid_surface_of(deformation), deformation, nullptr), Error);
 }

@@ -47,20 +47,19 @@ TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 
   Renderer renderer;
   for (const Method& method : methods()) {
     Points small = shapes::l_shape();
-    Scene scene;
-    scene.rest = scene.pose = polygon_cage(small);
-    scene.pose.segments[2][0] += Complex(20, -12);
-    scene.pose.segments[5][0] += Complex(-9, 14);
-    scene.method = method.id;
+    Deformation deformation;
+    deformation.rest = deformation.pose = polygon_cage(small);
+    deformation.pose.segments[2][0] += Complex(20, -12);
+    deformation.pose.segments[5][0] += Complex(-9, 14);
+    deformation.method = method.id;
     if (method.uses_pins)
-      scene.pins = {{{40, 40}, {44, 46}, 0.3, {}}, {{150, 50}, {140, 60}, {}, {}}};
-    const auto prepared = prepared_map(scene, Precision::single, {3000});
-    SampledMap map;
-    prepared->deformer->deform(pose_of(scene), map, {});
+      deformation.pins = {{{40, 40}, {44, 46}, 0.3, {}}, {{150, 50}, {140, 60}, {}, {}}};
+    const auto prepared = prepared_map(deformation, Precision::single, {3000});
+    SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
     if (!prepared->deformer->operator_matrix()) continue;
     renderer.set_mesh(prepared->mesh.get());
     REQUIRE(renderer.set_operator(prepared->deformer->operator_matrix()));
-    renderer.set_controls(prepared->deformer->controls(pose_of(scene)));
+    renderer.set_controls(prepared->deformer->controls(pose_of(deformation)));
     const std::vector<Complex> placed = renderer.placed_vertices(Placement::by_operator);
     double worst = 0;
     for (size_t i = 0; i < placed.size(); ++i)
@@ -85,12 +84,12 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
     Renderer renderer;
     CHECK(renderer.set_picture(loaded.image()->width, loaded.image()->height,
                                loaded.image()->pixels.data()) == 1);
-    const auto prepared = prepared_map(loaded.scene, Precision::single, MeshOptions{});
-    SampledMap map;
-    prepared->deformer->deform(pose_of(loaded.scene), map, {});
+    const auto prepared =
+        prepared_map(loaded.scene.deformation(), Precision::single, MeshOptions{});
+    SampledMap map = prepared->deformer->deform(pose_of(loaded.scene.deformation()), {});
     renderer.set_mesh(prepared->mesh.get());
     renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
-    Frame frame;
+    RenderFrame frame;
     frame.window_width = width;
     frame.window_height = height;
     frame.canvas_width = width;
@@ -130,7 +129,7 @@ TEST_CASE("Ghosts of the picture are tinted, half transparent and behind it") {
   renderer.set_mesh(&mesh);
   std::vector<Complex> moved = mesh.vertices;
   for (Complex& z : moved) z += 20.0;
-  Frame frame;
+  RenderFrame frame;
   frame.window_width = frame.window_height = kSide;
   frame.canvas_width = frame.canvas_height = kSide;
   frame.center = {30, 30};
@@ -159,7 +158,7 @@ TEST_CASE("A picture beyond the driver's textures is shown reduced, in its own p
       wide.at(c, r)[3] = 255;
     }
   CHECK(renderer.set_picture(wide.width, wide.height, wide.pixels.data()) == 2);
-  Frame frame;
+  RenderFrame frame;
   frame.window_width = frame.window_height = 64;
   frame.canvas_width = frame.canvas_height = 64;
   frame.center = {wide.width / 2.0, 2};
@@ -178,7 +177,7 @@ TEST_CASE("A mesh or an operator that is taken away is not drawn") {
   Renderer renderer;
   renderer.set_mesh(nullptr);
   CHECK_FALSE(renderer.set_operator(nullptr));
-  Frame frame;
+  RenderFrame frame;
   frame.window_width = frame.window_height = 32;
   frame.canvas_width = frame.canvas_height = 32;
   frame.background = {1, 0, 0};
@@ -191,11 +190,10 @@ TEST_CASE("A mesh or an operator that is taken away is not drawn") {
 }
 
 TEST_CASE("A heat map on the canvas has the colours of the exported one") {
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
-  scene.pose.segments[2][0] += Complex(40, -25);
-  const auto prepared = prepared_map(scene, Precision::single, {3000});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(scene), map, {true});
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
+  deformation.pose.segments[2][0] += Complex(40, -25);
+  const auto prepared = prepared_map(deformation, Precision::single, {3000});
+  SampledMap map = prepared->deformer->deform(pose_of(deformation), {true});
   for (const View view : {View::area, View::stretch, View::checker}) {
     const Eigen::VectorXd values =
         is_heat(view) ? heat_values(view, distortion_of(map)) : Eigen::VectorXd();
@@ -218,7 +216,7 @@ TEST_CASE("A heat map on the canvas has the colours of the exported one") {
         shades[i] = static_cast<float>(heat_position(scale, values[i]));
       renderer.set_heat(shades);
     }
-    Frame frame;
+    RenderFrame frame;
     frame.window_width = width, frame.window_height = height;
     frame.canvas_width = width, frame.canvas_height = height;
     frame.center = exported.corner + Complex(width, height) / 2.0;
@@ -338,9 +336,8 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
 TEST_CASE("The map alone is opaque where it is and nothing elsewhere") {
   const Context context(64, 64);
   const LoadedScene loaded = load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/gecko.json");
-  const auto prepared = prepared_map(loaded.scene, Precision::single, {1000});
-  SampledMap map;
-  prepared->deformer->deform(pose_of(loaded.scene), map, {});
+  const auto prepared = prepared_map(loaded.scene.deformation(), Precision::single, {1000});
+  SampledMap map = prepared->deformer->deform(pose_of(loaded.scene.deformation()), {});
   Renderer renderer;
   renderer.set_picture(loaded.image()->width, loaded.image()->height,
                        loaded.image()->pixels.data());
@@ -348,7 +345,7 @@ TEST_CASE("The map alone is opaque where it is and nothing elsewhere") {
   const std::span<const Complex> positions(map.f.data(), static_cast<size_t>(map.f.size()));
   renderer.set_positions(positions);
   const Box box = box_of(positions);
-  Frame frame;
+  RenderFrame frame;
   frame.zoom = 300 / std::max(box.width(), box.height());
   frame.window_width = static_cast<int>(std::ceil(frame.zoom * box.width()));
   frame.window_height = static_cast<int>(std::ceil(frame.zoom * box.height()));

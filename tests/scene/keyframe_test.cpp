@@ -17,30 +17,30 @@ namespace {
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
 /// A bar with a pin, at rest.
-Scene bar() {
-  Scene scene = with_cage(Scene{}, kBar);
-  scene.method = "pins";
-  scene.pins.push_back({{150, 50}, {150, 50}, {}, {}});
-  return scene;
+Deformation bar() {
+  Deformation deformation = with_cage(Deformation{}, kBar);
+  deformation.method = "pins";
+  deformation.pins.push_back({{150, 50}, {150, 50}, {}, {}});
+  return deformation;
 }
 
-Scene moved(Scene scene, Complex by) {
-  for (Points& segment : scene.pose.segments)
+Deformation moved(Deformation deformation, Complex by) {
+  for (Points& segment : deformation.pose.segments)
     for (Complex& z : segment) z += by;
-  for (Pin& pin : scene.pins) pin.pose += by;
-  return scene;
+  for (Pin& pin : deformation.pins) pin.pose += by;
+  return deformation;
 }
 
-/// A scene with its pose keyed at 0, 1 and 3 seconds: moved by 0, 10 and 40.
-Scene keyed() {
-  Scene scene = with_key(bar(), 0);
-  scene = with_key(moved(scene, 10), 1);
-  return with_key(moved(scene, 30), 3);
+/// A deformation with its pose keyed at 0, 1 and 3 seconds: moved by 0, 10 and 40.
+Deformation keyed() {
+  Deformation deformation = with_key(bar(), 0);
+  deformation = with_key(moved(deformation, 10), 1);
+  return with_key(moved(deformation, 30), 3);
 }
 
 std::string complaint(const std::string& keys) {
-  Scene scene = bar();
-  std::string text = json_of(scene);
+  Deformation deformation = bar();
+  std::string text = json_of(scene_of(deformation));
   text.insert(text.rfind('}'), ", \"keyframes\": " + keys);
   return complaint_of([&] { scene_from_json(text, "s.json"); });
 }
@@ -48,25 +48,26 @@ std::string complaint(const std::string& keys) {
 }  // namespace
 
 TEST_CASE("Keyframes survive writing and reading, whatever their structure") {
-  Scene scene = keyed();
-  scene.keyframes[1].ease = Ease::hold;
-  scene.keyframes[2].turns = -2;
-  scene.keyframes[2].extra = R"({"mood":"glad"})";
-  scene.keyframes[1].pose_extra = R"({"wind":3})";
-  scene.keyframes[0].pose.pins.clear();  // another structure
+  Deformation deformation = keyed();
+  deformation.keyframes[1].ease = Ease::hold;
+  deformation.keyframes[2].turns = -2;
+  deformation.keyframes[2].extra = R"({"mood":"glad"})";
+  deformation.keyframes[1].pose_extra = R"({"wind":3})";
+  deformation.keyframes[0].pose.pins.clear();  // another structure
+  Scene scene = scene_of(deformation);
   scene.animation = {30, true};
   scene.animation_extra = R"({"loop":true})";
   CHECK(scene_from_json(json_of(scene), "s.json") == scene);
-  CHECK(json_of(bar()).find("animation") == std::string::npos);
+  CHECK(json_of(scene_of(bar())).find("animation") == std::string::npos);
 }
 
 TEST_CASE("A keyframe's missing parts are as they rest") {
-  Scene scene = bar();
-  std::string text = json_of(moved(scene, 7));
+  Deformation deformation = bar();
+  std::string text = json_of(scene_of(moved(deformation, 7)));
   text.insert(text.rfind('}'), R"(, "keyframes": [{"time": 0.5, "pose": {}}, {"time": 2}])");
-  const Scene read = scene_from_json(text, "s.json");
+  const Deformation read = scene_from_json(text, "s.json").deformation();
   REQUIRE(read.keyframes.size() == 2);
-  for (const Keyframe& key : read.keyframes) CHECK(key.pose == whole_pose_of(scene));
+  for (const Keyframe& key : read.keyframes) CHECK(key.pose == whole_pose_of(deformation));
 }
 
 TEST_CASE("What is wrong with a keyframe is said with the pointer") {
@@ -83,7 +84,7 @@ TEST_CASE("What is wrong with a keyframe is said with the pointer") {
 
 TEST_CASE("Corners are read in order, each once, three at least") {
   const auto with_corners = [](const std::string& corners) {
-    std::string text = json_of(bar());
+    std::string text = json_of(scene_of(bar()));
     text.insert(text.rfind('}'), ", \"corners\": " + corners);
     return text;
   };
@@ -95,14 +96,15 @@ TEST_CASE("Corners are read in order, each once, three at least") {
     }
     return std::string("nothing");
   };
-  const Scene read =
+  const Deformation read =
       scene_from_json(with_corners(R"([{"vertex": 0}, {"vertex": 1, "after": 0.2, "sharp": 1},
                        {"vertex": 3, "before": 7, "tension": 0.5}])"),
-                      "s.json");
+                      "s.json")
+          .deformation();
   REQUIRE(read.corners.size() == 3);
   CHECK(read.corners[1].pose == PoseCorner{0, 0.2, 1});
   CHECK(read.corners[2].pose == PoseCorner{7, 0, 0.5});
-  CHECK(scene_from_json(json_of(read), "again") == read);
+  CHECK(scene_from_json(json_of(scene_of(read)), "again").deformation() == read);
   CHECK_THAT(wrong(R"([{"vertex": 0}, {"vertex": 1}])"), Catch::Contains("three corners"));
   CHECK_THAT(wrong(R"([{"vertex": 1}, {"vertex": 0}, {"vertex": 2}])"),
              Catch::Contains("/corners/1/vertex"));
@@ -112,35 +114,36 @@ TEST_CASE("Corners are read in order, each once, three at least") {
 }
 
 TEST_CASE("Keys are set, moved and taken away, always sorted") {
-  Scene scene = keyed();
-  CHECK(scene.keyframes.size() == 3);
-  CHECK(key_at(scene, 1.0000001) == 1);
-  CHECK(key_at(scene, 2) == 3);
-  const Scene again = with_key(moved(scene, 5), 1);  // in place of the one that is there
+  Deformation deformation = keyed();
+  CHECK(deformation.keyframes.size() == 3);
+  CHECK(key_at(deformation, 1.0000001) == 1);
+  CHECK(key_at(deformation, 2) == 3);
+  const Deformation again =
+      with_key(moved(deformation, 5), 1);  // in place of the one that is there
   CHECK(again.keyframes.size() == 3);
-  CHECK(again.keyframes[1].pose != scene.keyframes[1].pose);
-  const auto [later, number] = with_key_moved(scene, 0, 2);
+  CHECK(again.keyframes[1].pose != deformation.keyframes[1].pose);
+  const auto [later, number] = with_key_moved(deformation, 0, 2);
   CHECK(number == 1);
-  CHECK(later.keyframes[1].pose == scene.keyframes[0].pose);
-  const auto [over, replaced] = with_key_moved(scene, 0, 3);
+  CHECK(later.keyframes[1].pose == deformation.keyframes[0].pose);
+  const auto [over, replaced] = with_key_moved(deformation, 0, 3);
   CHECK(over.keyframes.size() == 2);
-  CHECK(over.keyframes[replaced].pose == scene.keyframes[0].pose);
-  CHECK(with_key_moved(scene, 2, -4).first.keyframes[0].time == 0);
-  CHECK(without_key(scene, 1).keyframes.size() == 2);
-  CHECK(length_of(scene) == 3);
-  CHECK(last_frame_of(scene) == 72);
+  CHECK(over.keyframes[replaced].pose == deformation.keyframes[0].pose);
+  CHECK(with_key_moved(deformation, 2, -4).first.keyframes[0].time == 0);
+  CHECK(without_key(deformation, 1).keyframes.size() == 2);
+  CHECK(length_of(scene_of(deformation)) == 3);
+  CHECK(last_frame_of(scene_of(deformation)) == 72);
 }
 
 TEST_CASE("A pose is mirrored about the cage's middle") {
-  Scene scene = bar();
-  scene.pins = {{{60, 50}, {60, 50}, 0.0, {}}, {{240, 50}, {240, 50}, {}, {}}};
-  scene.method = "angles";
-  for (Index v = 0; v < 4; ++v) scene.corners.push_back({v, {}, {}});
-  Pose pose = whole_pose_of(scene);
+  Deformation deformation = bar();
+  deformation.pins = {{{60, 50}, {60, 50}, 0.0, {}}, {{240, 50}, {240, 50}, {}, {}}};
+  deformation.method = "angles";
+  for (Index v = 0; v < 4; ++v) deformation.corners.push_back({v, {}, {}});
+  Pose pose = whole_pose_of(deformation);
   pose.cage.segments[1][0] += Complex(30, 5);  // the lower right corner
   pose.pins[0] = {{50, 80}, 0.4, 1.5};
   pose.corners[1] = {0.1, 0.3, 0.5};
-  const Pose mirror = mirrored(scene, pose);
+  const Pose mirror = mirrored(deformation, pose);
   CHECK(mirror.cage.segments[0][0] == Complex(-30, 5));
   CHECK(mirror.cage.segments[1][0] == Complex(300, 0));
   CHECK(mirror.pins[1].position == Complex(250, 80));
@@ -149,17 +152,18 @@ TEST_CASE("A pose is mirrored about the cage's middle") {
   CHECK(mirror.corners[0].before == -0.3);
   CHECK(mirror.corners[0].after == -0.1);
   CHECK(mirror.corners[3].tension == 0.5);  // of the edge between the corner and its neighbour
-  CHECK(mirrored(scene, mirror) == pose);
-  scene.pins.pop_back();
-  CHECK_THROWS_WITH(mirrored(scene, whole_pose_of(scene)), Catch::Contains("no counterpart"));
+  CHECK(mirrored(deformation, mirror) == pose);
+  deformation.pins.pop_back();
+  CHECK_THROWS_WITH(mirrored(deformation, whole_pose_of(deformation)),
+                    Catch::Contains("no counterpart"));
 }
 
 TEST_CASE("Maps at times go through the keyframes, handles with them") {
-  const Scene scene = keyed();
+  const Deformation deformation = keyed();
   LiveMap map(MeshOptions{400});
-  map.finish(scene, {});
+  map.finish(deformation, {});
   const auto offset_at = [&](double time) {
-    map.update(scene, {}, time);
+    map.update(deformation, {}, {time});
     const Complex by = map.map().f[0] - map.prepared()->mesh->vertices[0];
     REQUIRE(map.timed());
     CHECK(std::abs(map.timed()->pins[0].pose - (Complex(150, 50) + by)) <= 1e-3);
@@ -172,38 +176,37 @@ TEST_CASE("Maps at times go through the keyframes, handles with them") {
   CHECK(offset_at(1) == Approx(10).margin(1e-3));
   CHECK(offset_at(2) == Approx(25).margin(1e-3));
   CHECK(offset_at(9) == Approx(40).margin(1e-3));
-  // Without a time the scene's own pose.
-  map.update(scene, {});
+  // Without a time the deformation's own pose.
+  map.update(deformation, {});
   CHECK_FALSE(map.timed());
   CHECK((map.map().f[0] - map.prepared()->mesh->vertices[0]).real() == Approx(40).margin(1e-3));
 }
 
 TEST_CASE("Holds stay, linear keys go evenly, and other structures do not play") {
-  Scene scene = keyed();
-  scene.keyframes[0].ease = Ease::hold;
-  scene.keyframes[1].ease = Ease::linear;
+  Deformation deformation = keyed();
+  deformation.keyframes[0].ease = Ease::hold;
+  deformation.keyframes[1].ease = Ease::linear;
   LiveMap map(MeshOptions{400});
-  map.finish(scene, {});
-  const auto offset_at = [&](const Scene& s, double time) {
-    map.update(s, {}, time);
+  map.finish(deformation, {});
+  const auto offset_at = [&](const Deformation& s, double time, bool linear_blend = false) {
+    map.update(s, {}, {time, linear_blend});
     return (map.map().f[0] - map.prepared()->mesh->vertices[0]).real();
   };
-  CHECK(offset_at(scene, 0.9) == Approx(0).margin(1e-3));
-  CHECK(offset_at(scene, 1.5) == Approx(17.5).margin(1e-3));
-  Scene other = scene;
+  CHECK(offset_at(deformation, 0.9) == Approx(0).margin(1e-3));
+  CHECK(offset_at(deformation, 1.5) == Approx(17.5).margin(1e-3));
+  Deformation other = deformation;
   other.keyframes[1].pose.pins.clear();
   CHECK(playing_keys(other) == std::vector<size_t>{0, 2});
   CHECK(offset_at(other, 1.5) == Approx(0).margin(1e-3));
-  other.animation.straight = true;
   other.keyframes[0].ease = Ease::linear;
-  CHECK(offset_at(other, 1.5) == Approx(20).margin(1e-3));
+  CHECK(offset_at(other, 1.5, true) == Approx(20).margin(1e-3));
 }
 
 TEST_CASE("Keys with equal poses keep their own turns and speeds, frame after frame") {
-  Scene scene = bar();
-  scene.pins[0].angle = 0.0;
+  Deformation deformation = bar();
+  deformation.pins[0].angle = 0.0;
   const auto turned = [&](double angle) {
-    Scene s = scene;
+    Deformation s = deformation;
     s.pins[0].angle = angle;
     for (Points& segment : s.pose.segments)
       for (Complex& z : segment)
@@ -211,42 +214,42 @@ TEST_CASE("Keys with equal poses keep their own turns and speeds, frame after fr
     return whole_pose_of(s);
   };
   for (const double degrees : {0.0, 120.0, 240.0, 0.0})
-    scene.keyframes.push_back({static_cast<double>(scene.keyframes.size()),
-                               turned(degrees * kPi / 180),
-                               Ease::linear,
-                               0,
-                               {}});
-  scene.keyframes[3].turns = 1;
+    deformation.keyframes.push_back({static_cast<double>(deformation.keyframes.size()),
+                                     turned(degrees * kPi / 180),
+                                     Ease::linear,
+                                     0,
+                                     {}});
+  deformation.keyframes[3].turns = 1;
   LiveMap map(MeshOptions{400});
-  map.finish(scene, {});
-  map.update(scene, {}, 2.5);
+  map.finish(deformation, {});
+  map.update(deformation, {}, {2.5});
   const VectorXc first = map.map().f;
-  map.update(scene, {}, 2.4);
-  map.update(scene, {}, 2.5);
+  map.update(deformation, {}, {2.4});
+  map.update(deformation, {}, {2.5});
   CHECK((map.map().f - first).cwiseAbs().maxCoeff() <= 1e-9);
 }
 
 TEST_CASE("A stroke across the middle is its own mirror image") {
-  Scene scene = bar();
-  scene.method = "strokes";
-  scene.strokes.push_back(
+  Deformation deformation = bar();
+  deformation.method = "strokes";
+  deformation.strokes.push_back(
       {{{100, 50}, {150, 50}, {200, 50}}, {{100, 50}, {150, 50}, {200, 50}}, {}});
-  CHECK(mirrored(scene, whole_pose_of(scene)) == whole_pose_of(scene));
+  CHECK(mirrored(deformation, whole_pose_of(deformation)) == whole_pose_of(deformation));
 }
 
 TEST_CASE("A pin that turns twice as drawn turns twice in between") {
-  Scene scene = bar();
-  scene.pins[0].angle = 0.0;
-  scene = with_key(scene, 0);
-  Scene turned = scene;
+  Deformation deformation = bar();
+  deformation.pins[0].angle = 0.0;
+  deformation = with_key(deformation, 0);
+  Deformation turned = deformation;
   turned.pins[0].angle = 4 * kPi + 0.5;
   for (Points& segment : turned.pose.segments)
     for (Complex& z : segment) z = Complex(150, 50) + std::polar(1.0, 0.5) * (z - Complex(150, 50));
-  scene = with_key(turned, 1);
-  scene.keyframes[0].ease = Ease::linear;
+  deformation = with_key(turned, 1);
+  deformation.keyframes[0].ease = Ease::linear;
   LiveMap map(MeshOptions{400});
-  map.finish(scene, {});
-  map.update(scene, {}, 0.25);
+  map.finish(deformation, {});
+  map.update(deformation, {}, {0.25});
   const double angle = kPi + 0.125;
   for (const size_t v : {0, 50, 100}) {
     const Complex rest = map.prepared()->mesh->vertices[v] - Complex(150, 50);

@@ -11,6 +11,7 @@
 #include "scene/preferences.h"
 #include "support/complaint.h"
 #include "support/folder.h"
+#include "support/scenes.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -18,21 +19,26 @@ using namespace holomorph;
 namespace {
 
 Scene layer(const std::string& name, double width) {
-  Scene scene = with_cage(Scene{}, shapes::rectangle(width, 60));
-  scene.layer.name = name;
+  Layer layer;
+  layer.name = name;
+  layer.deformation = with_cage({}, shapes::rectangle(width, 60));
+  return scene_of(std::move(layer));
+}
+
+Scene with_edited(Scene scene, size_t number) {
+  scene.edited = number;
   return scene;
 }
 
 /// Bottom, middle and top; the top one is edited.
 Scene stack() {
-  return with_layer_added(with_layer_added(layer("bottom", 100), layer("middle", 110)),
-                          layer("top", 120));
+  return with_layers_added(with_layers_added(layer("bottom", 100), layer("middle", 110)),
+                           layer("top", 120));
 }
 
 std::string names(const Scene& scene) {
   std::string names;
-  for (size_t i = 0; i < layer_count(scene); ++i)
-    names += layer_at(scene, i).layer.name.substr(0, 1);
+  for (const SharedLayer& layer : scene.layers) names += layer->name.substr(0, 1);
   return names;
 }
 
@@ -44,21 +50,21 @@ std::string complaint(const std::string& text) {
 
 TEST_CASE("Choosing a layer changes nothing but which one is edited") {
   Scene scene = stack();
-  scene.background = {Background::Kind::color, {1, 2, 3}};
+  scene.background = {Background::Fill::color, {1, 2, 3}};
   scene.extra = R"({"mood":"glad"})";
   scene = with_animation(scene, {12, true});
   CHECK(names(scene) == "bmt");
-  CHECK(edited_layer(scene) == 2);
+  CHECK(scene.edited == 2);
   for (const size_t other : {0, 1, 2}) {
-    const Scene chosen = with_layer_chosen(scene, other);
-    CHECK(edited_layer(chosen) == other);
+    const Scene chosen = with_edited(scene, other);
+    CHECK(chosen.edited == other);
     CHECK(names(chosen) == "bmt");
-    CHECK(chosen.layer == layer_at(scene, other).layer);
-    CHECK(chosen.rest == layer_at(scene, other).rest);
+    CHECK(chosen.layer().name == scene.layers[other]->name);
+    CHECK(chosen.layer() == *scene.layers[other]);
     CHECK(chosen.background == scene.background);
     CHECK(chosen.extra == scene.extra);
     CHECK(chosen.animation == scene.animation);
-    CHECK(with_layer_chosen(chosen, 2) == scene);
+    CHECK(with_edited(chosen, 2) == scene);
   }
 }
 
@@ -66,56 +72,62 @@ TEST_CASE("Layers move through the stack, are doubled and go, and the others sta
   const Scene scene = stack();
   CHECK(names(with_layer_moved(scene, 0)) == "tbm");
   CHECK(with_layer_moved(with_layer_moved(scene, 0), 2) == scene);
-  CHECK(edited_layer(with_layer_moved(scene, 1)) == 1);
-  const Scene doubled = with_layer_doubled(with_layer_chosen(scene, 1));
+  CHECK(with_layer_moved(scene, 1).edited == 1);
+  const Scene doubled = with_layer_doubled(with_edited(scene, 1));
   CHECK(names(doubled) == "bmmt");
-  CHECK(doubled.layer.name == "middle copy");
-  CHECK(doubled.rest == layer_at(scene, 1).rest);
-  CHECK(without_layer(doubled) == with_layer_chosen(scene, 1));
-  CHECK(names(without_layer(with_layer_chosen(scene, 0))) == "mt");
+  CHECK(doubled.layer().name == "middle copy");
+  CHECK(doubled.deformation() == scene.layers[1]->deformation);
+  CHECK(without_layer(doubled) == with_edited(scene, 1));
+  CHECK(names(without_layer(with_edited(scene, 0))) == "mt");
   // Ids stay and are never shared.
-  for (size_t i = 0; i < layer_count(doubled); ++i) {
-    const int id = layer_at(doubled, i).layer.id;
+  for (size_t i = 0; i < doubled.layers.size(); ++i) {
+    const int id = doubled.layers[i]->id;
     CHECK(layer_of_id(doubled, id) == i);
   }
-  CHECK(layer_of_id(doubled, 99) == layer_count(doubled));
-  LayerState hidden = scene.below[0]->layer;
+  CHECK(layer_of_id(doubled, 99) == doubled.layers.size());
+  Layer hidden = *scene.layers[0];
   hidden.visible = false;
-  const Scene changed = with_layer_state(scene, 0, hidden);
-  CHECK_FALSE(layer_at(changed, 0).layer.visible);
-  CHECK(layer_at(changed, 1) == layer_at(scene, 1));
+  hidden.id = 77;
+  const Scene changed = with_layer_at(scene, 0, hidden);
+  CHECK_FALSE(changed.layers[0]->visible);
+  CHECK(changed.layers[0]->id == scene.layers[0]->id);
+  CHECK(changed.layers[1] == scene.layers[1]);
   CHECK(changed != scene);
   // Another scene comes with all of its layers, and with the one that is edited in it.
-  const Scene both = with_layer_added(with_layer_chosen(scene, 0), with_layer_chosen(scene, 1));
+  const Scene both = with_layers_added(with_edited(scene, 0), with_edited(scene, 1));
   CHECK(names(both) == "bbmtmt");
-  CHECK(edited_layer(both) == 2);
+  CHECK(both.edited == 2);
   Scene full = scene;
-  while (layer_count(full) < kMostLayers) full = with_layer_added(full, Scene{});
-  CHECK_THROWS_AS(with_layer_added(full, Scene{}), Error);
+  while (full.layers.size() < kMostLayers) full = with_layers_added(full, Scene{});
+  CHECK_THROWS_AS(with_layers_added(full, Scene{}), Error);
 }
 
 TEST_CASE("Files keep layers, and scenes of one plain layer are written as before") {
   Scene scene = stack();
-  scene = with_layer_chosen(scene, 1);
-  scene.layer.visible = false;
-  scene.layer.locked = true;
-  scene.layer.extra = R"({"tint":7})";
+  scene = with_edited(scene, 1);
+  Layer layer = scene.layer();
+  layer.visible = false;
+  layer.locked = true;
+  layer.extra = R"({"tint":7})";
+  layer.deformation = with_key(std::move(layer.deformation), 0.5);
+  layer.deformation.stiffness = {{{30, 20}, 15, 0.5}, {{40.25, 20}, 15, -0.5}};
+  scene = with_layer(std::move(scene), std::move(layer));
   scene.extra = R"({"mood":"glad"})";
-  scene.background.kind = Background::Kind::original;
-  scene = with_key(scene, 0.5);
-  scene.stiffness = {{{30, 20}, 15, 0.5}, {{40.25, 20}, 15, -0.5}};
+  scene.background.fill = Background::Fill::original;
   CHECK(scene_from_json(json_of(scene), "s.json") == scene);
   CHECK(json_of(scene).find("\"version\": 2") != std::string::npos);
-  const Scene plain = with_cage(Scene{}, shapes::rectangle(90, 60));
+  const Scene plain = scene_of(with_cage({}, shapes::rectangle(90, 60)));
   CHECK(json_of(plain).find("\"version\": 1") != std::string::npos);
   CHECK(json_of(plain).find("layers") == std::string::npos);
   for (const Background background : {Background{},
-                                      Background{Background::Kind::original},
-                                      {Background::Kind::color, {250, 0, 16}}}) {
+                                      Background{Background::Fill::original},
+                                      {Background::Fill::color, {250, 0, 16}}}) {
     Scene on = plain;
     on.background = background;
-    on.pins = {{{10, 10}, {10, 10}, {}, {}}, {{20, 10}, {20, 10}, {}, {}, 1, -3}};
-    on.stiffness = {{{30, 20}, 15, 0.5}};
+    change(on, [](Deformation& deformation) {
+      deformation.pins = {{{10, 10}, {10, 10}, {}, {}}, {{20, 10}, {20, 10}, {}, {}, 1, -3}};
+      deformation.stiffness = {{{30, 20}, 15, 0.5}};
+    });
     CHECK(scene_from_json(json_of(on), "s.json") == on);
     CHECK(scene_from_json(json_of(on), "s.json").extra.empty());
   }
@@ -159,9 +171,12 @@ TEST_CASE("What is wrong with a layer is said with its place") {
 }
 
 TEST_CASE("The film is as long as the longest layer's keys, and plays when one of them does") {
-  Scene scene = with_key(with_key(layer("bottom", 100), 0), 3);
-  scene = with_layer_added(scene, layer("top", 100));
-  CHECK(scene.keyframes.empty());
+  Scene scene = layer("bottom", 100);
+  change(scene, [](Deformation& deformation) {
+    deformation = with_key(with_key(std::move(deformation), 0), 3);
+  });
+  scene = with_layers_added(scene, layer("top", 100));
+  CHECK(scene.deformation().keyframes.empty());
   CHECK(length_of(scene) == 3);
   CHECK(plays(scene));
   CHECK(has_keyframes(scene));
@@ -172,16 +187,15 @@ TEST_CASE("Each layer keeps its map while layers are chosen and moved") {
   LayerMaps maps;
   Scene scene = stack();
   maps.update_others(scene, {});
-  for (int i = 0; i < 2; ++i) maps.of(scene.below[i]->layer.id).finish(*scene.below[i], {});
-  maps.of(scene.layer.id).finish(scene, {});
-  const LiveMap& lowest = maps.of(layer_at(scene, 0).layer.id);
+  for (const SharedLayer& layer : scene.layers) maps.of(layer->id).finish(layer->deformation, {});
+  const LiveMap& lowest = maps.of(scene.layers[0]->id);
   REQUIRE(lowest.has_map());
   const unsigned preparation = lowest.preparation();
-  scene = with_layer_chosen(with_layer_moved(scene, 0), 1);
-  CHECK(scene.layer.name == "bottom");
-  LiveMap& now = maps.of(scene.layer.id);
+  scene = with_edited(with_layer_moved(scene, 0), 1);
+  CHECK(scene.layer().name == "bottom");
+  LiveMap& now = maps.of(scene.layer().id);
   CHECK(&now == &lowest);
-  now.update(scene, {});
+  now.update(scene.deformation(), {});
   CHECK(now.preparation() == preparation);
   CHECK_FALSE(now.busy());
 }
@@ -193,8 +207,9 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   write_file(folder.path / "b.png", encode_png(Image(5, 4)));
   Document document = Document::open(folder.path / "pictures" / "a.png");
   LoadedScene other = scene_of_image(folder.path / "b.png");
-  document.put_picture(*other.scene.image, *other.pictures.find(*other.scene.image));
-  document.commit("Add", with_layer_added(document.scene(), other.scene));
+  document.put_picture(*other.scene.layer().image,
+                       *other.pictures.find(*other.scene.layer().image));
+  document.commit("Add", with_layers_added(document.scene(), other.scene));
   CHECK(document.image()->width == 5);
   document.save(folder.path / "pictures" / "s.json");
   const std::string text = read_file(folder.path / "pictures" / "s.json");
@@ -202,7 +217,7 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   CHECK(text.find("\"../b.png\"") != std::string::npos);
   const Document again = Document::open(folder.path / "pictures" / "s.json", {true});
   CHECK(again.image()->width == 5);
-  CHECK(again.pictures().of(layer_at(again.scene(), 0))->width == 8);
+  CHECK(again.pictures().of(*again.scene().layers[0])->width == 8);
   for (const char* name : {"pictures/a.png", "b.png", "pictures/s.json"})
     CHECK_THROWS_AS(check_not_a_source(folder.path / name, again.sources()), Error);
   std::filesystem::remove(folder.path / "b.png");
@@ -210,8 +225,8 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   const Document rest = Document::open(folder.path / "pictures" / "s.json", {true});
   CHECK_THAT(rest.warning(), Catch::Matchers::Contains("/layers/1/image/file"));
   CHECK_FALSE(rest.image());
-  CHECK(rest.scene().image->file == (folder.path / "b.png").string());
-  CHECK(rest.pictures().of(layer_at(rest.scene(), 0)));
+  CHECK(rest.scene().layer().image->file == (folder.path / "b.png").string());
+  CHECK(rest.pictures().of(*rest.scene().layers[0]));
 }
 
 TEST_CASE(
@@ -220,7 +235,7 @@ TEST_CASE(
   std::filesystem::create_directories(folder.path / "art");
   write_file(folder.path / "art" / "a.png", encode_png(Image(8, 6)));
   Document document = Document::open(folder.path / "art" / "a.png");
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(8, 6)));
   document.save(folder.path / "s.json");
   std::filesystem::rename(folder.path / "art" / "a.png", folder.path / "a.png");
   const Document moved = Document::open(folder.path / "s.json");
@@ -233,7 +248,7 @@ TEST_CASE(
   CHECK(without.without_picture() == std::vector<size_t>{0});
   CHECK_THAT(without.warning(), Catch::Matchers::Contains("a.png"));
   CHECK(without.image_path() == folder.path / "art" / "a.png");
-  CHECK(without.scene().image->sha256 == moved.scene().image->sha256);
+  CHECK(without.scene().layer().image->sha256 == moved.scene().layer().image->sha256);
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window nobody is asked
 }
 
@@ -245,14 +260,15 @@ TEST_CASE("A namesake beside the scene is not taken for the picture") {
   write_file(folder.path / "b" / "hero.png", encode_png(Image(5, 4)));
   Document document = Document::open(folder.path / "a" / "hero.png");
   const LoadedScene other = scene_of_image(folder.path / "b" / "hero.png");
-  document.put_picture(*other.scene.image, *other.pictures.find(*other.scene.image));
-  document.commit("Add", with_layer_added(document.scene(), other.scene));
+  document.put_picture(*other.scene.layer().image,
+                       *other.pictures.find(*other.scene.layer().image));
+  document.commit("Add", with_layers_added(document.scene(), other.scene));
   document.save(folder.path / "s.json");
   std::filesystem::rename(folder.path / "a" / "hero.png", folder.path / "hero.png");
   std::filesystem::remove(folder.path / "b" / "hero.png");
   const Document opened = Document::open(folder.path / "s.json");
   CHECK(opened.without_picture() == std::vector<size_t>{1});
-  CHECK(opened.pictures().of(layer_at(opened.scene(), 0))->width == 8);
+  CHECK(opened.pictures().of(*opened.scene().layers[0])->width == 8);
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);
 }
 
@@ -292,9 +308,10 @@ TEST_CASE("A pasted picture goes along when the scene is saved, whatever becomes
   std::filesystem::create_directories(folder.path / "data");
   Document document;
   const LoadedScene pasted = scene_of_pasted(encode_png(Image(7, 5)));
-  document.put_picture(*pasted.scene.image, *pasted.pictures.find(*pasted.scene.image));
+  document.put_picture(*pasted.scene.layer().image,
+                       *pasted.pictures.find(*pasted.scene.layer().image));
   document.commit("Paste", pasted.scene);
-  std::filesystem::remove(pasted.scene.image->file);
+  std::filesystem::remove(pasted.scene.layer().image->file);
   document.save(folder.path / "s.json");
   CHECK_FALSE(document.modified());
   const Path copy = document.image_path();
@@ -303,12 +320,12 @@ TEST_CASE("A pasted picture goes along when the scene is saved, whatever becomes
   CHECK_THROWS_AS(check_not_a_source(copy, document.sources()), Error);
   CHECK(Document::open(folder.path / "s.json").image()->width == 7);
   // Recovered, too, and even when the picture is gone.
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(7, 5)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(7, 5)));
   CHECK(document.autosave(folder.path / "autosave"));
   std::filesystem::remove(copy);
   const auto left = std::filesystem::directory_iterator(folder.path / "autosave");
   for (const auto& entry : left)
     if (entry.path().extension() == ".json")
-      CHECK(Document::recover(entry.path()).scene().has_cage());
+      CHECK(Document::recover(entry.path()).scene().deformation().has_cage());
   ::unsetenv("XDG_DATA_HOME");
 }

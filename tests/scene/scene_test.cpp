@@ -14,8 +14,11 @@
 #include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
 #include "scene/preferences.h"
+#include "scene/prepared_map.h"
+#include "scene/recovery.h"
 #include "support/complaint.h"
 #include "support/folder.h"
+#include "support/scenes.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -47,9 +50,10 @@ std::string complaint(const std::string& text) {
 
 TEST_CASE("A scene survives writing and reading, unknown keys included") {
   const Scene scene = scene_from_json(kText, "scene.json");
-  CHECK(scene.pose.degree(1) == 3);
-  CHECK(scene.pins[0].angle == 0.5);
-  CHECK(scene.pins[1].pose == scene.pins[1].rest);
+  const Deformation& deformation = scene.deformation();
+  CHECK(deformation.pose.degree(1) == 3);
+  CHECK(deformation.pins[0].angle == 0.5);
+  CHECK(deformation.pins[1].pose == deformation.pins[1].rest);
   const std::string written = json_of(scene);
   CHECK(scene_from_json(written, "again") == scene);
   CHECK(json_of(scene_from_json(written, "again")) == written);
@@ -88,7 +92,8 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(replaced(kText, "{\"name\": \"x\"}", deep + std::string(200000, ']'))),
              Contains("nested"));
   Scene unspeakable = scene_from_json(kText, "x");
-  unspeakable.image = ImageReference{"caf\xe9.png", "", 0, 0, "", ""};
+  change_layer(unspeakable,
+               [](Layer& layer) { layer.image = ImageReference{"caf\xe9.png", "", 0, 0, "", ""}; });
   CHECK_THROWS_AS(json_of(unspeakable), Error);
   std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
   for (int i = 0; i < 6000; ++i) many += "[[0,0]],";
@@ -172,8 +177,8 @@ TEST_CASE("A document saves a picture's path relative to the scene, wherever tha
   write_file(folder.path / "pictures" / "dot.png", encode_png(Image(8, 6)));
   Document document = Document::open(folder.path / "pictures" / "dot.png");
   CHECK_FALSE(document.modified());
-  CHECK(document.scene().image->width == 8);
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  CHECK(document.scene().layer().image->width == 8);
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(8, 6)));
   CHECK(document.modified());
   fs::create_directories(folder.path / "scenes");
   document.save(folder.path / "scenes" / "s.json");
@@ -218,7 +223,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   const Path place = folder.path / "autosave";
   document.autosave(place);
   CHECK_FALSE(fs::exists(place));  // nothing to lose yet
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(8, 6)));
   document.autosave(place);
   CHECK(recoverable(place).empty());  // this program still owns it
   const Path orphan = place / "orphan.json";
@@ -227,7 +232,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   REQUIRE(recoverable(place).size() == 1);
   CHECK_THAT(recoverable(place)[0].label, Catch::StartsWith("dot"));
   const Document recovered = Document::recover(orphan);
-  CHECK(recovered.scene().rest == document.scene().rest);
+  CHECK(recovered.scene().deformation().rest == document.scene().deformation().rest);
   CHECK(recovered.modified());
   CHECK(recovered.path().empty());
   CHECK(recovered.image() != nullptr);
@@ -235,7 +240,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK(recoverable(place).empty());
   // A scene that has a file goes back to it.
   document.save(folder.path / "kept.json");
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(7, 5)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(7, 5)));
   document.autosave(place);
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.path().extension() == ".json") fs::copy_file(entry.path(), orphan);
@@ -262,7 +267,7 @@ TEST_CASE("The autosave is there exactly while there is something to lose") {
         scenes += entry.path().extension() == ".json";
     return scenes;
   };
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(8, 6)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(8, 6)));
   CHECK(kept() == 1);
   document.remove_autosave(place);
   CHECK(kept() == 1);  // still modified: written again
@@ -278,13 +283,13 @@ TEST_CASE("History: undo and redo walk the line, a commit forgets what was undon
   Scene scene;
   History history(scene);
   for (int i = 1; i <= 3; ++i) {
-    scene.pins.push_back({{1.0 * i, 0}, {0, 0}, {}, {}});
+    change(scene, [&](Deformation& d) { d.pins.push_back({{1.0 * i, 0}, {0, 0}, {}, {}}); });
     CHECK(history.commit("Pin", scene));
   }
   CHECK_FALSE(history.commit("Nothing", scene));
   CHECK(history.undo());
   CHECK(history.undo());
-  CHECK(history.current().pins.size() == 1);
+  CHECK(history.current().deformation().pins.size() == 1);
   CHECK(history.redo());
   CHECK(history.commit("Other", Scene{}));
   CHECK_FALSE(history.can_redo());
@@ -296,37 +301,37 @@ TEST_CASE("History: undo and redo walk the line, a commit forgets what was undon
 TEST_CASE(
     "The live map follows the scene, keeps the last map on errors, and poses without preparing") {
   LiveMap map({600});
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
-  map.finish(scene, {});
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
+  map.finish(deformation, {});
   REQUIRE(map.has_map());
   const unsigned first = map.preparation();
-  scene.pose.segments[2][0] += Complex(20, 10);
-  CHECK(map.update(scene, {true}));
+  deformation.pose.segments[2][0] += Complex(20, 10);
+  CHECK(map.update(deformation, {true}));
   CHECK(map.preparation() == first);
   CHECK(map.map().fz.size() == map.map().f.size());
   const VectorXc posed = map.map().f;
-  Scene broken = scene;
+  Deformation broken = deformation;
   broken.rest = broken.pose = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
   map.finish(broken, {});
   REQUIRE(map.error());
   CHECK(map.error()->where());
   CHECK(map.map().f.size() == posed.size());
   CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(posed.size()));
-  map.finish(scene, {true});
+  map.finish(deformation, {true});
   CHECK_FALSE(map.error());
   CHECK(map.map().f == posed);
-  map.update(Scene{}, {});
+  map.update(Deformation{}, {});
   CHECK_FALSE(map.has_map());
 }
 
 TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
   LiveMap map({400});
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   for (int i = 0; i < 60; ++i) {
-    scene.rest.segments[1][0] += Complex(0.5 * i, 0.1);
-    scene.pose.segments[0][0] += Complex(0.3, 0.2);
-    if (i % 3 == 0) map.finish(scene, {i % 2 == 1});
-    map.update(scene, {i % 2 == 1});
+    deformation.rest.segments[1][0] += Complex(0.5 * i, 0.1);
+    deformation.pose.segments[0][0] += Complex(0.3, 0.2);
+    if (i % 3 == 0) map.finish(deformation, {i % 2 == 1});
+    map.update(deformation, {i % 2 == 1});
     if (map.has_map())
       CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
   }
@@ -334,39 +339,39 @@ TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
 
 TEST_CASE("The live map follows inserted and deleted points, pins and methods") {
   LiveMap map({400});
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
-  scene.method = "pins";
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
+  deformation.method = "pins";
   std::mt19937 random(7);
   for (int i = 0; i < 40; ++i) {
     const auto pick = [&](Index count) { return static_cast<Index>(random() % count); };
     if (const int what = static_cast<int>(random() % 4); what == 0) {
-      const Index segment = pick(scene.rest.size());
-      insert_vertex(scene.rest, segment, 0.4);
-      insert_vertex(scene.pose, segment, 0.4);
-    } else if (what == 1 && scene.rest.size() > 8) {
-      Scene fewer = scene;
-      const Index vertex = pick(scene.rest.size());
+      const Index segment = pick(deformation.rest.size());
+      insert_vertex(deformation.rest, segment, 0.4);
+      insert_vertex(deformation.pose, segment, 0.4);
+    } else if (what == 1 && deformation.rest.size() > 8) {
+      Deformation fewer = deformation;
+      const Index vertex = pick(deformation.rest.size());
       erase_vertex(fewer.rest, vertex, 0.5);
       erase_vertex(fewer.pose, vertex, 0.5);
-      if (!self_crossing(vertices_of(fewer.rest))) scene = fewer;
+      if (!self_crossing(vertices_of(fewer.rest))) deformation = fewer;
     } else if (what == 2) {
       const Complex z(10 + 4.0 * i, 20 + i);
-      scene.pins.push_back({z, z + Complex(3, 2), {}, {}});
-    } else if (!scene.pins.empty()) {
-      scene.pins.erase(scene.pins.begin() + pick(static_cast<Index>(scene.pins.size())));
-      scene.method = i % 2 ? "pins" : "cage";
+      deformation.pins.push_back({z, z + Complex(3, 2), {}, {}});
+    } else if (!deformation.pins.empty()) {
+      deformation.pins.erase(deformation.pins.begin() +
+                             pick(static_cast<Index>(deformation.pins.size())));
+      deformation.method = i % 2 ? "pins" : "cage";
     }
     if (i % 3 == 0)
-      map.finish(scene, {});
+      map.finish(deformation, {});
     else
-      map.update(scene, {});
+      map.update(deformation, {});
     if (map.has_map())
       CHECK(map.prepared()->mesh->vertices.size() == static_cast<size_t>(map.map().f.size()));
   }
-  map.finish(scene, {true});
-  const auto alone = prepared_map(scene, Precision::single, {400});
-  SampledMap expected;
-  alone->deformer->deform(pose_of(scene), expected, {true});
+  map.finish(deformation, {true});
+  const auto alone = prepared_map(deformation, Precision::single, {400});
+  SampledMap expected = alone->deformer->deform(pose_of(deformation), {true});
   CHECK(map.map().f == expected.f);
   CHECK(map.map().fz == expected.fz);
 }
@@ -445,11 +450,11 @@ TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
   }
   // One that lies beside the scene, too, is taken from there.
   Document saved = Document::open(away / "b.png");
-  saved.commit("Cage", with_cage(saved.scene(), shapes::rectangle(8, 6)));
+  saved.commit("Cage", scene_with_cage(saved.scene(), shapes::rectangle(8, 6)));
   saved.save(home / "s.json");
   write_file(home / "b.png", png);
   const LoadedScene beside = load_scene(home / "s.json");
-  CHECK(beside.scene.image->file == home / "b.png");
+  CHECK(beside.scene.layer().image->file == home / "b.png");
 }
 
 TEST_CASE("A scene that another program has changed is known") {
@@ -457,13 +462,13 @@ TEST_CASE("A scene that another program has changed is known") {
   const Path path = folder.path / "s.json";
   write_file(folder.path / "dot.png", encode_png(Image(20, 20)));
   Document document = Document::open(folder.path / "dot.png");
-  document.commit("Cage", with_cage(document.scene(), shapes::rectangle(20, 20)));
+  document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(20, 20)));
   CHECK_FALSE(document.changed_on_disk());
   document.save(path);
   CHECK_FALSE(document.changed_on_disk());
   Document second = Document::open(path);
   Scene moved = second.scene();
-  moved.pose.segments[0][0] += 1;
+  change(moved, [](Deformation& d) { d.pose.segments[0][0] += 1; });
   second.commit("Move", moved);
   second.save(path);
   CHECK(document.changed_on_disk());
@@ -478,7 +483,7 @@ TEST_CASE("A scene that another program has changed is known") {
   CHECK_FALSE(third.changed_on_disk());
   // What was recovered knows what its scene's file was like.
   third.commit("Move", moved);
-  moved.pose.segments[1][0] += 1;
+  change(moved, [](Deformation& d) { d.pose.segments[1][0] += 1; });
   third.commit("Move", moved);
   REQUIRE(third.autosave(folder.path / "autosave"));
   Path autosave;
@@ -562,7 +567,7 @@ TEST_CASE("Names of 255 bytes are written, and longer ones are an error") {
 TEST_CASE("Autosaves are for their owner alone") {
   const Folder folder;
   Document document;
-  document.commit("Cage", with_cage(Scene{}, shapes::rectangle(20, 20)));
+  document.commit("Cage", scene_of(with_cage({}, shapes::rectangle(20, 20))));
   const Path autosave = folder.path / "state" / "autosave";
   fs::create_directories(autosave);
   fs::permissions(autosave, fs::perms::all);
@@ -572,7 +577,7 @@ TEST_CASE("Autosaves are for their owner alone") {
     CHECK((entry.status().permissions() & fs::perms::all) ==
           (fs::perms::owner_read | fs::perms::owner_write));
   Document homeless;
-  homeless.commit("Cage", with_cage(Scene{}, shapes::rectangle(20, 20)));
+  homeless.commit("Cage", scene_of(with_cage({}, shapes::rectangle(20, 20))));
   CHECK_FALSE(homeless.autosave(""));
 }
 

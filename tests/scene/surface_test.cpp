@@ -202,19 +202,21 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and what it i
   Box onto;
   onto.include({0, 0});
   onto.include({300, 400});
-  Scene scene = with_cage(Scene{}, Points{{0, 0}, {300, 0}, {300, 400}, {0, 400}});
-  CHECK_THROWS_WITH(laid_surface_of(scene), Catch::Contains("no surface"));
-  scene.outline = laid_onto(sample("mask.obj"), Flattening::circle, onto).outline();
-  scene.surface = SurfaceReference{file, Flattening::circle, R"({"kept":1})"};
+  Deformation deformation =
+      with_cage(Deformation{}, Points{{0, 0}, {300, 0}, {300, 400}, {0, 400}});
+  CHECK_THROWS_WITH(laid_surface_of(deformation), Catch::Contains("no surface"));
+  deformation.outline = laid_onto(sample("mask.obj"), Flattening::circle, onto).outline();
+  deformation.surface = SurfaceReference{file, Flattening::circle, R"({"kept":1})"};
   for (const Path& at : {folder / "s.json", folder / "inside" / "s.json"}) {
-    write_file(at, json_of(portable(scene, at.parent_path())));
+    write_file(at, json_of(portable(scene_of(deformation), at.parent_path())));
     CHECK_THAT(read_file(at), Catch::Contains("\"../") && Catch::Contains("\"kept\": 1"));
-    const Scene again = load_scene(at, {false, {true}}).scene;
-    CHECK(again.surface == scene.surface);
+    const Deformation again = load_scene(at, {false, {true}}).scene.deformation();
+    CHECK(again.surface == deformation.surface);
     CHECK(laid_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
   }
-  CHECK(portable(scene, {}).surface == scene.surface);  // as an autosave has it
-  Scene other = scene;
+  CHECK(portable(scene_of(deformation), {}).deformation().surface ==
+        deformation.surface);  // as an autosave has it
+  Deformation other = deformation;
   other.surface->flattening = Flattening::lscm;
   CHECK_THROWS_WITH(laid_surface_of(other),
                     Catch::Contains("mask.obj") && Catch::Contains("not this surface's"));
@@ -251,8 +253,8 @@ TEST_CASE("A textured surface opens as its picture with a cage, others say what 
   REQUIRE(document.image());
   CHECK(document.image_path().filename() == "my fish.png");
   CHECK(!document.modified());
-  REQUIRE(document.scene().rest.size() == 4);
-  CHECK(std::abs(document.scene().rest.segments[2][0] -
+  REQUIRE(document.scene().deformation().rest.size() == 4);
+  CHECK(std::abs(document.scene().deformation().rest.segments[2][0] -
                  Complex(0.9 * document.image()->width, 0.9 * document.image()->height)) < 1e-9);
   write_file(folder / "bare.obj", square);
   CHECK_THROWS_WITH(Document::open(folder / "bare.obj"), Catch::Contains("no picture on it"));

@@ -20,20 +20,20 @@ struct Desk {
     tools.push_back(outline_tool());
     tools.push_back(angle_tool());
     tools.push_back(brush_tool());
-    workspace.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
-    if (!polygon.empty()) workspace.commit("Cage", with_cage(Scene{}, polygon));
+    workspace.display.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
+    if (!polygon.empty()) workspace.commit("Cage", with_cage(Deformation{}, polygon));
     settle();
   }
-  void settle() { workspace.map().finish(workspace.scene(), {}); }
+  void settle() { workspace.map().finish(workspace.shown.deformation(), {}); }
   Tool& tool() {
     for (const auto& tool : tools)
-      if (tool->id() == workspace.tool) return *tool;
+      if (tool->id() == workspace.tools.active) return *tool;
     return *tools[0];
   }
   Input at(Complex z, Modifiers mods = {}) const {
     Input input;
     input.position = z;
-    input.px = workspace.viewport.px_at_plane(z);
+    input.px = workspace.display.viewport.px_at_plane(z);
     input.inside = true;
     input.mods = mods;
     input.now_ms = now_ms;
@@ -73,7 +73,7 @@ struct Desk {
     for (const Complex& z : line) move(z, mods);
     release(line.back(), mods);
   }
-  const Scene& scene() const { return workspace.scene(); }
+  const Deformation& deformation() const { return workspace.shown.deformation(); }
   size_t steps() const { return workspace.document.history().entries().size(); }
 };
 

@@ -12,8 +12,8 @@ double texture_zoom(const Box& box) {
   return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
 }
 
-Frame frame_at(const Viewport& view, const CanvasFrame& at) {
-  Frame frame;
+RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
+  RenderFrame frame;
   frame.window_width = at.window_width;
   frame.window_height = at.window_height;
   frame.canvas_left = view.left * at.ratio;
@@ -40,17 +40,17 @@ Color onion_color(bool later) {
   return later ? Color{0.35f, 0.67f, 1} : Color{1, 0.55f, 0.31f};
 }
 
-LayerPainter& Canvas::painter_of(const Scene& layer) {
-  std::unique_ptr<LayerPainter>& painter = painters_[layer.layer.id];
+LayerPainter& Canvas::painter_of(const Layer& layer) {
+  std::unique_ptr<LayerPainter>& painter = painters_[layer.id];
   if (!painter) painter = std::make_unique<LayerPainter>(wake_);
   return *painter;
 }
 
-void Canvas::take_picture(Workspace& workspace, const Scene& layer) {
+void Canvas::take_picture(Workspace& workspace, const Layer& layer) {
   const int factor = painter_of(layer).take_picture(workspace.document.pictures().shared(layer));
   if (painter_of(layer).grows()) wake_();
   if (factor > 1)
-    workspace.say(
+    workspace.messages.say(
         "The picture is larger than this driver's textures: the canvas shows it reduced " +
         std::to_string(factor) + " times. Export uses all pixels.");
 }
@@ -65,10 +65,10 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   if (std::exchange(forgets_, false)) painters_.clear();
   std::erase_if(painters_, [&](const auto& entry) {
     return layer_of_id(workspace.document.scene(), entry.first) ==
-           layer_count(workspace.document.scene());
+           workspace.document.scene().layers.size();
   });
-  const double split = workspace.split.value_or(0);
-  draw_part(workspace, at, split, 1, workspace.show_original);
+  const double split = workspace.display.split.value_or(0);
+  draw_part(workspace, at, split, 1, workspace.display.show_original);
   if (split > 0) draw_part(workspace, at, 0, split, true);
 }
 
@@ -76,49 +76,51 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
                        bool original) {
   const Scene& scene = workspace.document.scene();
   // The views of a map are about the edited layer's, and so is its rest.
-  const bool alone = workspace.view != View::image || workspace.posture == Posture::rest;
-  Frame frame = frame_at(workspace.viewport, at);
+  const bool alone = workspace.display.view != View::image || workspace.mode == EditMode::rest;
+  RenderFrame frame = frame_at(workspace.display.viewport, at);
   frame.from = from;
   frame.to = to;
   // As in exports it is everywhere.
-  if (scene.background.kind == Background::Kind::color)
+  if (scene.background.fill == Background::Fill::color)
     frame.background = frame.backdrop = color_of(scene.background);
-  edited_ = &painter_of(scene);
-  std::vector<const Scene*> drawn;
-  for (size_t i = 0; i < layer_count(scene); ++i) {
-    const Scene& layer = layer_at(scene, i);
-    if (&layer != &scene && (alone || !layer.layer.visible)) continue;
+  const Layer& edited = scene.layer();
+  edited_ = &painter_of(edited);
+  std::vector<const Layer*> drawn;
+  for (const SharedLayer& shared : scene.layers) {
+    const Layer& layer = *shared;
+    if (&layer != &edited && (alone || !layer.visible)) continue;
     take_picture(workspace, layer);
-    if (&layer == &scene && !alone && !layer.layer.visible) continue;
-    painter_of(layer).take_map(workspace.maps.of(layer.layer.id),
-                               &layer == &scene ? workspace.view : View::image,
-                               workspace.automatic_range);
+    if (&layer == &edited && !alone && !layer.visible) continue;
+    painter_of(layer).take_map(workspace.maps.of(layer.id),
+                               &layer == &edited ? workspace.display.view : View::image,
+                               workspace.display.automatic_range);
     drawn.push_back(&layer);
   }
-  const auto draw = [&](const Scene& layer, Frame drawing) {
-    painter_of(layer).draw(workspace.maps.of(layer.layer.id),
-                           &layer == &scene ? workspace.view : View::image, std::move(drawing));
+  const auto draw = [&](const Layer& layer, RenderFrame drawing) {
+    painter_of(layer).draw(workspace.maps.of(layer.id),
+                           &layer == &edited ? workspace.display.view : View::image,
+                           std::move(drawing));
     frame.over = true;
   };
   if (drawn.empty()) {
     frame.shows = Shows::nothing;
-    return draw(scene, frame);
+    return draw(edited, frame);
   }
-  if (scene.background.kind == Background::Kind::original && !alone) {
-    Frame as_it_was = frame;
+  if (scene.background.fill == Background::Fill::original && !alone) {
+    RenderFrame as_it_was = frame;
     as_it_was.shows = Shows::original;
-    for (const Scene* layer : drawn) {
+    for (const Layer* layer : drawn) {
       draw(*layer, as_it_was);
       as_it_was.over = true;
     }
   }
   const std::vector<OnionSkin> skins = workspace.onion_skins();
-  for (const Scene* layer : drawn) {
-    Frame drawing = frame;
-    if (original || (layer == &scene && workspace.at_rest()))
+  for (const Layer* layer : drawn) {
+    RenderFrame drawing = frame;
+    if (original || (layer == &edited && workspace.at_rest()))
       drawing.placement = Placement::at_rest;
-    if (layer == &scene) {
-      drawing.wireframe = workspace.show_mesh;
+    if (layer == &edited) {
+      drawing.wireframe = workspace.display.show_mesh;
       for (const OnionSkin& skin : skins)
         drawing.ghosts.push_back(
             {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
@@ -137,7 +139,7 @@ Box Canvas::whole_pixels(const Box& box) {
 }
 
 void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay) {
-  Frame frame;
+  RenderFrame frame;
   frame.zoom = texture_zoom(box);
   frame.window_width = static_cast<int>(std::lround(frame.zoom * box.width()));
   frame.window_height = static_cast<int>(std::lround(frame.zoom * box.height()));
@@ -148,7 +150,8 @@ void Canvas::draw_map(const Workspace& workspace, const Box& box, Framebuffer& i
   frame.background = {0, 0, 0};
   frame.backdrop = clay;
   into.bind(frame.window_width, frame.window_height);
-  painter_of(workspace.document.scene()).draw(workspace.map(), workspace.view, frame);
+  painter_of(workspace.document.scene().layer())
+      .draw(workspace.map(), workspace.display.view, frame);
   into.release();
 }
 

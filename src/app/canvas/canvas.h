@@ -45,8 +45,8 @@ class Canvas {
   /// From one part of the canvas' width to another.
   void draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
                  bool original);
-  LayerPainter& painter_of(const Scene& layer);
-  void take_picture(Workspace& workspace, const Scene& layer);
+  LayerPainter& painter_of(const Layer& layer);
+  void take_picture(Workspace& workspace, const Layer& layer);
 
   std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by the layers' ids
   LayerPainter* edited_ = nullptr;

@@ -20,18 +20,18 @@ void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color, f
 
 void draw_mark(ImDrawList& list, const CornerMark& mark, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), radius = static_cast<float>(mark.radius);
-  const auto color = [&](CornerMark::Part part) {
+  const auto color = [&](CornerMark::Region part) {
     return mark.hovered == part ? style.colors.hover : style.colors.pin;
   };
-  for (const auto part : {CornerMark::Part::before, CornerMark::Part::after}) {
-    const ImVec2 end = vec(part == CornerMark::Part::before ? mark.before : mark.after);
+  for (const auto part : {CornerMark::Region::before, CornerMark::Region::after}) {
+    const ImVec2 end = vec(part == CornerMark::Region::before ? mark.before : mark.after);
     draw_line(list, {vec(mark.center), end}, color(part), 2.2f, style);
     list.AddCircleFilled(end, 6.5f * s, style.colors.outline);
     list.AddCircleFilled(end, 5 * s, color(part));
   }
-  const bool on_ring = mark.hovered == CornerMark::Part::ring;
+  const bool on_ring = mark.hovered == CornerMark::Region::ring;
   list.AddCircle(vec(mark.center), radius, style.colors.outline, 0, 4.5f * s);
-  list.AddCircle(vec(mark.center), radius, color(CornerMark::Part::ring), 0,
+  list.AddCircle(vec(mark.center), radius, color(CornerMark::Region::ring), 0,
                  (on_ring ? 3.2f : 2.2f) * s);
 }
 
@@ -39,27 +39,27 @@ void draw_mark(ImDrawList& list, const CornerMark& mark, const OverlayStyle& sty
 
 void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
-  const Scene& scene = workspace.scene();
+  const Deformation& deformation = workspace.shown.deformation();
   const float s = static_cast<float>(style.scale);
-  for (Index e = 0; e < scene.rest.size(); ++e) {
+  for (Index e = 0; e < deformation.rest.size(); ++e) {
     std::vector<ImVec2> line;
     for (const Complex& z : posed_segment(workspace, e))
-      line.push_back(vec(workspace.viewport.px_at_plane(z)));
+      line.push_back(vec(workspace.display.viewport.px_at_plane(z)));
     const bool hovered =
-        gesture.edge && corner_before(scene, *gesture.edge) == corner_before(scene, e);
+        gesture.edge && corner_before(deformation, *gesture.edge) == corner_before(deformation, e);
     draw_line(list, line, hovered ? style.colors.hover : style.colors.pose, hovered ? 3 : 1.8f,
               style);
   }
   if (gesture.corner) draw_mark(list, *gesture.corner, style);
-  for (Index v = 0; v < scene.rest.size(); ++v) {
-    const ImVec2 at = vec(workspace.viewport.px_at_plane(posed_vertex(workspace, v)));
+  for (Index v = 0; v < deformation.rest.size(); ++v) {
+    const ImVec2 at = vec(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)));
     const bool hovered = gesture.hover == Handle{Handle::Kind::cage, v, 0},
                chosen = workspace.selection.contains({Handle::Kind::cage, v, 0});
     const ImU32 color = chosen    ? style.colors.selected
                         : hovered ? style.colors.hover
                                   : style.colors.pose;
     const float r = (hovered ? 6.5f : 5) * s;
-    if (is_corner(scene, v)) {
+    if (is_corner(deformation, v)) {
       list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, style.colors.outline, 2 * s);
       list.AddRectFilled({at.x - r + 1.5f * s, at.y - r + 1.5f * s},
                          {at.x + r - 1.5f * s, at.y + r - 1.5f * s}, color, 1.5f * s);
@@ -73,8 +73,8 @@ void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverla
 void draw_limited_corners(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), r = 11 * s;
   for (const Index v : workspace.map().map().limited_corners) {
-    if (v >= workspace.scene().rest.size()) continue;
-    const ImVec2 at = vec(workspace.viewport.px_at_plane(posed_vertex(workspace, v)));
+    if (v >= workspace.shown.deformation().rest.size()) continue;
+    const ImVec2 at = vec(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)));
     const ImVec2 a(at.x, at.y - r), b(at.x - 0.9f * r, at.y + 0.6f * r),
         c(at.x + 0.9f * r, at.y + 0.6f * r);
     list.AddTriangle(a, b, c, style.colors.outline, 4.5f * s);

@@ -82,7 +82,7 @@ void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range)
   renderer_.set_heat(shades);
 }
 
-void LayerPainter::draw(const LiveMap& map, View view, Frame frame) {
+void LayerPainter::draw(const LiveMap& map, View view, RenderFrame frame) {
   const bool shows_picture = !map.has_map() || (is_heat(view) && heat_values_.size() == 0);
   frame.view = shows_picture ? View::image : view;
   frame.diverging = heat_scale_.diverging;

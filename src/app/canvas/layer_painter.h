@@ -28,7 +28,7 @@ class LayerPainter {
   /// The map as it is now, and its heat map if `view` is one.
   void take_map(const LiveMap& map, View view, bool automatic_range);
   /// Draws; view and placement are chosen here from the map that was taken.
-  void draw(const LiveMap& map, View view, Frame frame);
+  void draw(const LiveMap& map, View view, RenderFrame frame);
 
   const HeatScale& heat_scale() const { return heat_scale_; }
   /// Per mesh vertex; empty without a heat map.

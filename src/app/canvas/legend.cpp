@@ -10,7 +10,7 @@ namespace holomorph {
 void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values,
                  const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const float s = static_cast<float>(style.scale), width = 220 * s, bar = 14 * s,
               line = ImGui::GetTextLineHeight();
   const float left = static_cast<float>(view.left) + 16 * s,

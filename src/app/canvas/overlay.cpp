@@ -8,7 +8,7 @@
 namespace holomorph {
 
 ImVec2 px(const Workspace& workspace, Complex z) {
-  const Complex at = workspace.viewport.px_at_plane(z);
+  const Complex at = workspace.display.viewport.px_at_plane(z);
   return {static_cast<float>(at.real()), static_cast<float>(at.imag())};
 }
 
@@ -48,7 +48,7 @@ void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, I
   std::vector<ImVec2> line;
   for (const Complex& z : outline_of(cage, 24)) line.push_back(px(workspace, z));
   if (line.size() < 2) return;
-  if (workspace.posture == Posture::pose) return stroke(list, line, true, color, style);
+  if (workspace.mode == EditMode::pose) return stroke(list, line, true, color, style);
   const float width = static_cast<float>(style.scale);
   list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
                    ImDrawFlags_Closed, 3.5f * width);
@@ -203,9 +203,10 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     list.AddRectFilled(a, b, (style.colors.accent & 0x00ffffff) | 0x30000000);
     list.AddRect(a, b, style.colors.accent, 0, 0, 1.2f * s);
   }
-  if (gesture.ring && *gesture.ring < static_cast<Index>(workspace.scene().pins.size())) {
-    const ImVec2 at = px(workspace, workspace.scene().pins[*gesture.ring].pose);
-    const float radius = static_cast<float>(kRingRadius * workspace.handle_px);
+  if (gesture.ring &&
+      *gesture.ring < static_cast<Index>(workspace.shown.deformation().pins.size())) {
+    const ImVec2 at = px(workspace, workspace.shown.deformation().pins[*gesture.ring].pose);
+    const float radius = static_cast<float>(kRingRadius * workspace.display.handle_px);
     list.AddCircle(at, radius, style.colors.outline, 0, 4.5f * s);
     list.AddCircle(at, radius, gesture.ring_hovered ? style.colors.hover : style.colors.pin, 0,
                    (gesture.ring_hovered ? 3.2f : 2.2f) * s);
@@ -215,15 +216,15 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
 /// A stroke with its start as a dot and its end as a ring.
 void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
-  const Posture posture = workspace.posture;
-  const Scene& scene = workspace.scene();
+  const EditMode mode = workspace.mode;
+  const Deformation& deformation = workspace.shown.deformation();
   const bool selected = workspace.selection.contains(handle);
-  const ImU32 color = selected ? style.colors.selected
-                      : hovered
-                          ? style.colors.hover
-                          : (posture == Posture::rest ? style.colors.rest : style.colors.pose);
+  const ImU32 color = selected  ? style.colors.selected
+                      : hovered ? style.colors.hover
+                                : (mode == EditMode::rest ? style.colors.rest : style.colors.pose);
   std::vector<ImVec2> line;
-  for (const Complex& z : curve_of(scene, handle.index, posture)) line.push_back(px(workspace, z));
+  for (const Complex& z : curve_of(deformation, handle.index, mode))
+    line.push_back(px(workspace, z));
   stroke(list, line, false, color, style);
   const float s = static_cast<float>(style.scale);
   list.AddCircleFilled(line.front(), 5.5f * s, style.colors.outline);
@@ -237,21 +238,23 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
                     const OverlayStyle& style) {
   Selection dragged = workspace.selection;
   if (gesture.hover) dragged.insert(*gesture.hover);
-  const Scene& scene = workspace.scene();
+  const Deformation& deformation = workspace.shown.deformation();
   const float s = static_cast<float>(style.scale);
   std::map<Handle, Handle> counterparts;
-  if (workspace.influence.symmetric && !dragged.empty()) counterparts = counterparts_of(scene);
+  if (workspace.tools.drag.symmetric && !dragged.empty())
+    counterparts = counterparts_of(deformation);
   for (const Handle& handle : dragged) {
-    if (!exists(scene, handle, workspace.posture)) continue;
-    if (workspace.influence.soft && (gesture.hover == handle || dragged.size() == 1)) {
-      const ImVec2 at = px(workspace, position_of(scene, handle, workspace.posture));
-      const float r = static_cast<float>(workspace.influence.reach * workspace.viewport.zoom);
+    if (!exists(deformation, handle, workspace.mode)) continue;
+    if (workspace.tools.drag.soft && (gesture.hover == handle || dragged.size() == 1)) {
+      const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
+      const float r =
+          static_cast<float>(workspace.tools.drag.reach * workspace.display.viewport.zoom);
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
       list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
     }
     const auto other = counterparts.find(handle);
-    if (other != counterparts.end() && exists(scene, other->second, workspace.posture)) {
-      const ImVec2 at = px(workspace, position_of(scene, other->second, workspace.posture));
+    if (other != counterparts.end() && exists(deformation, other->second, workspace.mode)) {
+      const ImVec2 at = px(workspace, position_of(deformation, other->second, workspace.mode));
       list.AddCircle(at, 9 * s, style.colors.outline, 0, 3.4f * s);
       list.AddCircle(at, 9 * s, style.colors.selected, 0, 1.8f * s);
     }
@@ -263,7 +266,8 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
 void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
-  const std::vector<Dab>& dabs = gesture.dabs ? *gesture.dabs : workspace.scene().stiffness;
+  const std::vector<BrushDab>& dabs =
+      gesture.dabs ? *gesture.dabs : workspace.shown.deformation().stiffness;
   if (workspace.map().has_map() && !dabs.empty()) {
     constexpr size_t kMarks = 1500;
     const Points& rest = workspace.map().drawn()->vertices;
@@ -291,7 +295,8 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
     }
   }
   if (!gesture.brush) return;
-  const float radius = static_cast<float>(workspace.brush_radius * workspace.viewport.zoom);
+  const float radius =
+      static_cast<float>(workspace.tools.brush_radius * workspace.display.viewport.zoom);
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.outline, 64, 3 * s);
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
 }
@@ -313,12 +318,12 @@ void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle
 
 /// The line between before and after, on top of what lies there.
 void draw_split(const Workspace& workspace, const OverlayStyle& style) {
-  if (!workspace.split) return;
+  if (!workspace.display.split) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const float s = static_cast<float>(style.scale), top = static_cast<float>(view.top),
               bottom = static_cast<float>(view.top + view.height),
-              x = static_cast<float>(view.left + *workspace.split * view.width);
+              x = static_cast<float>(view.left + *workspace.display.split * view.width);
   list.AddLine({x, top}, {x, bottom}, style.colors.outline, 4 * s);
   list.AddLine({x, top}, {x, bottom}, style.colors.selected, 2 * s);
   const float middle = (top + bottom) / 2;
@@ -338,32 +343,31 @@ void draw_split(const Workspace& workspace, const OverlayStyle& style) {
 
 void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
-  const Scene& scene = workspace.scene();
-  const Posture posture = workspace.posture;
+  const Deformation& deformation = workspace.shown.deformation();
+  const EditMode mode = workspace.mode;
   draw_onion(list, workspace, style);
-  if (workspace.show_cage && gesture.line.empty()) {
-    const ImU32 color = posture == Posture::rest ? style.colors.rest : style.colors.pose;
+  if (workspace.display.show_cage && gesture.line.empty()) {
+    const ImU32 color = mode == EditMode::rest ? style.colors.rest : style.colors.pose;
     // With pins or strokes the posed cage is only the start of the map: it steps back behind the
     // picture.
-    const Pose used = pose_of(scene);
+    const Pose used = pose_of(deformation);
     const bool turned = std::ranges::any_of(used.corners, [](const PoseCorner& corner) {
       return corner.before != 0 || corner.after != 0;
     });
-    const bool by_angles = posture == Posture::pose && workspace.tool == ToolId::angle;
-    const bool faint =
-        posture == Posture::pose && (!used.pins.empty() || !used.strokes.empty() ||
-                                     workspace.shows_outline() || turned || by_angles);
-    if (scene.has_cage() && faint) {
+    const bool by_angles = mode == EditMode::pose && workspace.tools.active == ToolId::angle;
+    const bool faint = mode == EditMode::pose && (!used.pins.empty() || !used.strokes.empty() ||
+                                                  workspace.shows_outline() || turned || by_angles);
+    if (deformation.has_cage() && faint) {
       std::vector<ImVec2> line;
-      for (const Complex& z : outline_of(scene.pose, 24)) line.push_back(px(workspace, z));
+      for (const Complex& z : outline_of(deformation.pose, 24)) line.push_back(px(workspace, z));
       const float width = static_cast<float>(style.scale);
       list.AddPolyline(line.data(), static_cast<int>(line.size()), IM_COL32(0, 0, 0, 70),
                        ImDrawFlags_Closed, 2.6f * width);
       list.AddPolyline(line.data(), static_cast<int>(line.size()),
                        (color & 0x00ffffff) | 0xb0000000, ImDrawFlags_Closed, 1.3f * width);
-    } else if (scene.has_cage())
-      draw_cage(list, workspace, cage_of(scene, posture), color, style);
-    if (const auto solved = faint ? workspace.solved_cage() : std::nullopt) {
+    } else if (deformation.has_cage())
+      draw_cage(list, workspace, cage_of(deformation, mode), color, style);
+    if (const auto solved = faint ? solved_cage(workspace) : std::nullopt) {
       std::vector<ImVec2> line;
       for (const Complex& z : outline_of(*solved, 24)) line.push_back(px(workspace, z));
       stroke(list, line, true, style.colors.pin, style);
@@ -371,30 +375,31 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
         list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale),
                              style.colors.pin);
     }
-    if (scene.has_cage()) draw_tangents(list, workspace, cage_of(scene, posture), color, style);
+    if (deformation.has_cage())
+      draw_tangents(list, workspace, cage_of(deformation, mode), color, style);
     if (workspace.shows_outline()) {
       std::vector<ImVec2> line;
-      for (const Complex& z : scene.outline) line.push_back(px(workspace, z));
+      for (const Complex& z : deformation.outline) line.push_back(px(workspace, z));
       stroke(list, line, true, style.colors.accent, style);
     }
     const auto& posed = workspace.map().posed();
-    if (posed && same_rest(*posed, scene)) {
-      const bool at_rest = posture == Posture::rest;
-      for (size_t i = 0; i < scene.pins.size() && !at_rest; ++i)
-        if (const auto place = workspace.map().pin_place(scene, i))
-          draw_miss(list, px(workspace, scene.pins[i].pose), px(workspace, *place), style);
+    if (posed && same_rest(*posed, deformation)) {
+      const bool at_rest = mode == EditMode::rest;
+      for (size_t i = 0; i < deformation.pins.size() && !at_rest; ++i)
+        if (const auto place = workspace.map().pin_place(deformation, i))
+          draw_miss(list, px(workspace, deformation.pins[i].pose), px(workspace, *place), style);
       for (const Complex& zero :
            at_rest ? workspace.map().map().zeros : workspace.map().zero_places())
         draw_zero(list, px(workspace, zero), style);
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }
-    if (by_angles && scene.has_cage()) draw_corners(list, workspace, gesture, style);
-    for (const Handle& handle : handles_of(scene, posture)) {
+    if (by_angles && deformation.has_cage()) draw_corners(list, workspace, gesture, style);
+    for (const Handle& handle : handles_of(deformation, mode)) {
       if (handle.kind == Handle::Kind::stroke) {
         draw_stroke(list, workspace, handle, gesture.hover == handle, style);
         continue;
       }
-      const ImVec2 at = px(workspace, position_of(scene, handle, posture));
+      const ImVec2 at = px(workspace, position_of(deformation, handle, mode));
       if (by_angles && handle.kind == Handle::Kind::cage) continue;
       const bool selected = workspace.selection.contains(handle), hovered = gesture.hover == handle;
       if (faint && handle.kind == Handle::Kind::cage && !selected && !hovered) {
@@ -405,16 +410,16 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
         continue;
       }
       if (handle.kind == Handle::Kind::pin)
-        draw_pin(list, at, scene.pins[handle.index], selected, hovered, style);
+        draw_pin(list, at, deformation.pins[handle.index], selected, hovered, style);
       else
         draw_cage_handle(list, at, handle.control == 0, selected, hovered, color, style);
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-          is_smooth(scene, handle.index, posture))
+          is_smooth(deformation, handle.index, mode))
         draw_smooth_mark(list, at, style);
     }
   }
   if (gesture.shows_dabs) draw_stiffness(list, workspace, gesture, style);
-  if (workspace.show_cage) draw_influence(list, workspace, gesture, style);
+  if (workspace.display.show_cage) draw_influence(list, workspace, gesture, style);
   draw_gesture(list, workspace, gesture, style);
 }
 
@@ -423,10 +428,11 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  if (!workspace.hide_overlays && !workspace.show_original && workspace.scene().layer.visible) {
+  if (!workspace.display.hide_overlays && !workspace.display.show_original &&
+      workspace.document.scene().layer().visible) {
     // What is posed belongs to the half that is: after, not before.
-    const Viewport& view = workspace.viewport;
-    const double from = view.left + workspace.split.value_or(0) * view.width;
+    const Viewport& view = workspace.display.viewport;
+    const double from = view.left + workspace.display.split.value_or(0) * view.width;
     list.PushClipRect(
         {static_cast<float>(from), static_cast<float>(view.top)},
         {static_cast<float>(view.left + view.width), static_cast<float>(view.top + view.height)});

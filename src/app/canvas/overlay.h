@@ -14,7 +14,7 @@ struct OverlayStyle {
 /// Where a place of the plane is in the window.
 ImVec2 px(const Workspace& workspace, Complex z);
 
-/// Draws the shown posture's cage and pins and the tool's gesture into ImGui's background.
+/// Draws the shown mode's cage and pins and the tool's gesture into ImGui's background.
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
 

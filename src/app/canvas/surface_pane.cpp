@@ -16,19 +16,20 @@ constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 
 /// Whether the surface is not to be read before the user agrees.
 bool is_withheld(const Workspace& workspace) {
-  return workspace.document.pictures().withheld().contains(workspace.scene().surface->file);
+  return workspace.document.pictures().withheld().contains(
+      workspace.shown.deformation().surface->file);
 }
 
 /// The surface again from its file, its boundary where the outline is.
 void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
-  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation = workspace.shown.own();
   if (is_withheld(workspace)) return;
-  SurfaceReference surface = *scene.surface;
+  SurfaceReference surface = *deformation.surface;
   surface.flattening = how;
   const auto outline = std::make_shared<Points>();
-  workspace.beside(
+  workspace.run_in_background(
       "Flattening " + Path(surface.file).filename().string(),
-      [outline, surface, how, onto = box_of(scene.outline)](Job::Progress&) {
+      [outline, surface, how, onto = box_of(deformation.outline)](Job::Progress&) {
         *outline = outline_of_file(surface.file, 0, onto, how);
       },
       [&workspace, label, outline, surface] {
@@ -47,12 +48,12 @@ std::filesystem::file_time_type time_of(const Path& file) {
 
 /// The file is read on another thread; until that has ended there is no surface.
 void SurfacePane::read(const Workspace& workspace) {
-  const Scene& scene = workspace.scene();
+  const Deformation& deformation = workspace.shown.deformation();
   const bool withheld = is_withheld(workspace);
   const auto time =
-      withheld ? std::filesystem::file_time_type::max() : time_of(scene.surface->file);
-  if (shown_ != scene.surface || time != read_) {
-    shown_ = scene.surface;
+      withheld ? std::filesystem::file_time_type::max() : time_of(deformation.surface->file);
+  if (shown_ != deformation.surface || time != read_) {
+    shown_ = deformation.surface;
     read_ = time;
     flat_.reset();
     laid_.reset();
@@ -89,9 +90,9 @@ void SurfacePane::read(const Workspace& workspace) {
 
 void SurfacePane::follow(const Workspace& workspace) {
   read(workspace);
-  const Scene& scene = workspace.scene();
-  if (!flat_ || outline_ == scene.outline) return;
-  outline_ = scene.outline;
+  const Deformation& deformation = workspace.shown.deformation();
+  if (!flat_ || outline_ == deformation.outline) return;
+  outline_ = deformation.outline;
   laid_.reset();
   problem_.clear();
   try {
@@ -108,7 +109,7 @@ void SurfacePane::follow(const Workspace& workspace) {
 }
 
 void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style) {
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const float s = static_cast<float>(style.scale);
   const PanelSizes sizes = PanelSizes::at(style.scale);
   const float left = static_cast<float>(view.left + view.width),

@@ -48,9 +48,9 @@ bool is_of(const ExportSettings& settings, const Format& format) {
 
 PictureOptions as_shown(const Workspace& workspace) {
   PictureOptions options;
-  options.view = workspace.document.scene().has_cage() ? workspace.view : View::image;
-  options.automatic_range = workspace.automatic_range;
-  options.time = workspace.time_of_layers();
+  options.view = workspace.shown.own().has_cage() ? workspace.display.view : View::image;
+  options.automatic_range = workspace.display.automatic_range;
+  options.time = workspace.shown.time_of_layers();
   return options;
 }
 
@@ -58,7 +58,7 @@ std::string lacking(const Workspace& workspace) {
   const Document& document = workspace.document;
   if (as_shown(workspace).view != View::image) return "";
   for (const size_t i : document.without_picture())
-    if (const Scene& layer = layer_at(document.scene(), i); layer.layer.visible)
+    if (const Layer& layer = *document.scene().layers[i]; layer.visible)
       return Path(layer.image->file).filename().string() +
              (document.pictures().withheld().contains(layer.image->file)
                   ? " is not in the scene's folder: show it, or hide its layer."
@@ -98,13 +98,13 @@ void ExportDialog::again(const Path& folder) {
   const int last = last_frame_of(workspace_.document.scene());
   once_more.last = last_all_ ? last : std::min(once_more.last, last);
   once_more.first = std::min(once_more.first, once_more.last);
-  workspace_.complain(start(once_more));
+  workspace_.messages.complain(start(once_more));
 }
 
 /// The part of the plane that is exported; none where it follows from the maps.
 std::optional<Box> ExportDialog::region_box() const {
   if (settings_.region == ExportSettings::Region::canvas) {
-    const Viewport& view = workspace_.viewport;
+    const Viewport& view = workspace_.display.viewport;
     Box box;
     box.include(view.plane_at_px({view.left, view.top}));
     box.include(view.plane_at_px({view.left + view.width, view.top + view.height}));
@@ -118,7 +118,7 @@ std::optional<Box> ExportDialog::region_box() const {
 
 std::string ExportDialog::result_text() const {
   const std::optional<Box> box = region_box();
-  const Box shown = box ? *box : workspace_.content_box();
+  const Box shown = box ? *box : content_box(workspace_);
   char text[160];
   const int frames = settings_.last - settings_.first + 1;
   int used = std::snprintf(text, sizeof text, "%s%.0f x %.0f pixels",
@@ -137,7 +137,7 @@ std::string ExportDialog::result_text() const {
   const Background& background =
       settings_.background ? *settings_.background : workspace_.document.scene().background;
   if (format_extension(settings_.path) == ".jpg" &&
-      background.kind == Background::Kind::transparent)
+      background.fill == Background::Fill::transparent)
     result += "; what is transparent becomes white";
   return result;
 }
@@ -179,7 +179,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     const Pictures& pictures = work->pictures;
     const ExportSettings& settings = work->settings;
     const PictureOptions& options = work->options;
-    const Image* image = pictures.of(scene);
+    const Image* image = pictures.of(scene.layer());
     const std::string name = settings.path.filename().string();
     if (settings.film) {
       FilmOptions film{options, settings.first, settings.last, settings.loops};
@@ -201,7 +201,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, work] {
     last_ = work->settings;
     last_all_ = work->settings.last == last_frame_of(workspace_.document.scene());
-    workspace_.say(work->done);
+    workspace_.messages.say(work->done);
   });
 }
 
@@ -322,7 +322,7 @@ void ExportDialog::draw_look(float s) {
   ImGui::SetNextItemWidth(300 * s);
   if (ImGui::Combo("region", &region, kRegions, 3))
     settings_.region = static_cast<ExportSettings::Region>(region);
-  int background = settings_.background ? 1 + static_cast<int>(settings_.background->kind) : 0;
+  int background = settings_.background ? 1 + static_cast<int>(settings_.background->fill) : 0;
   ImGui::SetNextItemWidth(300 * s);
   if (ImGui::Combo("background", &background,
                    "As in the scene\0Transparent\0A colour\0The original\0")) {
@@ -330,10 +330,10 @@ void ExportDialog::draw_look(float s) {
       settings_.background.reset();
     else
       settings_.background = {
-          static_cast<Background::Kind>(background - 1),
+          static_cast<Background::Fill>(background - 1),
           settings_.background ? settings_.background->color : Background{}.color};
   }
-  if (!settings_.background || settings_.background->kind != Background::Kind::color) return;
+  if (!settings_.background || settings_.background->fill != Background::Fill::color) return;
   float color[3];
   for (size_t k = 0; k < 3; ++k)
     color[k] = static_cast<float>(settings_.background->color[k]) / 255;

@@ -69,9 +69,9 @@ void Jobs::draw(double scale) {
   const bool cancel = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
   if (cancel) {
     abandon();
-    workspace_.say("Cancelled.");
+    workspace_.messages.say("Cancelled.");
   } else if (job_->ended()) {
-    workspace_.complain(finish());
+    workspace_.messages.complain(finish());
   }
   if (!job_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

@@ -31,7 +31,8 @@ void KeysWindow::stop_waiting() {
 }
 
 void KeysWindow::say_lost(const std::vector<std::string>& labels) {
-  for (const std::string& label : labels) workspace_.say("'" + label + "' has lost this key.");
+  for (const std::string& label : labels)
+    workspace_.messages.say("'" + label + "' has lost this key.");
   changed_();
 }
 
@@ -63,7 +64,7 @@ void KeysWindow::export_keys() {
                    write_file(path, lower_case(path.extension().string()) == ".md"
                                         ? keys_markdown()
                                         : json_of_keys(all_keys()));
-                   workspace_.say("Exported " + path.filename().string() + ".");
+                   workspace_.messages.say("Exported " + path.filename().string() + ".");
                  } catch (const Error& error) {
                    return error.what();
                  }
@@ -77,7 +78,7 @@ void KeysWindow::import_keys() {
     try {
       const auto unknown = use_keys(keys_of_json(read_file(path), path.filename().string()));
       if (!unknown.empty())
-        workspace_.say(
+        workspace_.messages.say(
             "Not known here and left out: " + unknown[0] +
             (unknown.size() > 1 ? " and " + std::to_string(unknown.size() - 1) + " more." : "."));
       changed_();

@@ -20,34 +20,36 @@ struct Row {
 
 /// What the method can be: scenes are made when a row is run.
 void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
-  const Scene& scene = workspace.scene();
-  const Method& method = method_named(scene.method);
-  const auto add = [&](const std::string& label, bool is, std::function<void(Scene&)> change) {
-    rows.push_back({label, "", "", scene.has_cage(), is, [&workspace, label, change] {
-                      Scene after = workspace.scene();
+  const Deformation& deformation = workspace.shown.deformation();
+  const Method& method = method_named(deformation.method);
+  const auto add = [&](const std::string& label, bool is,
+                       std::function<void(Deformation&)> change) {
+    rows.push_back({label, "", "", deformation.has_cage(), is, [&workspace, label, change] {
+                      Deformation after = workspace.shown.deformation();
                       change(after);
                       workspace.commit(label, std::move(after));
                     }});
   };
   for (const Method& other : methods())
     add("Method: " + other.label, other.id == method.id,
-        [id = other.id](Scene& after) { after = with_method(std::move(after), id); });
+        [id = other.id](Deformation& after) { after = with_method(std::move(after), id); });
   for (const Preset& preset : method.presets) {
     const bool is = std::ranges::all_of(preset.parameters, [&](const auto& entry) {
-      return parameter(method, scene.parameters, entry.first) == entry.second;
+      return parameter(method, deformation.parameters, entry.first) == entry.second;
     });
     add("Preset: " + preset.label, is,
-        [preset](Scene& after) { after = with_preset(std::move(after), preset); });
+        [preset](Deformation& after) { after = with_preset(std::move(after), preset); });
   }
   for (const ParameterSpec& spec : method.parameters) {
     std::vector<std::string> names;
-    if (spec.kind == ParameterSpec::Kind::toggle) names = {"off", "on"};
-    if (spec.kind == ParameterSpec::Kind::choice)
+    if (spec.type == ParameterSpec::Type::toggle) names = {"off", "on"};
+    if (spec.type == ParameterSpec::Type::choice)
       for (const auto& option : spec.options) names.push_back(option.label);
     for (size_t i = 0; i < names.size(); ++i) {
       const double value = static_cast<double>(i);
-      add(spec.label + ": " + names[i], parameter(method, scene.parameters, spec.key) == value,
-          [key = spec.key, value](Scene& after) { after.parameters[key] = value; });
+      add(spec.label + ": " + names[i],
+          parameter(method, deformation.parameters, spec.key) == value,
+          [key = spec.key, value](Deformation& after) { after.parameters[key] = value; });
     }
   }
 }

@@ -8,9 +8,9 @@ namespace holomorph {
 void draw_missing_picture(Workspace& workspace, double scale, float above) {
   const std::vector<size_t> missing = workspace.document.without_picture();
   if (missing.empty()) return;
-  const Path file = layer_at(workspace.document.scene(), missing.front()).image->file;
+  const Path file = workspace.document.scene().layers[missing.front()]->image->file;
   const float s = static_cast<float>(scale);
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const float bottom = static_cast<float>(view.top + view.height) - std::max(24 * s, above);
   begin_card("Missing picture", {static_cast<float>(view.left + view.width / 2), bottom},
              {0.5f, 1.0f}, scale);
@@ -32,9 +32,9 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
 }
 
 float draw_cage_offer(Workspace& workspace, double scale) {
-  if (!workspace.document.image() || workspace.scene().has_cage()) return 0;
+  if (!workspace.document.image() || workspace.shown.deformation().has_cage()) return 0;
   const float s = static_cast<float>(scale);
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   begin_card("Cage offer",
              {static_cast<float>(view.left + view.width / 2),
               static_cast<float>(view.top + view.height) - 24 * s},
@@ -53,7 +53,7 @@ float draw_cage_offer(Workspace& workspace, double scale) {
   if (row) ImGui::NewLine();
   points_slider(workspace, 190 * s);
   ImGui::SameLine();
-  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+  ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
   const float height = ImGui::GetWindowHeight();
   end_card();
   return height + 32 * s;

@@ -19,29 +19,30 @@ void cell(const char* format, double value) {
 
 }  // namespace
 
-void ComparisonPanel::start(const Scene& scene) {
+void ComparisonPanel::start(const Deformation& deformation) {
   worker_ = {};  // stops and waits for the one before
   open_ = true;
   chosen_ = -1;
-  scene_ = scene;
+  deformation_ = deformation;
   rows_.clear();
   failure_.clear();
   working_ = true;
   mesh_ = nullptr;
-  worker_ = std::jthread([this, scene](std::stop_token stop) { work(scene, std::move(stop)); });
+  worker_ = std::jthread(
+      [this, deformation](std::stop_token stop) { work(deformation, std::move(stop)); });
 }
 
-void ComparisonPanel::work(const Scene& scene, std::stop_token stop) {
+void ComparisonPanel::work(const Deformation& deformation, std::stop_token stop) {
   std::string failure;
   try {
-    Rest rest = rest_of(scene, Precision::full);
-    rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest, {kVertices}));
+    Rest rest = rest_of(deformation, Precision::full);
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest, {kVertices}));
     {
       const std::lock_guard lock(mutex_);
       mesh_ = rest.mesh;
     }
     compare(
-        rest, pose_of(scene),
+        rest, pose_of(deformation),
         [&](const ComparedMap& row) {
           const std::lock_guard lock(mutex_);
           rows_.push_back(row);
@@ -59,7 +60,7 @@ void ComparisonPanel::work(const Scene& scene, std::stop_token stop) {
 
 void ComparisonPanel::draw(const Workspace& workspace, const OverlayStyle& style) {
   if (!open_) return;
-  if (draw_window(workspace, style)) start(workspace.scene());
+  if (draw_window(workspace, style)) start(workspace.shown.deformation());
   if (!open_) worker_.request_stop();
 }
 
@@ -68,7 +69,7 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
   const float s = static_cast<float>(style.scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::min(690 * s, display.x - 20);
-  const double middle = workspace.viewport.left + workspace.viewport.width / 2;
+  const double middle = workspace.display.viewport.left + workspace.display.viewport.width / 2;
   const float left =
       std::clamp(static_cast<float>(middle) - width / 2, 10.0f, display.x - width - 10);
   ImGui::SetNextWindowPos({left, display.y - 50 * s}, ImGuiCond_Appearing, {0, 1});
@@ -81,8 +82,8 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
   ImGui::TextDisabled("%s", working_ ? "Working; the plain methods take seconds..."
                                      : "Click a row to see its map over the picture.");
   bool again = false;
-  if (workspace.scene() != *scene_) {
-    ImGui::BeginDisabled(workspace.scene().method != "bounded");
+  if (workspace.shown.deformation() != *deformation_) {
+    ImGui::BeginDisabled(workspace.shown.deformation().method != "bounded");
     again = ImGui::Button("Compare again");
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -124,7 +125,7 @@ void ComparisonPanel::draw_table(double scale) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
     cell("%.3f", row.max_k);
     cell("%.3f", row.max_tau);
-    cell("%.0f", row.flips);
+    cell("%.0f", row.flipped_triangles);
     cell("%.2f", row.turning_number);
     if (i == 0) continue;  // nothing was solved for the reference
     cell("%.0f", row.milliseconds);
@@ -140,7 +141,7 @@ void ComparisonPanel::draw_map(const Workspace& workspace, const OverlayStyle& s
   const VectorXc& f = rows_[static_cast<size_t>(chosen_)].f;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const auto px = [&](int vertex) {
-    const Complex at = workspace.viewport.px_at_plane(f[vertex]);
+    const Complex at = workspace.display.viewport.px_at_plane(f[vertex]);
     return ImVec2(static_cast<float>(at.real()), static_cast<float>(at.imag()));
   };
   const float width = static_cast<float>(style.scale);

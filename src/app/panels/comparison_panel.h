@@ -16,8 +16,8 @@ class ComparisonPanel {
   /// `wake` is called by the worker for each row.
   explicit ComparisonPanel(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Opens the window and starts comparing for a scene of method `bounded`.
-  void start(const Scene& scene);
+  /// Opens the window and starts comparing for a deformation of method `bounded`.
+  void start(const Deformation& deformation);
   /// How many rows are done.
   int rows() const {
     const std::lock_guard lock(mutex_);
@@ -27,7 +27,7 @@ class ComparisonPanel {
   void draw(const Workspace& workspace, const OverlayStyle& style);
 
  private:
-  void work(const Scene& scene, std::stop_token stop);
+  void work(const Deformation& deformation, std::stop_token stop);
   /// Returns whether to compare again.
   bool draw_window(const Workspace& workspace, const OverlayStyle& style);
   void draw_table(double scale);
@@ -36,7 +36,7 @@ class ComparisonPanel {
   std::function<void()> wake_;
   bool open_ = false;
   int chosen_ = -1;  ///< row
-  std::optional<Scene> scene_;
+  std::optional<Deformation> deformation_;
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::shared_ptr<const Mesh> mesh_;

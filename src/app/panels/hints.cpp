@@ -9,18 +9,19 @@
 namespace holomorph {
 
 bool draw_hints(const Workspace& workspace, bool kept, double scale) {
-  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation = workspace.shown.own();
   const History& history = workspace.document.history();
-  const bool caged = scene.has_cage(),
+  const bool caged = deformation.has_cage(),
              bent = caged && history.can_undo() &&
-                    whole_pose_of(scene) != whole_pose_of(history.entries()[0].scene) &&
-                    (whole_pose_of(scene) != whole_pose_of(at_rest(scene)));
-  struct Step {
+                    whole_pose_of(deformation) !=
+                        whole_pose_of(history.entries()[0].scene.deformation()) &&
+                    (whole_pose_of(deformation) != whole_pose_of(at_rest(deformation)));
+  struct Hint {
     bool done;
     const char* what;
     std::string how;
   };
-  const Step steps[] = {
+  const Hint steps[] = {
       {caged, "Put a cage around the picture",
        "Make it from the picture, or draw it with " + key_of("tool.pen")},
       {bent, "Bend it",
@@ -29,12 +30,12 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
       {bent && kept, "Keep it",
        key_of("file.save") + " saves the scene, " + key_of("file.export") + " exports a picture"}};
   const float s = static_cast<float>(scale);
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   begin_card("First steps",
              {static_cast<float>(view.left) + 12 * s, static_cast<float>(view.top) + 12 * s},
              {0, 0}, scale);
   ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
-  const Step* next = std::ranges::find(steps, false, &Step::done);  // one at a time
+  const Hint* next = std::ranges::find(steps, false, &Hint::done);  // one at a time
   const bool all = next == std::end(steps);
   if (!all) {
     ImGui::Text("%d of %d   %s", static_cast<int>(next - steps) + 1,

@@ -19,18 +19,19 @@ void edit_number(const char* label, double value, const char* format, float spee
   double number = value;
   const bool changed =
       ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
-  if (changed && std::isfinite(number)) workspace.preview = edit(workspace.unedited(), number);
-  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
-    workspace.commit(step, *workspace.preview);
+  if (changed && std::isfinite(number))
+    workspace.shown.preview = edit(workspace.shown.base(), number);
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.shown.preview)
+    workspace.commit(step, *workspace.shown.preview);
 }
 
-void choice_combo(Workspace& workspace, const Scene& scene, const ParameterSpec& spec,
+void choice_combo(Workspace& workspace, const Deformation& deformation, const ParameterSpec& spec,
                   size_t chosen) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.72f);
   if (!begin_combo(spec.label.c_str(), spec.options[chosen].label.c_str())) return;
   for (size_t i = 0; i < spec.options.size(); ++i)
     if (ImGui::Selectable(spec.options[i].label.c_str(), i == chosen)) {
-      Scene after = scene;
+      Deformation after = deformation;
       after.parameters[spec.key] = static_cast<double>(i);
       workspace.commit(spec.label + ": " + spec.options[i].label, after);
     }
@@ -52,17 +53,17 @@ bool number_slider(const ParameterSpec& spec, double& value) {
 }
 
 /// A button for each preset; the one that is set is pressed in.
-void preset_buttons(Workspace& workspace, const Scene& scene, const Method& method) {
+void preset_buttons(Workspace& workspace, const Deformation& deformation, const Method& method) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
   for (const Preset& preset : method.presets) {
-    const Scene after = with_preset(scene, preset);
+    const Deformation after = with_preset(deformation, preset);
     const float width =
         ImGui::CalcTextSize(preset.label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (&preset != &method.presets.front()) {
       ImGui::SameLine(0, 4);
       if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
     }
-    const bool is_set = after.parameters == scene.parameters;
+    const bool is_set = after.parameters == deformation.parameters;
     if (is_set)
       ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     if (ImGui::Button(preset.label.c_str())) workspace.commit(preset.label, after);
@@ -71,40 +72,41 @@ void preset_buttons(Workspace& workspace, const Scene& scene, const Method& meth
 }
 
 void method_section(Workspace& workspace) {
-  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
-  const Method& method = method_named(scene.method);
+  const Deformation deformation =
+      workspace.shown.deformation();  // a copy: commits replace what scene() refers to
+  const Method& method = method_named(deformation.method);
   ImGui::SetNextItemWidth(-1);
   if (begin_combo("##method", method.label.c_str())) {
     for (const Method& row : methods()) {
       if (ImGui::Selectable(row.label.c_str(), row.id == method.id))
-        workspace.commit("Method: " + row.label, with_method(scene, row.id));
+        workspace.commit("Method: " + row.label, with_method(deformation, row.id));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
     }
     ImGui::EndCombo();
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", method.hint.c_str());
-  preset_buttons(workspace, scene, method);
+  preset_buttons(workspace, deformation, method);
   for (const ParameterSpec& spec : method.parameters) {
-    const double value = parameter(method, scene.parameters, spec.key);
-    if (spec.kind == ParameterSpec::Kind::choice) {
-      choice_combo(workspace, scene, spec, static_cast<size_t>(value));
-    } else if (spec.kind == ParameterSpec::Kind::toggle) {
+    const double value = parameter(method, deformation.parameters, spec.key);
+    if (spec.type == ParameterSpec::Type::choice) {
+      choice_combo(workspace, deformation, spec, static_cast<size_t>(value));
+    } else if (spec.type == ParameterSpec::Type::toggle) {
       bool on = value != 0;
       if (ImGui::Checkbox(spec.label.c_str(), &on)) {
-        Scene after = scene;
+        Deformation after = deformation;
         after.parameters[spec.key] = on ? 1 : 0;
         workspace.commit(spec.label, after);
       }
     } else {
-      ImGui::BeginDisabled(!is_used(method, scene.parameters, spec));
+      ImGui::BeginDisabled(!is_used(method, deformation.parameters, spec));
       double number = value;
       if (number_slider(spec, number)) {
-        Scene after = workspace.unedited();
+        Deformation after = workspace.shown.base();
         after.parameters[spec.key] = number;
-        workspace.preview = after;
+        workspace.shown.preview = after;
       }
-      if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
-        workspace.commit(spec.label, *workspace.preview);
+      if (ImGui::IsItemDeactivatedAfterEdit() && workspace.shown.preview)
+        workspace.commit(spec.label, *workspace.shown.preview);
       ImGui::EndDisabled();
     }
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
@@ -116,52 +118,55 @@ void method_section(Workspace& workspace) {
 
 /// A corner's own angles, and the tension of the edge behind it.
 void corner_angles(Workspace& workspace, Index vertex) {
-  const Scene scene = workspace.scene();
-  if (!follows(scene, "angles") || workspace.posture == Posture::rest) return;
-  if (!is_corner(scene, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
-  const PoseCorner pose = corner_at(scene, vertex);
-  const double turn = (pose.before + pose.after) / 2, opening = corner_opening(scene, vertex);
+  const Deformation deformation = workspace.shown.deformation();
+  if (!follows(deformation, "angles") || workspace.mode == EditMode::rest) return;
+  if (!is_corner(deformation, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
+  const PoseCorner pose = corner_at(deformation, vertex);
+  const double turn = (pose.before + pose.after) / 2, opening = corner_opening(deformation, vertex);
   const auto edit = [&](const char* label, double radians, const char* step, auto change) {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-    edit_number(label, radians * 180 / kPi, "%.1f", 0.5f, workspace, step,
-                [&](const Scene& s, double degrees) { return change(s, degrees * kPi / 180); });
+    edit_number(
+        label, radians * 180 / kPi, "%.1f", 0.5f, workspace, step,
+        [&](const Deformation& s, double degrees) { return change(s, degrees * kPi / 180); });
   };
-  edit("degrees turned", turn, "Turn corner", [&](const Scene& s, double angle) {
+  edit("degrees turned", turn, "Turn corner", [&](const Deformation& s, double angle) {
     const PoseCorner now = corner_at(s, vertex);
     return corner_turned(s, vertex, angle - (now.before + now.after) / 2);
   });
-  edit("degrees opened", opening, "Open corner", [&](const Scene& s, double angle) {
+  edit("degrees opened", opening, "Open corner", [&](const Deformation& s, double angle) {
     return corner_opened(s, vertex, (angle - corner_opening(s, vertex)) / 2);
   });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("tension after it", pose.tension, "%.2f", 0.01f, workspace, "Tension",
-              [&](const Scene& s, double tension) { return with_tension(s, vertex, tension); });
+  edit_number(
+      "tension after it", pose.tension, "%.2f", 0.01f, workspace, "Tension",
+      [&](const Deformation& s, double tension) { return with_tension(s, vertex, tension); });
 }
 
 void one_handle(Workspace& workspace, Handle handle) {
-  const Scene scene = workspace.scene();  // a copy: commits replace what scene() refers to
-  const Posture posture = workspace.posture;
-  const Complex z = position_of(scene, handle, posture);
+  const Deformation deformation =
+      workspace.shown.deformation();  // a copy: commits replace what scene() refers to
+  const EditMode mode = workspace.mode;
+  const Complex z = position_of(deformation, handle, mode);
   const bool pin = handle.kind == Handle::Kind::pin;
   ImGui::Text("%s %d, %s",
-              pin                                       ? "Pin"
-              : handle.kind == Handle::Kind::stroke     ? "Stroke"
-              : handle.control > 0                      ? "Curve point of segment"
-              : is_smooth(scene, handle.index, posture) ? "Smooth cage point"
-                                                        : "Cage point",
-              static_cast<int>(handle.index) + 1, posture == Posture::rest ? "at rest" : "posed");
-  const float speed = static_cast<float>(1 / workspace.viewport.zoom);
+              pin                                          ? "Pin"
+              : handle.kind == Handle::Kind::stroke        ? "Stroke"
+              : handle.control > 0                         ? "Curve point of segment"
+              : is_smooth(deformation, handle.index, mode) ? "Smooth cage point"
+                                                           : "Cage point",
+              static_cast<int>(handle.index) + 1, mode == EditMode::rest ? "at rest" : "posed");
+  const float speed = static_cast<float>(1 / workspace.display.viewport.zoom);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
-    return placed(s, handle, {x, position_of(s, handle, posture).imag()}, posture);
+  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Deformation& s, double x) {
+    return placed(s, handle, {x, position_of(s, handle, mode).imag()}, mode);
   });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
-    return placed(s, handle, {position_of(s, handle, posture).real(), y}, posture);
+  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Deformation& s, double y) {
+    return placed(s, handle, {position_of(s, handle, mode).real(), y}, mode);
   });
   if (handle.kind == Handle::Kind::stroke) return;
   if (!pin) {
-    ImGui::Text("Segment of degree %d", cage_of(scene, posture).degree(handle.index));
+    ImGui::Text("Segment of degree %d", cage_of(deformation, mode).degree(handle.index));
     for (const char* id : {"cage.raise", "cage.lower"}) {
       ImGui::SameLine();
       if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
@@ -170,34 +175,37 @@ void one_handle(Workspace& workspace, Handle handle) {
     if (handle.control == 0) corner_angles(workspace, handle.index);
     return;
   }
-  int depth = scene.pins[handle.index].depth;
+  int depth = deformation.pins[handle.index].depth;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (ImGui::InputInt("depth", &depth)) {
-    Scene after = scene;
+    Deformation after = deformation;
     after.pins[handle.index].depth = std::clamp(depth, -kMostDepth, kMostDepth);
     workspace.commit_or_amend("Pin depth", std::move(after));
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "Where parts of the picture overlap, what is around a higher pin is drawn on top");
-  if (posture == Posture::rest) return;
-  if (const auto place = workspace.map().pin_place(scene, static_cast<size_t>(handle.index)))
-    if (const double off = std::abs(*place - z); off * workspace.viewport.zoom > 1)
+  if (mode == EditMode::rest) return;
+  if (const auto place = workspace.map().pin_place(deformation, static_cast<size_t>(handle.index)))
+    if (const double off = std::abs(*place - z); off * workspace.display.viewport.zoom > 1)
       ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
-  bool turns = scene.pins[handle.index].angle.has_value();
+  bool turns = deformation.pins[handle.index].angle.has_value();
   if (ImGui::Checkbox("Turns the picture", &turns)) {
-    Scene after = scene;
+    Deformation after = deformation;
     after.pins[handle.index].angle = turns ? std::optional(0.0) : std::nullopt;
     workspace.commit(turns ? "Pin turns" : "Free pin angle", after);
   }
-  if (!scene.pins[handle.index].angle || !workspace.scene().pins[handle.index].angle) return;
+  if (!deformation.pins[handle.index].angle ||
+      !workspace.shown.deformation().pins[handle.index].angle)
+    return;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number(
-      "degrees", *scene.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace, "Turn pin",
-      [&](const Scene& s, double degrees) { return turned(s, handle.index, degrees * kPi / 180); });
+  edit_number("degrees", *deformation.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace,
+              "Turn pin", [&](const Deformation& s, double degrees) {
+                return turned(s, handle.index, degrees * kPi / 180);
+              });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("scale", 100 * scene.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
-              "Scale at pin", [&](const Scene& s, double percent) {
+  edit_number("scale", 100 * deformation.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
+              "Scale at pin", [&](const Deformation& s, double percent) {
                 return scaled(s, handle.index,
                               std::max(percent, 1.0) / 100 / s.pins[handle.index].scale);
               });
@@ -205,21 +213,23 @@ void one_handle(Workspace& workspace, Handle handle) {
 
 void many_handles(Workspace& workspace) {
   const Selection selection = workspace.selection;
-  const Posture posture = workspace.posture;
+  const EditMode mode = workspace.mode;
   ImGui::Text("%d handles, around", static_cast<int>(selection.size()));
-  const Complex center = center_of(workspace.scene(), selection, posture);
-  const float speed = static_cast<float>(1 / workspace.viewport.zoom);
-  const auto moved_to = [&](const Scene& scene, Complex to) {
-    return moved(scene, selection, to - center_of(scene, selection, posture), posture);
+  const Complex center = center_of(workspace.shown.deformation(), selection, mode);
+  const float speed = static_cast<float>(1 / workspace.display.viewport.zoom);
+  const auto moved_to = [&](const Deformation& deformation, Complex to) {
+    return moved(deformation, selection, to - center_of(deformation, selection, mode), mode);
   };
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("x", center.real(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double x) {
-    return moved_to(s, {x, center_of(s, selection, posture).imag()});
-  });
+  edit_number("x", center.real(), "%.3f", speed, workspace, "Move",
+              [&](const Deformation& s, double x) {
+                return moved_to(s, {x, center_of(s, selection, mode).imag()});
+              });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("y", center.imag(), "%.3f", speed, workspace, "Move", [&](const Scene& s, double y) {
-    return moved_to(s, {center_of(s, selection, posture).real(), y});
-  });
+  edit_number("y", center.imag(), "%.3f", speed, workspace, "Move",
+              [&](const Deformation& s, double y) {
+                return moved_to(s, {center_of(s, selection, mode).real(), y});
+              });
 }
 
 /// A number that is 0 (or 100 %) again after each step: what is done is relative.
@@ -232,27 +242,29 @@ void step_number(const char* label, double neutral, const char* format, Workspac
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (ImGui::DragFloat(label, &number, 0.5f, 0, 0, format) && std::isfinite(number)) {
     storage.SetFloat(id, number);
-    workspace.preview = edit(workspace.unedited(), static_cast<double>(number));
+    workspace.shown.preview = edit(workspace.shown.base(), static_cast<double>(number));
   }
-  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.preview)
-    workspace.commit(step, *workspace.preview);
+  if (ImGui::IsItemDeactivatedAfterEdit() && workspace.shown.preview)
+    workspace.commit(step, *workspace.shown.preview);
   if (!ImGui::IsItemActive()) storage.SetFloat(id, static_cast<float>(neutral));
 }
 
 /// Turning and scaling by numbers, about the middle of what is selected.
 void turn_and_scale(Workspace& workspace) {
   const Selection selection = workspace.selection;
-  const Posture posture = workspace.posture;
-  step_number("turn by", 0, "%.1f degrees", workspace, "Turn", [&](const Scene& s, double degrees) {
-    const double angle = degrees * kPi / 180;
-    return transformed(s, selection, Affine::turning(angle, center_of(s, selection, posture)),
-                       angle, posture);
-  });
-  step_number("scale by", 100, "%.1f %%", workspace, "Scale", [&](const Scene& s, double percent) {
-    const double scale = std::max(percent, 1.0) / 100;
-    return transformed(s, selection,
-                       Affine::scaling(scale, scale, center_of(s, selection, posture)), 0, posture);
-  });
+  const EditMode mode = workspace.mode;
+  step_number(
+      "turn by", 0, "%.1f degrees", workspace, "Turn", [&](const Deformation& s, double degrees) {
+        const double angle = degrees * kPi / 180;
+        return transformed(s, selection, Affine::turning(angle, center_of(s, selection, mode)),
+                           angle, mode);
+      });
+  step_number(
+      "scale by", 100, "%.1f %%", workspace, "Scale", [&](const Deformation& s, double percent) {
+        const double scale = std::max(percent, 1.0) / 100;
+        return transformed(s, selection,
+                           Affine::scaling(scale, scale, center_of(s, selection, mode)), 0, mode);
+      });
 }
 
 void selection_section(Workspace& workspace) {
@@ -283,21 +295,22 @@ std::string counted(size_t count, const std::string& what, bool used) {
 }
 
 void cage_section(Workspace& workspace) {
-  const Scene& scene = workspace.scene();
-  if (scene.has_cage())
+  const Deformation& deformation = workspace.shown.deformation();
+  if (deformation.has_cage())
     ImGui::Text(
-        "%d cage points, %s, %s", static_cast<int>(scene.rest.size()),
-        counted(scene.pins.size(), "pin", method_named(scene.method).uses_pins).c_str(),
-        counted(scene.strokes.size(), "stroke", method_named(scene.method).uses_strokes).c_str());
+        "%d cage points, %s, %s", static_cast<int>(deformation.rest.size()),
+        counted(deformation.pins.size(), "pin", method_named(deformation.method).uses_pins).c_str(),
+        counted(deformation.strokes.size(), "stroke", method_named(deformation.method).uses_strokes)
+            .c_str());
   else
     ImGui::TextDisabled("No cage yet.");
   points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
-  float margin = static_cast<float>(std::max(workspace.auto_cage_margin, -1.0));
+  float margin = static_cast<float>(std::max(workspace.tools.auto_cage.margin, -1.0));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
                          ImGuiSliderFlags_AlwaysClamp))
-    workspace.auto_cage_margin = margin < 0 ? -1 : margin;
-  ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+    workspace.tools.auto_cage.margin = margin < 0 ? -1 : margin;
+  ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
   const Action& action = action_named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);
@@ -311,7 +324,8 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
   static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch",
                                          "view.checker"};
   ImGui::SetNextItemWidth(-1);
-  if (begin_combo("##view", action_named(kIds[static_cast<int>(workspace.view)]).label.c_str())) {
+  if (begin_combo("##view",
+                  action_named(kIds[static_cast<int>(workspace.display.view)]).label.c_str())) {
     for (const char* id : kIds) {
       const Action& action = action_named(id);
       ImGui::BeginDisabled(!action.enabled(workspace));
@@ -321,11 +335,11 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
     }
     ImGui::EndCombo();
   }
-  if (is_heat(workspace.view)) {
-    ImGui::Checkbox("Fit the range to the map", &workspace.automatic_range);
+  if (is_heat(workspace.display.view)) {
+    ImGui::Checkbox("Fit the range to the map", &workspace.display.automatic_range);
     ImGui::TextDisabled("%.3g to %.3g", heat.low, heat.high);
   }
-  ImGui::Checkbox("Mesh", &workspace.show_mesh);
+  ImGui::Checkbox("Mesh", &workspace.display.show_mesh);
 }
 
 void history_section(Workspace& workspace) {

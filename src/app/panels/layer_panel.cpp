@@ -32,7 +32,7 @@ void background_row(Workspace& workspace) {
   static constexpr const char* kNames[] = {"Transparent", "A colour", "The original"};
   Scene scene = workspace.document.scene();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (begin_combo("background", kNames[static_cast<int>(scene.background.kind)])) {
+  if (begin_combo("background", kNames[static_cast<int>(scene.background.fill)])) {
     for (int i = 0; i < 3; ++i)
       if (const Action& action = action_named(kIds[i]);
           ImGui::Selectable(kNames[i], action.checked(workspace)))
@@ -41,7 +41,7 @@ void background_row(Workspace& workspace) {
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("What is seen and exported where the picture is transparent or has left");
-  if (scene.background.kind != Background::Kind::color) return;
+  if (scene.background.fill != Background::Fill::color) return;
   float color[3];
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
@@ -49,15 +49,15 @@ void background_row(Workspace& workspace) {
     for (size_t k = 0; k < 3; ++k)
       scene.background.color[k] =
           static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
-    workspace.commit_or_amend("Background colour", scene, From::document);
+    workspace.commit_or_amend_layers("Background color", scene);
   }
 }
 
 }  // namespace
 
 void LayerPanel::rename(const Scene& scene) {
-  named_ = scene.layer.id;
-  name_ = title_of_layer(scene, edited_layer(scene));
+  named_ = scene.layer().id;
+  name_ = title_of_layer(scene, scene.edited);
   starts_ = true;
 }
 
@@ -70,17 +70,17 @@ void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
   named_ = 0;
   if (cancelled || name_.empty()) return;
   const Scene& scene = workspace.document.scene();
-  LayerState state = layer_at(scene, layer).layer;
+  Layer state = *scene.layers[layer];
   state.name = name_;
-  workspace.commit_layers("Name layer", with_layer_state(scene, layer, state));
+  workspace.commit_layers("Name layer", with_layer_at(scene, layer, state));
 }
 
 void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
   const Scene& scene = workspace.document.scene();
-  LayerState state = layer_at(scene, layer).layer;
+  Layer state = *scene.layers[layer];
   ImGui::PushID(state.id);
   const auto change = [&](const char* label) {
-    workspace.commit_layers(label, with_layer_state(workspace.document.scene(), layer, state));
+    workspace.commit_layers(label, with_layer_at(workspace.document.scene(), layer, state));
   };
   if (toggle("shown", state.visible, kShown, kHidden,
              state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
@@ -99,7 +99,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
     draw_name(workspace, layer);
   } else {
     const std::string title = title_of_layer(workspace.document.scene(), layer);
-    const bool edited = layer == edited_layer(workspace.document.scene());
+    const bool edited = layer == workspace.document.scene().edited;
     if (text_row(0, title, edited, {0, ImGui::GetTextLineHeight()},
                  ImGuiSelectableFlags_AllowDoubleClick)) {
       workspace.choose_layer(layer);
@@ -114,13 +114,13 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
 
 void LayerPanel::draw(Workspace& workspace, double scale) {
   const float s = static_cast<float>(scale);
-  const size_t count = layer_count(workspace.document.scene());
+  const size_t count = workspace.document.scene().layers.size();
   // As many as fit without pushing everything else away.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
   begin_part("rows",
              {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
-  for (size_t i = layer_count(workspace.document.scene()); i-- > 0;)
-    if (i < layer_count(workspace.document.scene())) draw_row(workspace, i, s);
+  for (size_t i = workspace.document.scene().layers.size(); i-- > 0;)
+    if (i < workspace.document.scene().layers.size()) draw_row(workspace, i, s);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {

@@ -81,13 +81,13 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     ImGui::PushID(text);
     if (ImGui::SmallButton("Show me")) {
-      workspace.posture = Posture::pose;
-      workspace.viewport.center = where;
-      workspace.toasts.push_back({text, true, where});
+      workspace.mode = EditMode::pose;
+      workspace.display.viewport.center = where;
+      workspace.messages.toasts.push_back({text, true, where});
     }
     ImGui::PopID();
   };
-  const double turns = found.boundary_turns;
+  const double turns = found.turning_number;
   const int winds = static_cast<int>(std::lround(turns)) - 1;
   if (!found.folds()) {
     ImGui::Text("\uf00c Nothing folds");

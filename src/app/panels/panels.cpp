@@ -97,7 +97,7 @@ void menu_of(const char* name, Workspace& workspace) {
 
 void points_slider(Workspace& workspace, float width) {
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("points", &workspace.auto_cage_vertices, 4, 200, "%d",
+  ImGui::SliderInt("points", &workspace.tools.auto_cage.vertices, 4, 200, "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("For the next cage that is made from the picture; an opaque one gets four");
@@ -121,7 +121,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelF
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
       points_slider(workspace, 160);
-      ImGui::Checkbox("curved", &workspace.auto_cage_curved);
+      ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
     }
     if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {

@@ -9,6 +9,7 @@
 #include "edit/actions/actions.h"
 #include "edit/tools/tool.h"
 #include "scene/preferences.h"
+#include "scene/recovery.h"
 
 namespace holomorph {
 

@@ -34,7 +34,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 %s", map.error()->what());
     if (const auto where = map.error()->where()) {
       ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *where;
+      if (ImGui::SmallButton("Show me")) workspace.display.viewport.center = *where;
     }
   } else {
     hint = status.hint;
@@ -59,16 +59,16 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
         std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
     used = std::min(used, static_cast<int>(sizeof right) - 1);
   };
-  const Influence& influence = workspace.influence;
-  if (influence.soft) add("Soft, %.0f   ", influence.reach);
-  if (influence.symmetric) add("%s   ", "Symmetry");
-  if (workspace.snaps) add("%s   ", "Snap");
+  const DragOptions& drag_options = workspace.tools.drag;
+  if (drag_options.soft) add("Soft, %.0f   ", drag_options.reach);
+  if (drag_options.symmetric) add("%s   ", "Symmetry");
+  if (workspace.tools.snaps) add("%s   ", "Snap");
   if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
   if (status.cursor_at_rest)
     add("from %.1f, %.1f   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
-  if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.viewport.zoom);
+  if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.display.viewport.zoom);
   if (map.has_map()) {
-    add("%s: ", method_named(workspace.scene().method).label.c_str());
+    add("%s: ", method_named(workspace.shown.deformation().method).label.c_str());
     const bool closed_form = map.map().status == SampledMap::Status::exact;
     add("%s%.2f ms%s   ",
         closed_form ? "" : (std::string(name_of(map.map().status)) + ", ").c_str(),

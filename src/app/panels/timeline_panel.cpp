@@ -48,13 +48,13 @@ void tool_button(const char* id, Workspace& workspace, float size) {
 
 /// Beside the last one; a gesture that starts on it is a step of its own.
 void tell_of_item(Workspace& workspace, const char* tooltip) {
-  if (ImGui::IsItemActivated()) workspace.carried_on.reset();
+  if (ImGui::IsItemActivated()) workspace.end_mergeable_step();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
   ImGui::SameLine();
 }
 
 void draw_time(Workspace& workspace, float s) {
-  double time = workspace.timeline.time;
+  double time = workspace.shown.timeline.time;
   ImGui::SetNextItemWidth(76 * s);
   if (ImGui::DragScalar("##time", ImGuiDataType_Double, &time, 0.01f, nullptr, nullptr, "%.2f s") &&
       std::isfinite(time))
@@ -64,10 +64,10 @@ void draw_time(Workspace& workspace, float s) {
 
 void draw_blend(Workspace& workspace, float s) {
   AnimationSettings settings = workspace.document.scene().animation;
-  int blend = settings.straight ? 1 : 0;
+  int blend = settings.linear_blend ? 1 : 0;
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
-    settings.straight = blend == 1;
+    settings.linear_blend = blend == 1;
     workspace.commit_layers("In-betweens", with_animation(workspace.document.scene(), settings));
   }
   tell_of_item(workspace,
@@ -77,23 +77,24 @@ void draw_blend(Workspace& workspace, float s) {
 
 /// What the key at the time has.
 void draw_key_numbers(Workspace& workspace, float s) {
-  Scene scene = workspace.document.scene();
-  const size_t key = key_at(scene, workspace.timeline.time);
-  if (key >= scene.keyframes.size()) return;
+  Deformation deformation = workspace.shown.own();
+  const size_t key = key_at(deformation, workspace.shown.timeline.time);
+  if (key >= deformation.keyframes.size()) return;
   if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // its menu has them, too
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
-  int ease = static_cast<int>(scene.keyframes[key].ease);
+  int ease = static_cast<int>(deformation.keyframes[key].ease);
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
-    workspace.commit("Ease", with_ease(scene, key, static_cast<Ease>(ease)), From::document);
+    workspace.commit("Ease", with_ease(deformation, key, static_cast<Ease>(ease)),
+                     EditBase::document);
   tell_of_item(workspace, "How this key goes on to the next one");
   if (key == 0) return;
-  int& turns = scene.keyframes[key].turns;
+  int& turns = deformation.keyframes[key].turns;
   ImGui::SetNextItemWidth(96 * s);
   if (ImGui::InputInt("##turns", &turns, 1, 1)) {
     turns = std::clamp(turns, -kMostTurns, kMostTurns);
-    workspace.commit_or_amend("Whole turns", scene, From::document);
+    workspace.commit_or_amend("Whole turns", deformation, EditBase::document);
   }
   tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
 }
@@ -122,32 +123,33 @@ double snapped(const Scene& scene, double time) {
   return time_of_frame(scene, std::max(0, frame_at(scene, time)));
 }
 
-std::optional<size_t> key_under_pointer(const Scene& scene, const Ruler& ruler, float s) {
+std::optional<size_t> key_under_pointer(const Deformation& deformation, const Ruler& ruler,
+                                        float s) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (mouse.y <= ruler.bottom - 24 * s) return {};
   std::optional<size_t> under;
-  for (size_t i = 0; i < scene.keyframes.size(); ++i)
-    if (std::abs(ruler.x(scene.keyframes[i].time) - mouse.x) < 8 * s) under = i;
+  for (size_t i = 0; i < deformation.keyframes.size(); ++i)
+    if (std::abs(ruler.x(deformation.keyframes[i].time) - mouse.x) < 8 * s) under = i;
   return under;
 }
 
 /// The menu of the key at the time, while it is open.
 void draw_key_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("key")) return;
-  const Scene scene = workspace.document.scene();
-  const size_t key = key_at(scene, workspace.timeline.time);
-  if (key < scene.keyframes.size()) {
+  const Deformation deformation = workspace.shown.own();
+  const size_t key = key_at(deformation, workspace.shown.timeline.time);
+  if (key < deformation.keyframes.size()) {
     for (const auto& [label, ease] :
          {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
-      if (ImGui::MenuItem(label, "", scene.keyframes[key].ease == ease))
-        workspace.commit("Ease", with_ease(scene, key, ease), From::document);
+      if (ImGui::MenuItem(label, "", deformation.keyframes[key].ease == ease))
+        workspace.commit("Ease", with_ease(deformation, key, ease), EditBase::document);
     ImGui::Separator();
-    int turns = scene.keyframes[key].turns;
+    int turns = deformation.keyframes[key].turns;
     ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
     if (key > 0 && ImGui::InputInt("whole turns before it", &turns)) {
-      Scene after = scene;
+      Deformation after = deformation;
       after.keyframes[key].turns = std::clamp(turns, -kMostTurns, kMostTurns);
-      workspace.commit_or_amend("Whole turns", after, From::document);
+      workspace.commit_or_amend("Whole turns", after, EditBase::document);
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Delete key", "Del")) run(action_named("time.delete_key"), workspace);
@@ -173,16 +175,16 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
     list.AddLine({x, ruler.top + 0.45f * height}, {x, ruler.bottom}, line, 1);
     list.AddText({x + 3 * s, ruler.top + 1 * s}, text, label);
   }
-  const Scene& scene = workspace.document.scene();
-  const size_t here = key_at(scene, workspace.timeline.time);
-  for (size_t i = 0; i < scene.keyframes.size(); ++i) {
-    const ImVec2 at(ruler.x(scene.keyframes[i].time), middle);
-    const bool plays = fits(scene, scene.keyframes[i].pose);
+  const Deformation& deformation = workspace.shown.own();
+  const size_t here = key_at(deformation, workspace.shown.timeline.time);
+  for (size_t i = 0; i < deformation.keyframes.size(); ++i) {
+    const ImVec2 at(ruler.x(deformation.keyframes[i].time), middle);
+    const bool plays = fits(deformation, deformation.keyframes[i].pose);
     const ImU32 color = i == here || hovered == i ? accent : ImGui::GetColorU32(ImGuiCol_Text);
-    draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, scene.keyframes[i].ease, plays);
+    draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, deformation.keyframes[i].ease, plays);
   }
-  const float x = ruler.x(std::min(workspace.timeline.time, ruler.length));
-  const ImU32 head = workspace.timeline.shows ? accent : text;
+  const float x = ruler.x(std::min(workspace.shown.timeline.time, ruler.length));
+  const ImU32 head = workspace.shown.timeline.shows ? accent : text;
   list.AddLine({x, ruler.top}, {x, ruler.bottom}, head, 2 * s);
   list.AddTriangleFilled({x - 6 * s, ruler.top}, {x + 6 * s, ruler.top}, {x, ruler.top + 8 * s},
                          head);
@@ -207,38 +209,39 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   // Asked anew each time: commits replace it.
-  const auto scene = [&]() -> const Scene& { return workspace.document.scene(); };
+  const auto own = [&]() -> const Deformation& { return workspace.shown.own(); };
   if (held_ == Held::nothing)
-    length_ = std::max({2.0, 1.1 * length_of(scene()), 1.02 * workspace.timeline.time});
+    length_ = std::max(
+        {2.0, 1.1 * length_of(workspace.document.scene()), 1.02 * workspace.shown.timeline.time});
   const Ruler ruler{corner.x + 10 * s, std::max(1.0f, room.x - 20 * s), corner.y,
                     corner.y + std::max(1.0f, room.y), length_};
   ImGui::InvisibleButton("track", {std::max(1.0f, room.x), std::max(1.0f, room.y)});
   std::optional<size_t> hovered;
-  if (ImGui::IsItemHovered()) hovered = key_under_pointer(scene(), ruler, s);
+  if (ImGui::IsItemHovered()) hovered = key_under_pointer(own(), ruler, s);
   if (ImGui::IsItemActivated()) {
-    workspace.timeline.playing = false;
-    workspace.carried_on.reset();
+    workspace.shown.timeline.playing = false;
+    workspace.end_mergeable_step();
     held_ = hovered ? Held::key : Held::time;
     key_ = hovered.value_or(0);
     if (hovered) {
-      workspace.go_to_time(scene().keyframes[*hovered].time);
-      workspace.timeline.chosen = true;
+      workspace.go_to_time(own().keyframes[*hovered].time);
+      workspace.shown.timeline.chosen = true;
       workspace.selection.clear();  // Delete means the key now
     }
   }
   if (ImGui::IsItemActive()) {
-    drag(workspace, snapped(scene(), ruler.time(ImGui::GetIO().MousePos.x)), s);
+    drag(workspace, snapped(workspace.document.scene(), ruler.time(ImGui::GetIO().MousePos.x)), s);
     hovered = held_ == Held::key ? std::optional(key_) : std::nullopt;
   } else {
     held_ = Held::nothing;
   }
   if (hovered && ImGui::IsMouseClicked(1)) {
-    workspace.go_to_time(scene().keyframes[*hovered].time);
+    workspace.go_to_time(own().keyframes[*hovered].time);
     ImGui::OpenPopup("key");
   }
   if (hovered && held_ == Held::nothing)
-    ImGui::SetTooltip("%.2f s%s", scene().keyframes[*hovered].time,
-                      fits(scene(), scene().keyframes[*hovered].pose)
+    ImGui::SetTooltip("%.2f s%s", own().keyframes[*hovered].time,
+                      fits(own(), own().keyframes[*hovered].pose)
                           ? "; drag to move, right-click for more"
                           : ": it has other points than the scene, and does not play");
   draw_ruler(workspace, ruler, hovered, s);
@@ -247,17 +250,17 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
 
 /// Takes the time or a key along.
 void TimelinePanel::drag(Workspace& workspace, double time, float s) {
-  const Scene& scene = workspace.document.scene();
-  if (held_ == Held::time && time != workspace.timeline.time) workspace.go_to_time(time);
-  if (held_ != Held::key || key_ >= scene.keyframes.size() || !ImGui::IsMouseDragging(0, 3 * s) ||
-      time == scene.keyframes[key_].time || key_at(scene, time) < scene.keyframes.size())
+  const Deformation& own = workspace.shown.own();
+  if (held_ == Held::time && time != workspace.shown.timeline.time) workspace.go_to_time(time);
+  if (held_ != Held::key || key_ >= own.keyframes.size() || !ImGui::IsMouseDragging(0, 3 * s) ||
+      time == own.keyframes[key_].time || key_at(own, time) < own.keyframes.size())
     return;
-  auto [after, number] = with_key_moved(scene, key_, time);
-  workspace.commit_or_amend("Move key", after, From::document);
-  if (workspace.document.scene() != after) return;
+  auto [after, number] = with_key_moved(own, key_, time);
+  workspace.commit_or_amend("Move key", after, EditBase::document);
+  if (workspace.shown.own() != after) return;
   key_ = number;
   workspace.go_to_time(time);
-  workspace.timeline.chosen = true;
+  workspace.shown.timeline.chosen = true;
 }
 
 void TimelinePanel::draw(Workspace& workspace, double scale) {

@@ -17,14 +17,14 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   // A place that a message is about is another one after the next step.
   std::erase_if(shown_,
                 [&](const Shown& shown) { return shown.toast.where && shown.step != step; });
-  for (Toast& toast : std::exchange(workspace.toasts, {})) {
+  for (Toast& toast : std::exchange(workspace.messages.toasts, {})) {
     // Said again it is renewed, not said twice.
     std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
   }
   const float s = static_cast<float>(style.scale);
-  const Viewport& view = workspace.viewport;
+  const Viewport& view = workspace.display.viewport;
   const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
   // Below the menu, but from the status bar upwards over the welcome page, which begins with its
   // title.
@@ -50,7 +50,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
     ImGui::TextUnformatted((toast.problem ? "\uf071  " + toast.text : toast.text).c_str());
     ImGui::PopTextWrapPos();
     if (toast.where) {
-      if (ImGui::SmallButton("Show me")) workspace.viewport.center = *toast.where;
+      if (ImGui::SmallButton("Show me")) workspace.display.viewport.center = *toast.where;
       draw_marker(workspace, *toast.where, style);
     }
     y += (upwards ? -1 : 1) * (ImGui::GetWindowHeight() + 8 * s);

@@ -22,28 +22,28 @@ int deepest_vertex(const Mesh& mesh, const Cage& cage) {
 
 AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
                    const Points& samples, Precision precision)
-    : coordinates_(std::move(coordinates)), ways_(mesh, coordinates_->cage(), precision) {
+    : coordinates_(std::move(coordinates)), paths_(mesh, coordinates_->cage(), precision) {
   const Cage& cage = coordinates_->cage();
   const int root = deepest_vertex(mesh, cage);
   anchor_ = mesh.vertices[static_cast<size_t>(root)];
   at_anchor_ = coordinates_->at({&anchor_, 1}).imag();
   const MeshTree tree(mesh, root);
   if (samples == mesh.vertices) {
-    for (const MeshTree::Edge& edge : tree.edges()) ways_.add(edge.from, edge.to);
+    for (const MeshTree::Edge& edge : tree.edges()) paths_.add(edge.from, edge.to);
     nodes_of_samples_.resize(samples.size());
     std::iota(nodes_of_samples_.begin(), nodes_of_samples_.end(), 0);
   } else {
     std::vector<char> wanted(mesh.vertices.size(), 0);
-    for (const Complex& z : samples) wanted[static_cast<size_t>(ways_.vertex_near(z))] = 1;
+    for (const Complex& z : samples) wanted[static_cast<size_t>(paths_.vertex_near(z))] = 1;
     for (auto edge = tree.edges().rbegin(); edge != tree.edges().rend(); ++edge)
       if (wanted[static_cast<size_t>(edge->to)]) wanted[static_cast<size_t>(edge->from)] = 1;
     for (const MeshTree::Edge& edge : tree.edges())
-      if (wanted[static_cast<size_t>(edge.to)]) ways_.add(edge.from, edge.to);
-    for (const Complex& z : samples) nodes_of_samples_.push_back(ways_.add_node(z));
+      if (wanted[static_cast<size_t>(edge.to)]) paths_.add(edge.from, edge.to);
+    for (const Complex& z : samples) nodes_of_samples_.push_back(paths_.add_node(z));
   }
   angles_.resize(cage.size());
   for (Index j = 0; j < cage.size(); ++j) angles_[j] = coordinates_->angle(j);
-  const MatrixXc h = rows(ways_.places());
+  const MatrixXc h = rows(paths_.places());
   const auto keep = [&]<class T>(Parts<T> parts) {
     parts.re = h.real().template cast<T>();
     parts.im = h.imag().template cast<T>();
@@ -85,8 +85,8 @@ VectorXd AngleMap::exponents(const VectorXd& theta) const {
 }
 
 VectorXc AngleMap::integral(const VectorXc& values) const {
-  VectorXc nodes = VectorXc::Zero(ways_.nodes());
-  ways_.integrate(values, exponents(theta_), nodes);
+  VectorXc nodes = VectorXc::Zero(paths_.nodes());
+  paths_.integrate(values, exponents(theta_), nodes);
   VectorXc f(static_cast<Index>(nodes_of_samples_.size()));
   for (Index i = 0; i < f.size(); ++i) f[i] = nodes[nodes_of_samples_[static_cast<size_t>(i)]];
   return f;

@@ -4,8 +4,8 @@
 
 #include <variant>
 
-#include "core/angles/angle_ways.h"
 #include "core/angles/hilbert.h"
+#include "core/angles/integration_paths.h"
 #include "core/maps/deformer.h"
 
 namespace holomorph {
@@ -49,7 +49,7 @@ class AngleMap {
   std::shared_ptr<const HilbertCoordinates> coordinates_;
   Complex anchor_;
   Eigen::RowVectorXd at_anchor_;  ///< Im H there
-  AngleWays ways_;
+  IntegrationPaths paths_;
   std::vector<int> nodes_of_samples_;
   VectorXd angles_;                              ///< inside, at each vertex
   std::variant<Parts<float>, Parts<double>> h_;  ///< H at the places, Im H = 0 at the anchor

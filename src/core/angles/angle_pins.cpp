@@ -36,7 +36,7 @@ MatrixXd softness_of(Index corners, double size) {
 Points positions_of(const std::vector<RestPin>& pins, bool turning_only) {
   Points positions;
   for (const RestPin& pin : pins)
-    if (pin.turns || !turning_only) positions.push_back(pin.position);
+    if (pin.has_frame || !turning_only) positions.push_back(pin.position);
   return positions;
 }
 
@@ -81,7 +81,7 @@ AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<Pose
   }
   // log f' = i H theta + log scale, which is linear.
   for (Index i = 0, row = 2 * pins; i < pins; ++i) {
-    if (!pins_[static_cast<size_t>(i)].turns) continue;
+    if (!pins_[static_cast<size_t>(i)].has_frame) continue;
     const PosePin& target = targets[static_cast<size_t>(i)];
     const Index number = (row - 2 * pins) / 2;
     by.row(row).head(n) = rows_.row(number).real();

@@ -132,7 +132,7 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
 
 HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolerance)
     : cage_(std::move(cage)), parts_(std::move(parts)) {
-  take_vertices();
+  set_up_vertices();
   shares_ = (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
   const auto bends = [&](Index vertex) {
     return std::abs(angle(vertex % cage_.size()) - kPi) > kFlat;
@@ -150,7 +150,7 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
   }
 }
 
-void HilbertCoordinates::take_vertices() {
+void HilbertCoordinates::set_up_vertices() {
   const Index n = cage_.size();
   const Points outline = flattened(cage_).points;
   steps_ = MatrixXc::Zero(n, parts_.jumps.cols());

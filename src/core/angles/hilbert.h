@@ -60,7 +60,7 @@ class HilbertCoordinates {
   };
 
   MatrixXc block(std::span<const Complex> points, int order) const;
-  void take_vertices();
+  void set_up_vertices();
   void cut(const std::vector<double>& errors, double tolerance);
   std::vector<double> solve();
   Complex logarithm(const Vertex& vertex, Complex z) const;

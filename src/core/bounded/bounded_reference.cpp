@@ -22,7 +22,7 @@ Bounds bounds_of(const Parameters& values) {
 ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
                                    const BoundaryBasis& basis, const MapOnMesh& mesh)
     : method_(method), basis_(basis), on_mesh_(mesh), mesh_(rest.mesh) {
-  take_points(*rest.mesh, basis);
+  set_up_points(*rest.mesh, basis);
   fit_ = HolomorphicFit(basis, points_.boundary);
   Rest followed = used_by(method, rest);
   followed.parameters = parameters_of(rest, method);
@@ -33,7 +33,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   deformer_ = method.prepare(followed, nullptr);
 }
 
-void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis) {
+void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basis) {
   const Points inset = basis.inset(kInset);
   for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
   const std::vector<char> outer = boundary_marks(mesh);
@@ -48,7 +48,7 @@ void ReferenceSampler::take_points(const Mesh& mesh, const BoundaryBasis& basis)
 }
 
 void ReferenceSampler::deform(const Pose& pose, bool draft) {
-  deformer_->deform(used_by(method_, pose), map_, {true, draft});
+  map_ = deformer_->deform(used_by(method_, pose), {true, draft});
   if (!map_.f.allFinite())
     throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
 }

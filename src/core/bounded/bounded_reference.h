@@ -39,7 +39,7 @@ class ReferenceSampler {
   const std::string& note() const { return map_.note; }
 
  private:
-  void take_points(const Mesh& mesh, const BoundaryBasis& basis);
+  void set_up_points(const Mesh& mesh, const BoundaryBasis& basis);
 
   const Method& method_;
   const BoundaryBasis& basis_;

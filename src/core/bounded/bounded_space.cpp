@@ -24,12 +24,12 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
     system_.cones.push_back({same(tight.k), 0, 0});
     system_.quadratic.bottomRightCorner(2 * n, 2 * n) = distance_.quadratic();
   }
-  take_distance_of_l();
+  set_up_distance_of_l();
   center_ = VectorXd::Zero(system_.unknowns());
   center_.head(2 * n) = stacked(tight.middle() * basis_->one());
 }
 
-void BoundedSpace::take_distance_of_l() {
+void BoundedSpace::set_up_distance_of_l() {
   MatrixXd re, im;
   real_columns(distance_.boundary().rows(), re, im);
   const double m = static_cast<double>(re.cols());

@@ -51,7 +51,7 @@ class BoundedSpace {
   double energy(const BoundedReference& reference, const ConeSolution& solution) const;
 
  private:
-  void take_distance_of_l();
+  void set_up_distance_of_l();
   ConeTarget target_of(const BoundedReference& reference) const;
   ConeSolution start(const BoundedMap* warm) const;
   LogMap map_of(const VectorXd& x) const;

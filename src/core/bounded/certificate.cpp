@@ -147,13 +147,14 @@ class Certifier::Proof {
     const auto failed = open_bound(leaf);
     if (!failed) return;
     const BoundaryPiece& piece = leaf.piece;
-    if (result.open.empty()) result.failed = *failed;
+    if (result.unproved.empty()) result.failed = *failed;
     // What an end breaks no halving proves.
     const auto broken = broken_end(leaf);
     if (broken || depth == 0) {
-      const Complex open = broken ? *broken : middle_of(piece);
-      if (result.open.empty()) result.where = open;
-      if (result.open.empty() || result.open.back() != open) result.open.push_back(open);
+      const Complex unproved = broken ? *broken : middle_of(piece);
+      if (result.unproved.empty()) result.where = unproved;
+      if (result.unproved.empty() || result.unproved.back() != unproved)
+        result.unproved.push_back(unproved);
       return;
     }
     // What bounds |F''| on a piece bounds it on its halves.
@@ -256,7 +257,7 @@ Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int dept
                  std::min(std::abs(w2[i]) + w3[i] * reach, wb[i])},
                 depth);
   }
-  proof.result.holds = proof.result.open.empty();
+  proof.result.holds = proof.result.unproved.empty();
   return std::move(proof.result);
 }
 

@@ -58,7 +58,7 @@ struct Certificate {
   Complex where;
   /// Points of the boundary where a bound is broken, or that are in the middle of a smallest piece
   /// on which it could not be proved.
-  Points open;
+  Points unproved;
 };
 
 class Certifier {

@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> solutions) {
+std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions) {
   constexpr double kNothing = 1e-2;  // multipliers left over from the interior
   std::optional<Bound> hardest;
   double most = kNothing;
@@ -59,9 +59,9 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
       cut = system;
       append(best.cuts, cut);
     }
-    const Points& open = best.certificate.open;
-    append(open, cut);
-    best.cuts.insert(best.cuts.end(), open.begin(), open.end());
+    const Points& unproved = best.certificate.unproved;
+    append(unproved, cut);
+    best.cuts.insert(best.cuts.end(), unproved.begin(), unproved.end());
     take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
   }
   // The center is certified, and on the way there every enclosure shrinks.

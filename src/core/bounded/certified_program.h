@@ -21,7 +21,7 @@ struct BoundedMap {
 
 /// The bound that the solutions' energies would gain most from if it were wider; none when no bound
 /// is in the way.
-std::optional<Bound> hardest_bound(std::initializer_list<const ConeSolution*> solutions);
+std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions);
 
 /// The program at the boundary's samples, and what its unknowns mean. All references must outlive
 /// this.

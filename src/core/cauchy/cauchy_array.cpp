@@ -59,7 +59,7 @@ class BlockFiller {
   void fill(std::span<const Complex> points, Index first) {
     const Index count = std::min<Index>(kernel::kBlock, static_cast<Index>(points.size()) - first);
     here_ = points.subspan(first, count);
-    take_points();
+    set_up_points();
     needs_patch_.fill(false);
     // A vertex's column is the end of the segment before it and the start of the one after.
     const Index n = cage_.size();
@@ -77,7 +77,7 @@ class BlockFiller {
   }
 
  private:
-  void take_points() {
+  void set_up_points() {
     const Complex center = box_of(here_).center();
     points_.center_x = center.real();
     points_.center_y = center.imag();

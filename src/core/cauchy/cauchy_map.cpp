@@ -66,15 +66,15 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
 
 // With v_s = s - q = -W:  integral of d / (v - v_s) over [-1, 1] = d(v_s) L + R(v_s), where
 // R = sum d_k sum_{j even < k} 2 / (j + 1) v_s^{k-1-j}. Derivatives are in s: dv_s / ds = 2.
-CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, Complex log,
-                                     Ends without_poles) {
+CauchySum::ValueAndSlope CauchySum::integral(const Segment& segment, const Root& root, Complex log,
+                                             Ends without_poles) {
   const Complex v = root.s - root.q;
   const double size = std::norm(v);
   for (size_t r = 0; r < kRules.size(); ++r) {
     if (size <= kRules[r].from * kRules[r].from) continue;
     const GaussRule& rule = gauss_rule(kRules[r].nodes);
     const Points& d = segment.at_nodes[r];
-    Value sum{0, 0};
+    ValueAndSlope sum{0, 0};
     for (size_t g = 0; g < d.size(); ++g) {
       const Complex kernel = inverse(rule.nodes[g] - root.s),
                     part = times(rule.weights[g] * d[g], kernel);
@@ -114,14 +114,14 @@ CauchySum::Value CauchySum::integral(const Segment& segment, const Root& root, C
   return {times(d, log) + rest, 2.0 * (times(slope, log) + rest_slope) - poles};
 }
 
-CauchySum::Value CauchySum::at(Complex point) const {
+CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
   FinePoint z = point;
   for (const Segment& segment : segments_)
     if (segment.curve.start() == point) {
       z.offset = segment.inwards;
       break;
     }
-  Value sum{0, 0};
+  ValueAndSlope sum{0, 0};
   double turns = 0, nearest = std::numeric_limits<double>::infinity();
   const Segment* across = nullptr;
   Root crossed;
@@ -150,7 +150,7 @@ CauchySum::Value CauchySum::at(Complex point) const {
         crossed = root;
       }
       if (!segment.is_moved) continue;
-      const Value part = integral(segment, root, log, near);
+      const ValueAndSlope part = integral(segment, root, log, near);
       sum.f += part.f;
       sum.df += times(part.df, inverse(slope));
     }

@@ -17,14 +17,14 @@ class CauchySum {
   /// `displacement` has an entry for each control point of `rest`, in file order.
   CauchySum(const Cage& rest, const VectorXc& displacement);
 
-  struct Value {
+  struct ValueAndSlope {
     Complex f, df;
   };
   /// At a point inside the cage or near its boundary: outside, the inner branch is continued across
   /// the nearest segment, so that Newton's method does not notice the boundary. A vertex is looked
   /// at from 1e-12 of its shorter edge inside: the derivative is the limit where that is finite.
   /// Cost: 40 ns a straight segment, 0.3 us a curved one.
-  Value at(Complex z) const;
+  ValueAndSlope at(Complex z) const;
 
  private:
   struct Segment {
@@ -36,7 +36,8 @@ class CauchySum {
     double reach = 0;                ///< around the start, where poles are left out
     bool is_moved = false;
   };
-  static Value integral(const Segment& segment, const Root& root, Complex log, Ends without_poles);
+  static ValueAndSlope integral(const Segment& segment, const Root& root, Complex log,
+                                Ends without_poles);
 
   std::vector<Segment> segments_;
 };

@@ -152,8 +152,8 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
 
 namespace {
 
-template <class Place>
-MatrixXc rows(const Cage& cage, std::span<const Place> places, int order) {
+template <class Point>
+MatrixXc rows(const Cage& cage, std::span<const Point> places, int order) {
   if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
   const bool clockwise = signed_area(outline_of(cage)) < 0;
   const CauchyRows builder(clockwise ? reversed(cage) : cage, order,
@@ -161,8 +161,8 @@ MatrixXc rows(const Cage& cage, std::span<const Place> places, int order) {
   MatrixXc result(static_cast<Index>(places.size()), cage.control_count());
   const std::vector<Index> turned = clockwise ? reversed_columns(cage) : std::vector<Index>{};
   for (Index i = 0; i < result.rows(); ++i) {
-    Place place = places[static_cast<size_t>(i)];
-    if constexpr (std::is_same_v<Place, BoundaryPoint>)
+    Point place = places[static_cast<size_t>(i)];
+    if constexpr (std::is_same_v<Point, BoundaryPoint>)
       if (clockwise)
         place = place.t == 0 ? BoundaryPoint{(cage.size() - place.segment) % cage.size(), 0}
                              : BoundaryPoint{cage.size() - 1 - place.segment, 1 - place.t};

@@ -39,8 +39,8 @@ class Comparison {
     const int basis = BoundaryBasis::usual_size(rest.cage.size());
     basis_ = std::make_unique<BoundaryBasis>(rest.cage, basis,
                                              ReferenceSampler::kSamplesPerVertex * basis);
-    take_dense_points();
-    take_reference();
+    set_up_dense_points();
+    set_up_reference();
   }
 
   void run(const std::function<void(const ComparedMap&)>& take) {
@@ -83,7 +83,7 @@ class Comparison {
   }
 
   /// Between the samples that harmonic maps are bounded at, and all of the mesh.
-  void take_dense_points() {
+  void set_up_dense_points() {
     dense_ = derivative_samples(mesh_);
     for (const BoundaryPiece& piece : basis_->pieces())
       for (const double t : {0.25, 0.5, 0.75}) {
@@ -94,18 +94,17 @@ class Comparison {
   }
 
   /// The reference at the mesh's vertices, and its derivatives next to the boundary's samples.
-  void take_reference() {
+  void set_up_reference() {
     const Method& followed = method_named(choice(method_, rest_.parameters, "reference"));
     Rest rest = used_by(followed, rest_);
     rest.parameters = parameters_of(rest_, followed);
     rest.precision = Precision::full;
     const Pose pose = used_by(followed, pose_);
-    SampledMap map;
-    followed.prepare(rest, nullptr)->deform(pose, map, {});
+    SampledMap map = followed.prepare(rest, nullptr)->deform(pose, {});
     reference_ = map.f;
     rest.samples = basis_->inset(ReferenceSampler::kInset);
     rest.derivative_samples.clear();
-    followed.prepare(rest, nullptr)->deform(pose, map, {true, false});
+    map = followed.prepare(rest, nullptr)->deform(pose, {true, false});
     if (!reference_.allFinite() || !map.fz.allFinite())
       throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
     on_boundary_.resize(4 * map.fz.size());
@@ -116,7 +115,7 @@ class Comparison {
 
   /// What every row has.
   void finish(VectorXc f, ComparedMap& row) const {
-    row.flips = flipped_triangles(mesh_, f);
+    row.flipped_triangles = flipped_triangles(mesh_, f);
     Points boundary;
     for (const int v : mesh_.boundary) boundary.push_back(f[v]);
     row.turning_number = turning_number(boundary);
@@ -135,7 +134,7 @@ class Comparison {
     const auto deformer = method_.prepare(rest_, nullptr);
     SampledMap map;
     const double start = now_ms();
-    deformer->deform(pose_, map, {true, false});
+    map = deformer->deform(pose_, {true, false});
     row.milliseconds = now_ms() - start;
     row.iterations = map.iterations;
     row.settled = map.status == SampledMap::Status::certified;
@@ -148,13 +147,13 @@ class Comparison {
     }
     measure(elements, row);
     finish(map.f, row);
-    row.turning_number = turns_of_tangents(elements);
+    row.turning_number = turning_number_of(elements);
     return row;
   }
 
   /// The turning number from derivatives along the boundary: the mesh's outline is too coarse where
   /// a smooth map bends sharply.
-  double turns_of_tangents(const VectorXd& elements) const {
+  double turning_number_of(const VectorXd& elements) const {
     const Index vertices = static_cast<Index>(mesh_.vertices.size());
     std::vector<Complex> tangents;
     for (size_t i = 0; i < tangents_.size(); ++i) {
@@ -180,7 +179,7 @@ class Comparison {
     VectorXc f = rival.measured.map(result.x);
     f.array() += (reference_ - f).mean();  // derivatives know no place
     finish(std::move(f), row);
-    if (rival.smooth) row.turning_number = turns_of_tangents(elements);
+    if (rival.smooth) row.turning_number = turning_number_of(elements);
     return row;
   }
 

@@ -14,7 +14,7 @@ struct ComparedMap {
   std::string label, hint;
   VectorXc f = {};                ///< at the mesh's vertices
   double max_k = 0, max_tau = 0;  ///< tau = max(sigma_max, 1 / sigma_min); infinite where it folds
-  int flips = 0;                  ///< triangles that are turned over
+  int flipped_triangles = 0;      ///< triangles that are turned over
   double turning_number = 0;      ///< of the boundary's image
   double milliseconds = 0;        ///< of the solve, preparation not counted
   int iterations = 0;

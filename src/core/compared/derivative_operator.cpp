@@ -16,8 +16,7 @@ class MeshOperator final : public DerivativeOperator {
   explicit MeshOperator(const Mesh& mesh) : mesh_(mesh) {
     std::vector<Eigen::Triplet<double>> entries;
     weights_.resize(static_cast<Index>(mesh.triangles.size()));
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      take_triangle(static_cast<Index>(t), entries);
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) add_triangle(static_cast<Index>(t), entries);
     weights_ /= weights_.sum();
     t_.resize(4 * elements(), unknowns());
     t_.setFromTriplets(entries.begin(), entries.end());
@@ -54,7 +53,7 @@ class MeshOperator final : public DerivativeOperator {
 
  private:
   /// f_z and f_zbar of the linear map on a triangle: sums of coefficients times corners.
-  void take_triangle(Index t, std::vector<Eigen::Triplet<double>>& entries) {
+  void add_triangle(Index t, std::vector<Eigen::Triplet<double>>& entries) {
     const Triangle& corners = mesh_.triangles[static_cast<size_t>(t)];
     const auto at = [&](int k) { return mesh_.vertices[static_cast<size_t>(corners[k % 3])]; };
     const double area = 0.5 * cross(at(1) - at(0), at(2) - at(0));

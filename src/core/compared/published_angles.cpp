@@ -84,11 +84,11 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
 MatrixXc PublishedAngles::functions(std::span<const Complex> points,
                                     const std::vector<Index>& parts) const {
   Index count = 0;
-  for (const Part& part : parts_) count = std::max({count, part.start + 1, part.end + 1});
+  for (const EdgePart& part : parts_) count = std::max({count, part.start + 1, part.end + 1});
   MatrixXc values = MatrixXc::Zero(static_cast<Index>(points.size()), count);
   for (size_t i = 0; i < points.size(); ++i)
     for (size_t j = 0; j < parts_.size(); ++j) {
-      const Part& part = parts_[j];
+      const EdgePart& part = parts_[j];
       const VectorXc of_ends =
           edge_coordinates(part.from, part.to, 1, points[i], 0, parts[i] == static_cast<Index>(j));
       values(static_cast<Index>(i), part.start) += of_ends[0];

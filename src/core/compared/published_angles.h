@@ -30,13 +30,13 @@ class PublishedAngles {
 
  private:
   /// A part of an edge, and the functions that are 1 at its ends.
-  struct Part {
+  struct EdgePart {
     Complex from, to;
     Index start, end;
   };
   MatrixXc functions(std::span<const Complex> points, const std::vector<Index>& parts) const;
 
-  std::vector<Part> parts_;
+  std::vector<EdgePart> parts_;
   Cage nodes_;  ///< the polygon of all parts
   Complex anchor_;
   MatrixXc coefficients_;  ///< of the functions, by angles

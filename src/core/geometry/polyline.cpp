@@ -72,11 +72,11 @@ void Polyline::look(Complex z, Index node, Index first, Index count, Nearest& be
 }
 
 Complex Polyline::at(double length) const {
-  const Place place = place_at(length);
+  const Location place = place_at(length);
   return start(place.segment) + place.parameter * (end(place.segment) - start(place.segment));
 }
 
-Polyline::Place Polyline::place_at(double length) const {
+Polyline::Location Polyline::place_at(double length) const {
   if (closed_) length -= std::floor(length / this->length()) * this->length();
   length = std::clamp(length, 0.0, this->length());
   const auto after = std::upper_bound(lengths_.begin(), lengths_.end(), length);

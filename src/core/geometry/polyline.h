@@ -29,11 +29,11 @@ class Polyline {
   /// The point at an arc length from the first one; closed curves go round, others end.
   Complex at(double length) const;
   /// Where that is: a segment and the parameter on it.
-  struct Place {
+  struct Location {
     Index segment = 0;
     double parameter = 0;
   };
-  Place place_at(double length) const;
+  Location place_at(double length) const;
   /// The arc length of a point on a segment.
   double length_at(Index segment, double parameter) const;
   /// The smallest box's diagonal.

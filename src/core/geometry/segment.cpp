@@ -28,13 +28,13 @@ Points powers_of(Points differences) {
   return powers;
 }
 
-struct Value {
+struct ValueAndSlope {
   Complex value, slope;
 };
 
 /// The polynomial less z, and its derivative, by Horner's scheme.
-Value horner(const Points& powers, const FinePoint& z, Complex x) {
-  Value at{powers.back(), 0};
+ValueAndSlope horner(const Points& powers, const FinePoint& z, Complex x) {
+  ValueAndSlope at{powers.back(), 0};
   for (size_t k = powers.size() - 1; k-- > 0;) {
     at.slope = times(at.slope, x) + at.value;
     at.value = times(at.value, x) + (k == 0 ? powers[0] - z : powers[k]);
@@ -86,7 +86,7 @@ void SegmentPolynomial::refine(const FinePoint& z, Root& root) const {
   // Next to the end all digits of x may be wrong, but no other root is as near.
   constexpr double kAtEnd = 1e-10;
   for (int step = 0; step < 3; ++step) {
-    const Value at = horner(powers, z, x);
+    const ValueAndSlope at = horner(powers, z, x);
     const Complex move = quotient(at.value, at.slope);
     if (!is_finite(move)) break;
     if (std::norm(move) > 1e-4 * std::norm(x) && std::norm(move) > kAtEnd * kAtEnd)
@@ -116,7 +116,7 @@ void SegmentPolynomial::roots(const FinePoint& z, std::span<Root> out,
   for (int step = 0; step < 80; ++step) {
     bool done = true;
     for (int r = 0; r < n; ++r) {
-      const Value at = horner(middle_, z, v[r]);
+      const ValueAndSlope at = horner(middle_, z, v[r]);
       if (at.value == Complex(0)) continue;
       Complex pull = quotient(at.slope, at.value);
       for (int other = 0; other < n; ++other)
@@ -158,7 +158,8 @@ FinePoint SegmentPolynomial::fine_at(const Root& parameter) const {
 
 Complex SegmentPolynomial::derivative(const Root& at) const {
   const bool from_start = std::norm(at.s) <= std::norm(at.q);
-  const Value value = horner(from_start ? start_ : end_, Complex(0), from_start ? at.s : at.q);
+  const ValueAndSlope value =
+      horner(from_start ? start_ : end_, Complex(0), from_start ? at.s : at.q);
   return from_start ? value.slope : -value.slope;
 }
 

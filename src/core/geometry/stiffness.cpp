@@ -5,9 +5,9 @@
 
 namespace holomorph {
 
-double stiffness_level(std::span<const Dab> dabs, Complex z) {
+double stiffness_level(std::span<const BrushDab> dabs, Complex z) {
   double level = 0;
-  for (const Dab& dab : dabs)
+  for (const BrushDab& dab : dabs)
     if (const double rest = 1 - std::norm(z - dab.at) / (dab.radius * dab.radius); rest > 0)
       level += dab.level * rest * rest;
   return std::clamp(level, kLeastStiffness, kMostStiffness);

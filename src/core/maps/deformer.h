@@ -24,9 +24,9 @@ struct ParameterSpec {
   struct Option {
     std::string id, label;
   };
-  enum class Kind { number, toggle, choice };
+  enum class Type { number, toggle, choice };
   std::string key, label, hint;
-  Kind kind = Kind::number;
+  Type type = Type::number;
   double fallback = 0, lowest = 0, highest = 1;
   bool logarithmic = false;
   struct Condition {
@@ -42,17 +42,17 @@ enum class Precision {
   full     ///< operators in double: for numbers that are written out
 };
 
-/// A point handle at rest; `turns` says that its pose prescribes an angle and a scale too.
+/// A point handle at rest; `has_frame` says that its pose prescribes an angle and a scale too.
 struct RestPin {
   Complex position;
-  bool turns = false;
+  bool has_frame = false;
   bool operator==(const RestPin&) const = default;
 };
 inline constexpr double kLeastPinScale = 0.01, kMostPinScale = 100;
 struct PosePin {
   Complex position;
-  double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin turns
-  double scale = 1.0;  ///< kLeastPinScale to kMostPinScale; used where the rest pin turns
+  double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin has a frame
+  double scale = 1.0;  ///< kLeastPinScale to kMostPinScale; used where the rest pin has a frame
   bool operator==(const PosePin&) const = default;
 };
 
@@ -69,11 +69,11 @@ struct PoseCorner {
 struct Rest {
   Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
   std::vector<RestPin> pins;
-  std::vector<Points> strokes = {};  ///< open curves, two different points each at least
-  Points outline = {};               ///< closed; where the cage's shape is to go, or none
-  std::vector<Index> corners = {};   ///< the cage's vertices with angles, in order; none: all
-  std::vector<Dab> stiffness = {};   ///< of the picture; none: the same everywhere
-  Points samples;                    ///< where the map is wanted, inside or on the cage
+  std::vector<Points> strokes = {};      ///< open curves, two different points each at least
+  Points outline = {};                   ///< closed; where the cage's shape is to go, or none
+  std::vector<Index> corners = {};       ///< the cage's vertices with angles, in order; none: all
+  std::vector<BrushDab> stiffness = {};  ///< of the picture; none: the same everywhere
+  Points samples;                        ///< where the map is wanted, inside or on the cage
   /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
   /// are finite on the boundary give them at samples.
   Points derivative_samples;
@@ -83,6 +83,7 @@ struct Rest {
   /// Parameters of other methods by id, for those that follow another one.
   std::map<std::string, Parameters> other_parameters = {};
   Precision precision = Precision::single;
+  bool operator==(const Rest&) const = default;
 };
 
 /// Everything that moves. Value type; as many segments, control points, pins, strokes and corners
@@ -113,7 +114,7 @@ struct SampledMap {
 };
 
 /// What is wanted of a map besides its values.
-struct Wanted {
+struct EvalOptions {
   bool derivatives = false;
   /// While something is dragged: methods that iterate may go on from their last answer and stop
   /// early. Without it the map depends on rest and pose alone.
@@ -121,7 +122,7 @@ struct Wanted {
   /// The map after so many iterations, of methods that give energies; others take no notice.
   std::optional<int> iteration = {};
 
-  bool operator==(const Wanted&) const = default;
+  bool operator==(const EvalOptions&) const = default;
 };
 
 /// A pose's map at single points; just outside the cage the inner map goes on.
@@ -141,7 +142,7 @@ class Deformer {
 
   /// The map of a pose. Throws Error when the pose does not fit the rest or is not finite.
   /// Cost for linear methods: one product with an operator of samples x controls.
-  virtual void deform(const Pose& pose, SampledMap& out, Wanted wanted) = 0;
+  virtual SampledMap deform(const Pose& pose, EvalOptions options) = 0;
 
   /// For methods linear in the pose: f = samples + matrix * controls(pose), so that a vertex shader
   /// can apply the operator itself. Null when the method is not linear or works in full precision.
@@ -176,6 +177,7 @@ struct Method {
   std::vector<Preset> presets = {};
   bool uses_strokes = false, uses_outline = false, uses_corners = false, uses_stiffness = false;
   bool needs_mesh = false;
+  bool follows_others = false;  ///< its map is near that of another method, with its parameters
 
   /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
   /// have in common need not be computed again. Throws Error for a rest that cannot be used.

@@ -34,22 +34,22 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
   };
   for (const auto& [area, t] : over)
     for (const int v : *t) parent[root(v)] = root((*t)[0]);
-  struct Part {
+  struct Region {
     double area = 0, largest = 0;
     Complex at;
   };
-  std::map<int, Part> parts;
+  std::map<int, Region> parts;
   for (const auto& [area, t] : over) {
     const auto [i, j, k] = *t;
-    Part& part = parts[root(i)];
+    Region& part = parts[root(i)];
     part.area += area;
     if (area > part.largest) part.largest = area, part.at = (f[i] + f[j] + f[k]) / 3.0;
   }
-  std::vector<Part> sorted;
+  std::vector<Region> sorted;
   for (const auto& [v, part] : parts) sorted.push_back(part);
-  std::ranges::sort(sorted, std::greater(), &Part::area);
+  std::ranges::sort(sorted, std::greater(), &Region::area);
   Points places;
-  for (const Part& part : sorted)
+  for (const Region& part : sorted)
     if (places.empty() || part.area > kSpeck * total) places.push_back(part.at);
   return places;
 }
@@ -138,7 +138,7 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   for (const int v : mesh.boundary) image.push_back(f[v]);
   if (image.empty()) return found;
   constexpr double kVisible = 3e-4;
-  found.boundary_turns = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
+  found.turning_number = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;
   if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};

@@ -11,7 +11,7 @@ struct Injectivity {
   /// How often the boundary's image turns, drawn to 3e-4 of its size: 1, and 1 more for each zero
   /// of f' of a conformal map, around which the picture folds; -1 for a picture on its back.
   /// Smaller loops, as corners of outlines leave them, cannot be seen.
-  double boundary_turns = 1;
+  double turning_number = 1;
   /// Where the picture is turned over, posed: a place for each part, the largest part first; none
   /// when all of them are less than 1e-4 of its area. If nothing is turned over and the boundary
   /// still turns more than once, where most is pressed to nothing: near a zero of f'.
@@ -22,7 +22,7 @@ struct Injectivity {
   /// Where the boundary's image crosses itself: parts may lie over each other without a fold.
   std::optional<Complex> crossing;
 
-  bool folds() const { return !folds_at.empty() || std::abs(boundary_turns - 1) > 0.01; }
+  bool folds() const { return !folds_at.empty() || std::abs(turning_number - 1) > 0.01; }
 };
 
 /// Of the map that takes the mesh's vertices to f. Cost: linear, and n log n in the boundary.

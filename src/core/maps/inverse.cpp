@@ -44,7 +44,7 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
   cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
   outer_ = boundary_marks(mesh);
   fill_cells();
-  take_boundary();
+  set_up_boundary();
 }
 
 template <class Visit>
@@ -88,7 +88,7 @@ void InverseMap::fill_cells() {
   }
 }
 
-void InverseMap::take_boundary() {
+void InverseMap::set_up_boundary() {
   std::vector<SegmentPolynomial> loop;
   for (Index e = 0; e < rest_.size(); ++e) loop.emplace_back(rest_.controls(e));
   piece_at_.assign(mesh_.vertices.size(), -1);
@@ -284,7 +284,7 @@ std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
     const Region region{side(a, b), side(b, c), side(c, a)};
     const auto count = turns(region, w);
     const size_t before = found.size();
-    if (count && *count != 0) take_region(region, *count, w, 0, found);
+    if (count && *count != 0) search_region(region, *count, w, 0, found);
     for (size_t i = before; i < found.size(); ++i) found[i].triangle = t;
   }
   std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
@@ -315,8 +315,8 @@ std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const 
 }
 
 /// The preimages in a region around which the image turns so often.
-void InverseMap::take_region(const Region& region, int count, Complex w, int depth,
-                             std::vector<Preimage>& found) const {
+void InverseMap::search_region(const Region& region, int count, Complex w, int depth,
+                               std::vector<Preimage>& found) const {
   const std::vector<Preimage> here = inside(region, w);
   if (oriented(here) == count) {
     found.insert(found.end(), here.begin(), here.end());
@@ -345,7 +345,7 @@ void InverseMap::take_region(const Region& region, int count, Complex w, int dep
     }
     if (!known || sum != count) continue;
     for (size_t k = 0; k < 4; ++k)
-      if (counts[k] != 0) take_region(parts[k], counts[k], w, depth + 1, found);
+      if (counts[k] != 0) search_region(parts[k], counts[k], w, depth + 1, found);
     return;
   }
   // Sheets meet here, or are closer together than rounding can separate. If Newton's method does

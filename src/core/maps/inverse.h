@@ -53,7 +53,7 @@ class InverseMap {
   template <class Visit>
   void for_each_cell(const Box& box, Visit visit);
   void fill_cells();
-  void take_boundary();
+  void set_up_boundary();
   size_t cell_of(Complex w) const;
   bool improve(Complex w, Preimage& start) const;
   bool is_inside(Complex z) const;
@@ -65,8 +65,8 @@ class InverseMap {
   Arc side(int from, int to) const;
   std::optional<int> turns(const Region& region, Complex w) const;
   std::vector<Preimage> inside(const Region& region, Complex w) const;
-  void take_region(const Region& region, int count, Complex w, int depth,
-                   std::vector<Preimage>& found) const;
+  void search_region(const Region& region, int count, Complex w, int depth,
+                     std::vector<Preimage>& found) const;
 
   Cage rest_;
   const Mesh& mesh_;

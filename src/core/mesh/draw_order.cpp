@@ -8,10 +8,10 @@
 namespace holomorph {
 
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths) {
-  struct Step {
+  struct Entry {
     double way;
     int vertex, height;
-    bool operator>(const Step& other) const { return way > other.way; }
+    bool operator>(const Entry& other) const { return way > other.way; }
   };
   const size_t n = mesh.vertices.size();
   std::vector<std::vector<int>> beside(n);
@@ -23,7 +23,7 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
   const auto way = [&](int a, Complex to) {
     return std::abs(mesh.vertices[static_cast<size_t>(a)] - to);
   };
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> waves;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waves;
   for (const Depth& depth : depths)
     if (const auto at = locate(mesh, mesh.vertices, depth.at))
       for (const int v : mesh.triangles[static_cast<size_t>(at->triangle)])
@@ -31,7 +31,7 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
   std::vector<bool> reached(n);
   std::vector<int> heights(n, 0);
   while (!waves.empty()) {
-    const Step step = waves.top();
+    const Entry step = waves.top();
     waves.pop();
     const size_t v = static_cast<size_t>(step.vertex);
     if (reached[v]) continue;

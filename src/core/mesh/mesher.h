@@ -7,7 +7,8 @@ namespace holomorph {
 
 /// How fine a domain mesh is.
 struct MeshOptions {
-  /// Wanted number of vertices; what comes out is within about a third of it for ordinary cages.
+  /// EvalOptions number of vertices; what comes out is within about a third of it for ordinary
+  /// cages.
   int vertices = 8000;
 };
 

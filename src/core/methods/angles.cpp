@@ -81,7 +81,7 @@ class AnglePoints final : public PointMap {
   const Cage& cage() const { return map_.coordinates().cage(); }
 
   Value inside(Complex z) const {
-    AngleWays ways = ways_;
+    IntegrationPaths ways = ways_;
     const int from = ways.vertex_near(z), node = ways.add_node(z);
     const VectorXc slopes = slopes_at(ways.places());
     VectorXc nodes = VectorXc::Zero(ways.nodes());
@@ -99,7 +99,7 @@ class AnglePoints final : public PointMap {
 
   std::shared_ptr<const Mesh> mesh_;
   AngleMap map_;
-  AngleWays ways_;
+  IntegrationPaths ways_;
   FlatCage flat_;
   PlacedAngles placed_;
   VectorXc at_vertices_;
@@ -123,35 +123,36 @@ class AnglesDeformer final : public Deformer {
       pins.push_back(rest_.pins[i]);
       // Where f' is a power it has no angle.
       for (Index j = 0; j < boundary_.cage.size(); ++j)
-        if (pins.back().position == boundary_.cage.vertex(j)) pins.back().turns = false;
+        if (pins.back().position == boundary_.cage.vertex(j)) pins.back().has_frame = false;
     }
     pins_.emplace(*rest_.mesh, coordinates_, boundary_.corners, pins);
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
-    out = SampledMap{};
+    SampledMap out;
     out.note = acting_.note;
     const Index count = static_cast<Index>(rest_.samples.size());
     if (rests(pose)) {
       out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
-      if (!wanted.derivatives) return;
+      if (!options.derivatives) return out;
       out.fz = VectorXc::Ones(count);
       out.fzbar = VectorXc::Zero(count);
-      return;
+      return out;
     }
-    const PlacedAngles placed = place(pose, wanted.draft, out);
-    if (published_) return answer_as_published(placed, wanted, out);
+    const PlacedAngles placed = place(pose, options.draft, out);
+    if (published_) return answer_as_published(placed, options, std::move(out));
     VectorXc f;
-    map_.map(placed.theta, f, wanted.draft);
+    map_.map(placed.theta, f, options.draft);
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
     if (lost > 0) say(out, std::to_string(lost) + " points are bent beyond all numbers");
-    if (!wanted.derivatives || count == 0) return;
+    if (!options.derivatives || count == 0) return out;
     if (slopes_.rows() != count) slopes_ = slopes();
     const VectorXc theta = placed.theta.cast<Complex>();
     out.fz = placed.scale * (kI * product(slopes_, theta)).array().exp();
     out.fzbar = VectorXc::Zero(count);
+    return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
@@ -169,7 +170,8 @@ class AnglesDeformer final : public Deformer {
   }
 
  private:
-  void answer_as_published(const PlacedAngles& placed, Wanted wanted, SampledMap& out) const {
+  SampledMap answer_as_published(const PlacedAngles& placed, EvalOptions options,
+                                 SampledMap out) const {
     const PublishedAngles::Values values = published_->map(placed.theta, rest_.samples);
     out.f = (placed.scale * values.f).array() + placed.move;
     out.ignores_pins = true;
@@ -178,9 +180,10 @@ class AnglesDeformer final : public Deformer {
                   "as published: boundary angles are off by up to %.2g radians for each radian",
                   published_->error());
     say(out, text);
-    if (!wanted.derivatives) return;
+    if (!options.derivatives) return out;
     out.fz = placed.scale * values.slope;
     out.fzbar = VectorXc::Zero(out.f.size());
+    return out;
   }
 
   bool rests(const Pose& pose) const {
@@ -190,7 +193,7 @@ class AnglesDeformer final : public Deformer {
     return std::ranges::all_of(acting_.used, [&](size_t i) {
       const PosePin& pin = pose.pins[i];
       return pin.position == rest_.pins[i].position &&
-             (!rest_.pins[i].turns || (pin.angle == 0 && pin.scale == 1));
+             (!rest_.pins[i].has_frame || (pin.angle == 0 && pin.scale == 1));
     });
   }
 

@@ -63,9 +63,9 @@ class ArapDeformer final : public Deformer {
           "arap: the energy is definite");
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     const Points targets = handles_.targets(pose);
-    out = SampledMap{};
+    SampledMap out;
     out.note = handles_.note();
     turn_.reset();
     if (const auto rigid = handles_.rigid(targets)) {
@@ -76,11 +76,12 @@ class ArapDeformer final : public Deformer {
                     ? mesh_.vertices[static_cast<size_t>(i)]
                     : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
     } else {
-      out.iterations = minimize(targets, wanted.draft);
-      if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
+      out.iterations = minimize(targets, options.draft);
+      if (out.iterations == (options.draft ? kDraftIterations : kMostIterations))
         out.status = SampledMap::Status::iterating;
     }
-    answer(out, wanted);
+    answer(out, options);
+    return out;
   }
 
  private:
@@ -144,13 +145,13 @@ class ArapDeformer final : public Deformer {
     return iteration;
   }
 
-  void answer(SampledMap& out, Wanted wanted) const {
+  void answer(SampledMap& out, EvalOptions options) const {
     const Index count = static_cast<Index>(rest_.samples.size());
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     const bool whole = rest_.samples == mesh_.vertices;
     if (whole) {
       out.f = f_;
-      if (!wanted.derivatives) return;
+      if (!options.derivatives) return;
       average_derivatives(out);
       return;
     }

@@ -45,29 +45,30 @@ class BoundedDeformer final : public Deformer {
     if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
-    if (wanted.draft && draft_) return draft_->deform(pose, out, wanted);
-    reference_->deform(pose, wanted.draft);
+    if (options.draft && draft_) return draft_->deform(pose, options);
+    reference_->deform(pose, options.draft);
     if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
-      return take_identity(pose, out, wanted);
-    project(reference_->reference(out.zeros), pose, wanted.draft && warm_);
+      return identity(pose, options);
+    SampledMap out;
+    project(reference_->reference(out.zeros), pose, options.draft && warm_);
     warm_ = true;
-    integrate(pose, wanted.draft);
-    answer(out, wanted);
+    integrate(pose, options.draft);
+    answer(out, options);
     out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
                                                              : SampledMap::Status::infeasible;
     out.iterations = conformal_.iterations + solution_.iterations;
     out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose);
+    return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
     if (posed_ != pose) {
       BoundedDeformer copy(rest_, final_basis(rest_.cage));
-      SampledMap map;
-      copy.deform(pose, map, {});
+      SampledMap map = copy.deform(pose, {});
       return copy.current();
     }
     return current();
@@ -123,11 +124,11 @@ class BoundedDeformer final : public Deformer {
     return Eigen::Map<const VectorXc>(left.data(), static_cast<Index>(left.size()));
   }
 
-  void take_identity(const Pose& pose, SampledMap& out, Wanted wanted) {
+  SampledMap identity(const Pose& pose, EvalOptions options) {
     const Index count = static_cast<Index>(rest_.samples.size());
-    out = SampledMap{};
+    SampledMap out;
     out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
-    if (wanted.derivatives) {
+    if (options.derivatives) {
       out.fz = VectorXc::Ones(count);
       out.fzbar = VectorXc::Zero(count);
     }
@@ -144,6 +145,7 @@ class BoundedDeformer final : public Deformer {
     posed_ = pose;
     turned_ = 0;
     out.note = note(pose);
+    return out;
   }
 
   /// The map at the mesh, at its place.
@@ -190,12 +192,10 @@ class BoundedDeformer final : public Deformer {
     for (Complex& w : f_) w = Similarity{factor, nearest.from, nearest.to}(w);
   }
 
-  void answer(SampledMap& out, Wanted wanted) const {
-    out.fz.resize(0);
-    out.fzbar.resize(0);
+  void answer(SampledMap& out, EvalOptions options) const {
     if (rest_.samples == rest_.mesh->vertices) {
       out.f = f_;
-      if (!wanted.derivatives) return;
+      if (!options.derivatives) return;
       out.fz = first_.phi;
       out.fzbar = first_.psi.conjugate();
       return;
@@ -244,7 +244,7 @@ class BoundedDeformer final : public Deformer {
     char more[120];
     std::snprintf(more, sizeof more, "; pin %d ends %.*f px from its place",
                   static_cast<int>(which) + 1, farthest < 10 ? 2 : 0, farthest);
-    const auto bound = hardest_bound({&conformal_.solution, &solution_.solution});
+    const auto bound = binding_constraint({&conformal_.solution, &solution_.solution});
     return more + (bound ? std::string(", held by the bound on the ") + bound_name(*bound)
                          : ", as in the map that is followed");
   }
@@ -306,7 +306,7 @@ Method bounded_method(const std::vector<Method>& references) {
        {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
        {"Default", {}},
        {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
-  method.needs_mesh = true;
+  method.needs_mesh = method.follows_others = true;
   method.uses_strokes = method.uses_outline = method.uses_corners = true;
   return method;
 }

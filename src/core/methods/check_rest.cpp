@@ -66,9 +66,9 @@ void check_parameter(const ParameterSpec& spec, const Parameters& values) {
   if (found == values.end()) return;
   const double value = found->second;
   const std::string is = "parameter " + spec.key + " is " + number_text(value) + "; ";
-  if (spec.kind == ParameterSpec::Kind::number && !(value >= spec.lowest && value <= spec.highest))
+  if (spec.type == ParameterSpec::Type::number && !(value >= spec.lowest && value <= spec.highest))
     refuse(is + "it must be from " + number_text(spec.lowest) + " to " + number_text(spec.highest));
-  if (spec.kind == ParameterSpec::Kind::choice &&
+  if (spec.type == ParameterSpec::Type::choice &&
       !(value >= 0 && value < static_cast<double>(spec.options.size())))
     refuse(is + "it must be the number of one of its " + std::to_string(spec.options.size()) +
            " options");
@@ -100,7 +100,7 @@ void check_rest(const Method& method, const Rest& rest) {
   }
   check_finite(rest.outline, "outline point");
   check_corners(rest.corners, rest.cage);
-  for (const Dab& dab : rest.stiffness)
+  for (const BrushDab& dab : rest.stiffness)
     if (!is_finite(dab.at) || !std::isfinite(dab.level) || !(dab.radius > 0) ||
         !std::isfinite(dab.radius))
       refuse("a touch of the stiffness brush is not finite, or its radius not positive");

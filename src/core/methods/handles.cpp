@@ -15,7 +15,7 @@ HandlePoints::HandlePoints(const Rest& rest) : rest_(rest) {
     add(rest.pins[i].position, pin, 0);
     if (rest_points_.size() == before && note_.empty())
       note_ = "Pin " + std::to_string(i + 1) + " lies outside the cage and holds nothing";
-    if (!rest.pins[i].turns) continue;
+    if (!rest.pins[i].has_frame) continue;
     for (const Complex side : {Complex(arm), arm * kI}) {
       add(rest.pins[i].position + side, pin, side);
       add(rest.pins[i].position - side, pin, -side);

@@ -27,31 +27,33 @@ class HarArapDeformer final : public Deformer {
         basis_(rest.cage, BoundaryBasis::usual_size(rest.cage.size()),
                kSamplesPerVertex * BoundaryBasis::usual_size(rest.cage.size())) {
     size_ = box_of(rest.mesh->vertices).diagonal();
-    take_energy();
-    take_handles();
+    set_up_energy();
+    set_up_handles();
     const Cage polygon = polygon_cage(basis_.polygon());
     values_ = planar_coordinates<double>(polygon, rest_.samples, 0);
     slopes_ = planar_coordinates<double>(
         polygon, rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     const Points targets = handles_.targets(pose);
-    out = SampledMap{};
+    SampledMap out;
     out.note = handles_.note();
-    if (const auto rigid = handles_.rigid(targets)) return move_rigidly(*rigid, out, wanted);
-    out.iterations = minimize(targets, wanted.draft);
-    if (out.iterations == (wanted.draft ? kDraftIterations : kMostIterations))
+    if (const auto rigid = handles_.rigid(targets))
+      return moved_rigidly(*rigid, std::move(out), options);
+    out.iterations = minimize(targets, options.draft);
+    if (out.iterations == (options.draft ? kDraftIterations : kMostIterations))
       out.status = SampledMap::Status::iterating;
     out.f = product(values_, phi_) + product(values_, psi_).conjugate();
-    if (!wanted.derivatives) return;
+    if (!options.derivatives) return out;
     out.fz = product(slopes_, phi_);
     out.fzbar = product(slopes_, psi_).conjugate();
+    return out;
   }
 
  private:
   /// Samples by area: the mesh's inner vertices, its triangles' shares as weights.
-  void take_energy() {
+  void set_up_energy() {
     const Mesh& mesh = *rest_.mesh;
     std::vector<double> areas(mesh.vertices.size(), 0);
     double total = 0;
@@ -80,7 +82,7 @@ class HarArapDeformer final : public Deformer {
   }
 
   /// Normal matrices in (Re Phi, Im Phi, Re Psi, Im Psi): f = C Phi + conj(C Psi) at the handles.
-  void take_handles() {
+  void set_up_handles() {
     held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
     hold_ = kHold / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
@@ -111,12 +113,12 @@ class HarArapDeformer final : public Deformer {
 
   VectorXd handle_right(const Points& targets) const {
     const Index h = held_.rows();
-    VectorXd wanted(2 * h);
+    VectorXd options(2 * h);
     for (Index i = 0; i < h; ++i) {
-      wanted[i] = targets[static_cast<size_t>(i)].real();
-      wanted[h + i] = targets[static_cast<size_t>(i)].imag();
+      options[i] = targets[static_cast<size_t>(i)].real();
+      options[h + i] = targets[static_cast<size_t>(i)].imag();
     }
-    return hold_ * (held_rows_ * wanted);
+    return hold_ * (held_rows_ * options);
   }
 
   void take(const VectorXd& x) {
@@ -152,15 +154,16 @@ class HarArapDeformer final : public Deformer {
     return iteration;
   }
 
-  void move_rigidly(const Similarity& rigid, SampledMap& out, Wanted wanted) {
+  SampledMap moved_rigidly(const Similarity& rigid, SampledMap out, EvalOptions options) {
     const Index count = static_cast<Index>(rest_.samples.size());
     out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
     if (rigid.factor != Complex(1) || rigid.from != rigid.to)
       for (Complex& z : out.f) z = rigid(z);
     phi_.resize(0);
-    if (!wanted.derivatives) return;
+    if (!options.derivatives) return out;
     out.fz = VectorXc::Constant(count, rigid.factor);
     out.fzbar = VectorXc::Zero(count);
+    return out;
   }
 
   Rest rest_;

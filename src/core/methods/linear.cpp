@@ -10,21 +10,19 @@ template <class T>
 LinearDeformer<T>::LinearDeformer(const Rest& rest) : rest_(rest) {}
 
 template <class T>
-void LinearDeformer<T>::deform(const Pose& pose, SampledMap& out, Wanted wanted) {
+SampledMap LinearDeformer<T>::deform(const Pose& pose, EvalOptions options) {
   check_pose(rest_, pose);
   const VectorXc by = controls(pose);
   const Eigen::Map<const VectorXc> z(rest_.samples.data(),
                                      static_cast<Index>(rest_.samples.size()));
+  SampledMap out;
   out.f = z + product(value_, by);
-  out.status = SampledMap::Status::exact;
   out.note = note_;
-  out.iterations = 0;
-  out.fz.resize(0);
-  out.fzbar.resize(0);
-  if (!wanted.derivatives || z.size() == 0) return;
+  if (!options.derivatives || z.size() == 0) return out;
   if (derivative_.rows() != z.size()) derivative_ = derivative_matrix();
   out.fz = product(derivative_, by).array() + Complex(1.0);
   out.fzbar = VectorXc::Zero(z.size());
+  return out;
 }
 
 template <class T>
@@ -38,12 +36,12 @@ const PlanarMatrix<float>* LinearDeformer<T>::operator_matrix() const {
 PointMap::Value SumMap::at(Complex z) const {
   Value value{z + constant + slope * (z - center), 1.0 + slope, 0};
   for (const CauchySum& term : terms) {
-    const CauchySum::Value part = term.at(z);
+    const CauchySum::ValueAndSlope part = term.at(z);
     value.f += part.f;
     value.fz += part.df;
   }
   for (const CauchySum& term : conjugates) {
-    const CauchySum::Value part = term.at(z);
+    const CauchySum::ValueAndSlope part = term.at(z);
     value.f += std::conj(part.f);
     value.fzbar += std::conj(part.df);
   }

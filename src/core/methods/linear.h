@@ -15,7 +15,7 @@ class LinearDeformer : public Deformer {
  public:
   explicit LinearDeformer(const Rest& rest);
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override;
+  SampledMap deform(const Pose& pose, EvalOptions options) override;
   const PlanarMatrix<float>* operator_matrix() const override;
 
  protected:

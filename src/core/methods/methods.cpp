@@ -38,6 +38,7 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_outline) rest.outline.clear();
   if (!method.uses_corners) rest.corners.clear();
   if (!method.uses_stiffness) rest.stiffness.clear();
+  if (!method.follows_others) rest.other_parameters.clear();
   return rest;
 }
 

@@ -26,27 +26,27 @@ class OutlineDeformer final : public Deformer {
       return;
     }
     fit_ = new_fit();
-    take_values();
+    set_up_values();
     // What no pose changes is solved while the rest is prepared, which nobody waits for.
     if (pins_.used.empty()) solve({}, false);
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
     if (free_) {
-      free_->deform(pose, out, wanted);
+      SampledMap out = free_->deform(pose, options);
       out.note = "Draw an outline: the picture's shape goes onto it." +
                  (out.note.empty() ? "" : " " + out.note);
-      return;
+      return out;
     }
-    out = SampledMap{};
-    solve(pinned(pose), wanted.draft);
+    SampledMap out;
+    solve(pinned(pose), options.draft);
     const int last = fit_->iterations();
-    const OutlineMatch match = fit_->after(std::min(wanted.iteration.value_or(last), last));
+    const OutlineMatch match = fit_->after(std::min(options.iteration.value_or(last), last));
     // While an earlier iteration is watched its basis may be another one.
     const bool is_own = match.basis == fit_->basis();
     out.f = image(is_own ? value_ : planar_coordinates<T>(match.basis, rest_.samples), match);
-    if (wanted.derivatives) {
+    if (options.derivatives) {
       const Points& places =
           rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
       if (!is_own || slope_.rows() != value_.rows())
@@ -63,8 +63,10 @@ class OutlineDeformer final : public Deformer {
       out.status = SampledMap::Status::iterating;
     out.note = note(match);
     if (pose.cage != rest_.cage) out.note += "; cage points do not act";
-    if (std::ranges::any_of(rest_.pins, &RestPin::turns)) out.note += "; pins guide by place only";
+    if (std::ranges::any_of(rest_.pins, &RestPin::has_frame))
+      out.note += "; pins guide by place only";
     if (!pins_.note.empty()) out.note += "; " + pins_.note;
+    return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
@@ -110,18 +112,18 @@ class OutlineDeformer final : public Deformer {
     return pinned;
   }
 
-  void solve(Points wanted, bool draft) {
-    if (wanted == solved_ && (draft || !draft_)) return;
+  void solve(Points options, bool draft) {
+    if (options == solved_ && (draft || !draft_)) return;
     if (draft)
-      fit_->follow(wanted);
+      fit_->follow(options);
     else
-      fit_->solve(wanted);
-    if (fit_->builds() != built_) take_values();
-    solved_ = std::move(wanted);
+      fit_->solve(options);
+    if (fit_->builds() != built_) set_up_values();
+    solved_ = std::move(options);
     draft_ = draft;
   }
 
-  void take_values() {
+  void set_up_values() {
     built_ = fit_->builds();
     value_ = planar_coordinates<T>(fit_->basis(), rest_.samples);
     slope_ = {};
@@ -152,8 +154,8 @@ class OutlineDeformer final : public Deformer {
     const bool reached = match.hausdorff <= kOutlineMet * size,
                met = match.pins_missed <= kOutlineMet * size;
     if (match.pins_held > 0)
-      note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
-                                   : "; pins are wanted outside of it and held inside";
+      note += match.pins_held == 1 ? "; a pin is options outside of it and held inside"
+                                   : "; pins are options outside of it and held inside";
     if (!met) note += "; a pin is missed by " + percent(match.pins_missed);
     // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
     if (pins_.used.size() > 1 && !(reached && met))

@@ -26,7 +26,7 @@ inline ParameterSpec by_decades(std::string key, std::string label, std::string 
 inline ParameterSpec toggle(std::string key, std::string label, std::string hint,
                             bool fallback = false) {
   ParameterSpec spec = number(std::move(key), std::move(label), std::move(hint), fallback, 0, 1);
-  spec.kind = ParameterSpec::Kind::toggle;
+  spec.type = ParameterSpec::Type::toggle;
   return spec;
 }
 
@@ -36,7 +36,7 @@ inline ParameterSpec one_of(std::string key, std::string label, std::string hint
   const double highest = static_cast<double>(options.size()) - 1;
   ParameterSpec spec = number(std::move(key), std::move(label), std::move(hint),
                               static_cast<double>(fallback), 0, highest);
-  spec.kind = ParameterSpec::Kind::choice;
+  spec.type = ParameterSpec::Type::choice;
   spec.options = std::move(options);
   return spec;
 }

@@ -145,7 +145,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     const VectorXc base = cage_at_pins_ * cage;  // what the cage alone does at each functional
     for (const size_t i : used_) all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
     for (const size_t i : used_)
-      if (this->rest_.pins[i].turns)
+      if (this->rest_.pins[i].has_frame)
         all[row++] = basis_->length * (std::polar(pose.pins[i].scale, pose.pins[i].angle) - 1.0);
     all.tail(functionals()) -= base;
     return all;
@@ -222,7 +222,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     Points places, turning;
     for (const size_t i : used_) {
       places.push_back(pins[i].position);
-      if (pins[i].turns) turning.push_back(pins[i].position);
+      if (pins[i].has_frame) turning.push_back(pins[i].position);
     }
     const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()),
                 m = p + q;

@@ -31,14 +31,15 @@ class RealDeformer final : public LinearDeformer<T> {
     this->value_ = planar(coordinates_->at(rest.samples, 0).real().template cast<Complex>());
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
-    LinearDeformer<T>::deform(pose, out, {});
-    if (!wanted.derivatives || out.f.size() == 0) return;
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
+    SampledMap out = LinearDeformer<T>::deform(pose, {});
+    if (!options.derivatives || out.f.size() == 0) return out;
     if (slope_.rows() != out.f.size())
       slope_ = planar(coordinates_->at(this->derivative_points(), 1));
     const VectorXc by = controls(pose);
     out.fz = 0.5 * product(slope_, by).array() + Complex(1);
     out.fzbar = 0.5 * product(slope_, by.conjugate()).conjugate();
+    return out;
   }
 
   VectorXc controls(const Pose& pose) const override {

@@ -1,6 +1,6 @@
 // Method `strokes`: curves drawn inside go onto curves drawn elsewhere, their points free to slide
 // along them (Segall, Ben-Chen 2016, E_s2s); between them the map is as smooth (E_s), as rigid
-// (E_r) and as conformal as wanted.
+// (E_r) and as conformal as options.
 //
 // f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
 // minimized by alternating least squares. Without strokes it is method `pins`.
@@ -101,13 +101,13 @@ class StrokeTargets {
   }
 
  private:
-  struct Sample {
+  struct CurveSample {
     size_t curve;
     Complex place;  ///< where the cage takes it
   };
   std::vector<Polyline> curves_;
   std::vector<double> lengths_;
-  std::vector<Sample> samples_;
+  std::vector<CurveSample> samples_;
   std::vector<double> shares_;
   std::vector<Index> hints_;
   VectorXc slopes_;
@@ -136,24 +136,24 @@ class StrokesDeformer final : public Deformer {
     prepare(unit);
   }
 
-  void deform(const Pose& pose, SampledMap& out, Wanted wanted) override {
+  SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
     if (strokes_.empty()) {
-      free_->deform(without_strokes(pose), out, wanted);
+      SampledMap out = free_->deform(without_strokes(pose), options);
       if (!note_.empty()) out.note = note_ + (out.note.empty() ? "" : "; ") + out.note;
-      return;
+      return out;
     }
-    cage_->deform(without_handles(pose), out, wanted);
+    SampledMap out = cage_->deform(without_handles(pose), options);
     out.note = note_;
     if (is_at_rest(pose)) {
       moved_ = Moved{};
       posed_.reset();
-      return;
+      return out;
     }
-    if (pose != posed_ || wanted.draft != draft_) {
-      solve(pose, wanted.draft);
+    if (pose != posed_ || options.draft != draft_) {
+      solve(pose, options.draft);
       posed_ = pose;
-      draft_ = wanted.draft;
+      draft_ = options.draft;
     }
     out.iterations = moved_.iterations;
     if (!moved_.settled) out.status = SampledMap::Status::iterating;
@@ -166,13 +166,14 @@ class StrokesDeformer final : public Deformer {
     out.note = text + (note_.empty() ? "" : " " + note_);
     out.f += product(value_, moved_.phi);
     if (soft_) out.f += product(value_, moved_.psi).conjugate();
-    if (!wanted.derivatives || rest_.samples.empty()) return;
+    if (!options.derivatives || rest_.samples.empty()) return out;
     if (slope_.rows() == 0)
       slope_ = planar_coordinates<T>(
           polygon_cage(basis_->polygon()),
           rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
     out.fz += product(slope_, moved_.phi);
     if (soft_) out.fzbar += product(slope_, moved_.psi).conjugate();
+    return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
@@ -235,7 +236,7 @@ class StrokesDeformer final : public Deformer {
       on.insert(on.end(), stroke.places.begin(), stroke.places.end());
     for (const size_t i : pins_.used) {
       held.push_back(rest_.pins[i].position);
-      if (rest_.pins[i].turns) turning.push_back(rest_.pins[i].position);
+      if (rest_.pins[i].has_frame) turning.push_back(rest_.pins[i].position);
     }
     const Points inner = basis_->inset(kInset);
     cage_on_ = as_complex(planar_coordinates<double>(rest_.cage, on));
@@ -293,7 +294,7 @@ class StrokesDeformer final : public Deformer {
     for (size_t i = 0; i < rest_.pins.size(); ++i) {
       const PosePin& pin = pose.pins[i];
       if (pin.position != rest_.pins[i].position) return false;
-      if (rest_.pins[i].turns && (pin.angle != 0 || pin.scale != 1)) return false;
+      if (rest_.pins[i].has_frame && (pin.angle != 0 || pin.scale != 1)) return false;
     }
     return true;
   }
@@ -304,11 +305,11 @@ class StrokesDeformer final : public Deformer {
         std::make_shared<StrokeTargets>(strokes_, pose.strokes, cage_on_ * cage,
                                         VectorXc((cage_inner_ * cage).array() + unit_), unit_);
     AlternatingFit& fit = *fit_;
-    fit.project_by(on_strokes, [targets](const VectorXc& values, VectorXc& wanted) {
-      targets->project(values, wanted);
+    fit.project_by(on_strokes, [targets](const VectorXc& values, VectorXc& options) {
+      targets->project(values, options);
     });
-    fit.project_by(rigid, [targets](const VectorXc& values, VectorXc& wanted) {
-      targets->make_rigid(values, wanted);
+    fit.project_by(rigid, [targets](const VectorXc& values, VectorXc& options) {
+      targets->make_rigid(values, options);
     });
     const bool warm = draft && !moved_.shares.empty();
     const VectorXc first = targets->at(warm ? moved_.shares : targets->shares());
@@ -338,7 +339,7 @@ class StrokesDeformer final : public Deformer {
     for (const size_t i : pins_.used)
       targets[row++] += pose.pins[i].position - rest_.pins[i].position;
     for (const size_t i : pins_.used)
-      if (rest_.pins[i].turns)
+      if (rest_.pins[i].has_frame)
         targets[row++] += unit_ * (std::polar(pose.pins[i].scale, pose.pins[i].angle) - 1.0);
     return targets;
   }

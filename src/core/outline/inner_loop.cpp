@@ -49,7 +49,7 @@ bool is_uncertain(Complex from, Complex to) {
          !(std::norm(ratio) > 1 / (kRatio * kRatio));
 }
 
-struct Step {
+struct EdgeSample {
   Complex from, to;  ///< places
   Complex value_from, value_to;
 };
@@ -69,7 +69,7 @@ Points inner_loop(const Points& polygon, double distance) {
 
 int zeros_inside(const Points& loop, const VectorXc& values,
                  const std::function<VectorXc(const Points&)>& at) {
-  std::vector<Step> steps;
+  std::vector<EdgeSample> steps;
   for (size_t i = 0; i < loop.size(); ++i) {
     const size_t next = (i + 1) % loop.size();
     steps.push_back(
@@ -77,9 +77,9 @@ int zeros_inside(const Points& loop, const VectorXc& values,
   }
   double turned = 0;
   for (int round = 0; !steps.empty(); ++round) {
-    std::vector<Step> unsure;
+    std::vector<EdgeSample> unsure;
     Points middles;
-    for (const Step& step : steps) {
+    for (const EdgeSample& step : steps) {
       if (round < kRounds && is_uncertain(step.value_from, step.value_to)) {
         unsure.push_back(step);
         middles.push_back(0.5 * (step.from + step.to));

@@ -13,7 +13,7 @@ Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
   Cuts cuts(static_cast<size_t>(cage.size()));
   std::ranges::sort(lengths);
   for (const double length : lengths) {
-    const Polyline::Place at = line.place_at(length);
+    const Polyline::Location at = line.place_at(length);
     const size_t i = static_cast<size_t>(at.segment), next = (i + 1) % flat.places.size();
     const Index segment = flat.places[i].segment;
     const double from = flat.places[i].t,

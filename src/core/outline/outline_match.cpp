@@ -91,8 +91,8 @@ void OutlineFit::build(const Correspondence& start) {
   built_ = start;
   ++builds_;
   refined_ = false;
-  take_basis(start);
-  take_samples();
+  set_up_basis(start);
+  set_up_samples();
   fit_.emplace(terms());
 }
 
@@ -190,7 +190,7 @@ OutlineMatch OutlineFit::after(int iteration) const {
 // Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
 // own, which stay, so that each of its segments is cut into parts of its own, and for those that
 // come to the target's corners: f' is a power there.
-void OutlineFit::take_basis(const Correspondence& start) {
+void OutlineFit::set_up_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto share = [&](double s) {
     return own * s / start.source_length() +
@@ -229,7 +229,7 @@ void OutlineFit::take_basis(const Correspondence& start) {
   now_.given_basis = cut(given_, places, kLeast);
 }
 
-void OutlineFit::take_samples() {
+void OutlineFit::set_up_samples() {
   samples_.clear();
   middles_.clear();
   sizes_.clear();
@@ -255,7 +255,7 @@ std::vector<FitTerm> OutlineFit::terms() {
   FitTerm fit{with_conjugate(now_.at_samples, soft)};
   fit.project = [this](const VectorXc& values, VectorXc& targets) { project(values, targets); };
   fit.normals = [this](const VectorXc& values, const VectorXc& targets, VectorXc& normals) {
-    take_normals(values, targets, normals);
+    set_up_normals(values, targets, normals);
   };
   terms.push_back(std::move(fit));
   if (!pins_.empty())
@@ -287,8 +287,8 @@ void OutlineFit::project(const VectorXc& values, VectorXc& targets) {
   }
 }
 
-void OutlineFit::take_normals(const VectorXc& values, const VectorXc& targets,
-                              VectorXc& normals) const {
+void OutlineFit::set_up_normals(const VectorXc& values, const VectorXc& targets,
+                                VectorXc& normals) const {
   const double near = 1e-9 * target_.diagonal();
   for (Index i = 0; i < values.size(); ++i) {
     Complex across = values[i] - targets[i];

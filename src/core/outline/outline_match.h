@@ -89,8 +89,8 @@ class OutlineFit {
 
   void build(const Correspondence& start);
   void begin(const Correspondence& start, const Points& wanted);
-  void take_basis(const Correspondence& start);
-  void take_graded_basis(const Correspondence& start);
+  void set_up_basis(const Correspondence& start);
+  void set_up_graded_basis(const Correspondence& start);
   std::vector<double> vertex_lengths() const;
   VectorXc graded_targets() const;
   bool may_refine() const;
@@ -114,14 +114,14 @@ class OutlineFit {
   VectorXd image_sizes() const;
   std::vector<FitRow> fit_rows(const VectorXd& sizes) const;
   double mean_square_miss() const;
-  void take_samples();
+  void set_up_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
   /// Where pins can be: those wanted outside are just inside of the nearest place.
   Points held(const Points& pinned) const;
   VectorXc pin_targets(const Points& pinned) const;
   void project(const VectorXc& values, VectorXc& targets);
-  void take_normals(const VectorXc& values, const VectorXc& targets, VectorXc& normals) const;
+  void set_up_normals(const VectorXc& values, const VectorXc& targets, VectorXc& normals) const;
   void run(AlternatingFit::Mode mode, double settled, int most);
 
   OutlineSettings settings_;

@@ -64,7 +64,7 @@ std::vector<double> OutlineFit::vertex_lengths() const {
 
 // As graded_cuts has them, all the cage's vertices and what goes to the target's corners among
 // them.
-void OutlineFit::take_graded_basis(const Correspondence& start) {
+void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   const double length = source_.length(), close = 1e-9 * length;
   std::vector<double> kept = vertex_lengths();
   const std::vector<double> own = kept;
@@ -106,8 +106,8 @@ void OutlineFit::follow_start(const Correspondence& start) {
   built_ = start;
   ++builds_;
   refined_ = true;
-  take_graded_basis(start);
-  take_samples();
+  set_up_graded_basis(start);
+  set_up_samples();
   const std::vector<FitRow> rows = fit_rows(image_sizes());
   const VectorXc targets = graded_targets();
   const MatrixXc bends = coordinates_at(now_.basis, middles_, 2);

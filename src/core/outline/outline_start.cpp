@@ -248,37 +248,37 @@ struct ConformalStart::Search {
 
   /// Nelder and Mead's simplex in the three target lengths.
   Pairs refined(const Pairs& start) const {
-    struct Corner {
+    struct SimplexVertex {
       Eigen::Vector3d x;
       double cost;
     };
     const auto at = [&](const Eigen::Vector3d& x) {
       Pairs pairs = start;
       std::copy(x.begin(), x.end(), pairs.to.begin());
-      return Corner{x, cost(pairs)};
+      return SimplexVertex{x, cost(pairs)};
     };
     const Eigen::Vector3d origin(start.to[0], start.to[1], start.to[2]);
-    std::array<Corner, 4> simplex{at(origin), at(origin), at(origin), at(origin)};
+    std::array<SimplexVertex, 4> simplex{at(origin), at(origin), at(origin), at(origin)};
     for (int k = 0; k < 3; ++k)
       simplex[static_cast<size_t>(k + 1)] =
           at(origin + 0.03 * target.length() * Eigen::Vector3d::Unit(k));
     for (int step = 0; step < kSimplexSteps; ++step) {
-      std::ranges::sort(simplex, {}, &Corner::cost);
+      std::ranges::sort(simplex, {}, &SimplexVertex::cost);
       const Eigen::Vector3d middle = (simplex[0].x + simplex[1].x + simplex[2].x) / 3;
-      const Corner reflected = at(2 * middle - simplex[3].x);
+      const SimplexVertex reflected = at(2 * middle - simplex[3].x);
       if (reflected.cost < simplex[0].cost) {
-        const Corner expanded = at(3 * middle - 2 * simplex[3].x);
+        const SimplexVertex expanded = at(3 * middle - 2 * simplex[3].x);
         simplex[3] = expanded.cost < reflected.cost ? expanded : reflected;
       } else if (reflected.cost < simplex[2].cost) {
         simplex[3] = reflected;
-      } else if (const Corner contracted = at(0.5 * (middle + simplex[3].x));
+      } else if (const SimplexVertex contracted = at(0.5 * (middle + simplex[3].x));
                  contracted.cost < simplex[3].cost) {
         simplex[3] = contracted;
       } else {
         for (size_t k = 1; k < 4; ++k) simplex[k] = at(0.5 * (simplex[0].x + simplex[k].x));
       }
     }
-    const Corner& best = *std::ranges::min_element(simplex, {}, &Corner::cost);
+    const SimplexVertex& best = *std::ranges::min_element(simplex, {}, &SimplexVertex::cost);
     Pairs pairs = start;
     std::copy(best.x.begin(), best.x.end(), pairs.to.begin());
     return pairs;

@@ -33,7 +33,7 @@ class Solver {
     s_.resize(system.cones.size());
     u_ = heights(at_.x);
     push(at_.x, s_);
-    check(take_heights(u_, s_), "cone program: the start is strictly feasible");
+    check(set_heights(u_, s_), "cone program: the start is strictly feasible");
     center_duals();
     start_fit(start.fit_duals.size() == k_);
     scalings_.assign(s_.size(), std::vector<Scaling>(static_cast<size_t>(m_)));
@@ -63,7 +63,7 @@ class Solver {
   }
 
   /// The slacks' heights where these are u; false when a slack is not strictly inside.
-  bool take_heights(const VectorXd& u, std::vector<Eigen::Matrix3Xd>& s) {
+  bool set_heights(const VectorXd& u, std::vector<Eigen::Matrix3Xd>& s) {
     decay_ = (-u.array()).exp();
     bool inside = true;
     for (size_t c = 0; c < s.size(); ++c)
@@ -353,7 +353,7 @@ class Solver {
     const auto is_good = [&] {
       u = u_ + length * du_;
       for (size_t c = 0; c < s_.size(); ++c) slacks[c] = s_[c] + length * ds_[c];
-      if (!take_heights(u, slacks)) return false;
+      if (!set_heights(u, slacks)) return false;
       for (size_t c = 0; c < s_.size(); ++c)
         for (Index i = 0; i < m_; ++i)
           if (det(slacks[c].col(i)) < 1e-4 * det(s_[c].col(i))) return false;
@@ -363,7 +363,7 @@ class Solver {
     constexpr int kMostTries = 60;
     while (tries < kMostTries && !is_good()) length *= 0.8, ++tries;
     if (tries == kMostTries || !dx.allFinite()) {
-      take_heights(u_, s_);
+      set_heights(u_, s_);
       return false;
     }
     length_ = length;

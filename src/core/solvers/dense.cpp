@@ -45,12 +45,12 @@ void add_gram_by(Syrk syrk, const Matrix& k, Index columns, Index first, Matrix&
        static_cast<int>(out.rows()));
 }
 
-struct Place {
+struct BlockCorner {
   Index row, column;
 };
 
 template <class Gemm, class Matrix>
-void add_product_by(Gemm gemm, const Matrix& a, const Matrix& b, Index columns, Place at,
+void add_product_by(Gemm gemm, const Matrix& a, const Matrix& b, Index columns, BlockCorner at,
                     Matrix& out) {
   if (columns == 0 || a.rows() == 0 || b.rows() == 0) return;
   gemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.rows()),

@@ -43,7 +43,7 @@ void run(const Action& action, Workspace& workspace) {
   try {
     action.run(workspace);
   } catch (const Error& error) {
-    workspace.complain(error);
+    workspace.messages.complain(error);
   }
 }
 

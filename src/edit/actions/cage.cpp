@@ -19,16 +19,16 @@ bool has_cage_selection(const Workspace& w) {
 
 void make_cage(Workspace& w) {
   const auto cage = std::make_shared<Cage>();
-  const auto image = w.document.pictures().shared(w.document.scene());
-  const AutoCageOptions options{w.auto_cage_vertices, w.auto_cage_margin, w.auto_cage_curved};
+  const auto image = w.document.pictures().shared(w.document.scene().layer());
+  const AutoCageOptions options = w.tools.auto_cage;
   w.perform(
       "Making the cage", [=](Job::Progress&) { *cage = auto_cage(*image, options); },
       [&w, cage] {
-        if (!w.commit("Cage from picture", with_cage(w.document.scene(), std::move(*cage)),
-                      From::document))
+        if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(*cage)),
+                      EditBase::document))
           return;
-        w.posture = Posture::pose;
-        w.tool = ToolId::select;
+        w.mode = EditMode::pose;
+        w.tools.active = ToolId::select;
         w.selection.clear();
       });
 }
@@ -38,16 +38,16 @@ void make_box(Workspace& w) {
   const Image& image = *w.document.image();
   const double width = image.width, height = image.height;
   const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  if (!w.commit("Box around the picture", with_cage(w.document.scene(), corners), From::document))
+  if (!w.commit("Box around the picture", with_cage(w.shown.own(), corners), EditBase::document))
     return;
-  w.posture = Posture::pose;
-  w.tool = ToolId::select;
-  const std::vector<Handle> all = handles_of(w.scene(), w.posture);
+  w.mode = EditMode::pose;
+  w.tools.active = ToolId::select;
+  const std::vector<Handle> all = handles_of(w.shown.deformation(), w.mode);
   w.selection = Selection(all.begin(), all.end());
 }
 
 void switch_posture(Workspace& w) {
-  w.posture = w.posture == Posture::pose ? Posture::rest : Posture::pose;
+  w.mode = w.mode == EditMode::pose ? EditMode::rest : EditMode::pose;
   w.prune_selection();
 }
 
@@ -77,7 +77,7 @@ std::vector<Action> cage_actions() {
        {Key::tab},
        has_cage,
        switch_posture,
-       [](const Workspace& w) { return w.posture == Posture::rest; }},
+       [](const Workspace& w) { return w.mode == EditMode::rest; }},
       {"cage.corner",
        "Smooth point or corner",
        "",
@@ -90,41 +90,46 @@ std::vector<Action> cage_actions() {
        "",
        "Cage",
        {},
-       [](const Workspace& w) { return !w.scene().corners.empty(); },
-       [](Workspace& w) { w.commit("All corners", with_all_corners(w.scene())); }},
+       [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
+       [](Workspace& w) { w.commit("All corners", with_all_corners(w.shown.deformation())); }},
       {"cage.bake",
        "Pose the cage as the pins do",
        "",
        "Cage",
        {},
        [](const Workspace& w) {
-         return w.scene().has_cage() && method_named(w.scene().method).uses_pins &&
-                !w.scene().pins.empty();
+         return w.shown.deformation().has_cage() &&
+                method_named(w.shown.deformation().method).uses_pins &&
+                !w.shown.deformation().pins.empty();
        },
-       [](Workspace& w) { w.commit("Pose by pins", baked(w.scene())); }},
+       [](Workspace& w) { w.commit("Pose by pins", baked(w.shown.deformation())); }},
       {"cage.raise",
        "Raise the curves' degree",
        "",
        "Cage",
        {},
        has_cage,
-       [](Workspace& w) { w.commit("Raise degree", raised(w.scene(), w.selection, w.posture)); }},
+       [](Workspace& w) {
+         w.commit("Raise degree", raised(w.shown.deformation(), w.selection, w.mode));
+       }},
       {"cage.lower",
        "Lower the curves' degree",
        "",
        "Cage",
        {},
        has_cage,
-       [](Workspace& w) { w.commit("Lower degree", lowered(w.scene(), w.selection, w.posture)); }},
+       [](Workspace& w) {
+         w.commit("Lower degree", lowered(w.shown.deformation(), w.selection, w.mode));
+       }},
       {"map.fold_free",
        "Make it fold-free",
        "",
        "Cage",
        {},
        [](const Workspace& w) {
-         return w.document.scene().has_cage() && w.scene().method != "bounded";
+         return w.shown.own().has_cage() && w.shown.deformation().method != "bounded";
        },
-       [](Workspace& w) { w.commit("Make fold-free", fold_free(w.scene())); }},
+       [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); }},
       {"map.play",
        "Watch the map converge",
        "",

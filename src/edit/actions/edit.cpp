@@ -6,41 +6,41 @@ namespace {
 
 template <ToolId tool>
 void choose(Workspace& w) {
-  w.tool = tool;
+  w.tools.active = tool;
 }
 template <ToolId tool>
 bool chosen(const Workspace& w) {
-  return w.tool == tool;
+  return w.tools.active == tool;
 }
 
 /// Arrow keys.
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
-  w.commit_or_amend(
-      "Nudge",
-      displaced(w.scene(), displacements(w.scene(), w.selection, by, w.posture, w.influence),
-                w.posture));
+  w.commit_or_amend("Nudge", displaced(w.shown.deformation(),
+                                       displacements(w.shown.deformation(), w.selection, by, w.mode,
+                                                     w.tools.drag),
+                                       w.mode));
 }
 
 template <int up, int down>
 void reach(Workspace& w) {
-  if (w.tool == ToolId::brush) {
-    w.brush_radius = std::clamp(w.brush_radius * up / down, kLeastBrush, kMostBrush);
+  if (w.tools.active == ToolId::brush) {
+    w.tools.brush_radius = std::clamp(w.tools.brush_radius * up / down, kLeastBrush, kMostBrush);
     return;
   }
-  w.influence.soft = true;
-  w.influence.reach = std::clamp(w.influence.reach * up / down, kLeastReach, kMostReach);
+  w.tools.drag.soft = true;
+  w.tools.drag.reach = std::clamp(w.tools.drag.reach * up / down, kLeastReach, kMostReach);
 }
 
 void select_all(Workspace& w) {
-  const auto all = handles_of(w.scene(), w.posture);
+  const auto all = handles_of(w.shown.deformation(), w.mode);
   w.selection = Selection(all.begin(), all.end());
 }
 
 bool has_chosen_key(const Workspace& w) {
-  const Scene& scene = w.document.scene();
-  return w.timeline.chosen && key_at(scene, w.timeline.time) < scene.keyframes.size();
+  const Deformation& own = w.shown.own();
+  return w.shown.timeline.chosen && key_at(own, w.shown.timeline.time) < own.keyframes.size();
 }
 bool can_erase(const Workspace& w) {
   return has_selection(w) || has_chosen_key(w);
@@ -54,29 +54,30 @@ void erase_selection(Workspace& w) {
 }
 
 void reset_selection(Workspace& w) {
-  w.commit(w.selection.empty() ? "Reset pose" : "Reset selection", reset(w.scene(), w.selection));
+  w.commit(w.selection.empty() ? "Reset pose" : "Reset selection",
+           reset(w.shown.deformation(), w.selection));
 }
 
 void free_pin_angles(Workspace& w) {
-  Scene scene = w.scene();
+  Deformation deformation = w.shown.deformation();
   for (const Handle& handle : w.selection)
-    if (handle.kind == Handle::Kind::pin) scene.pins[handle.index].angle.reset();
-  w.commit("Free pin angle", scene);
+    if (handle.kind == Handle::Kind::pin) deformation.pins[handle.index].angle.reset();
+  w.commit("Free pin angle", std::move(deformation));
 }
 
 bool has_turned_pin(const Workspace& w) {
   for (const Handle& handle : w.selection)
-    if (handle.kind == Handle::Kind::pin && exists(w.scene(), handle, w.posture) &&
-        w.scene().pins[handle.index].angle)
+    if (handle.kind == Handle::Kind::pin && exists(w.shown.deformation(), handle, w.mode) &&
+        w.shown.deformation().pins[handle.index].angle)
       return true;
   return false;
 }
 
 bool can_undo(const Workspace& w) {
-  return !w.preview && w.document.history().can_undo();
+  return !w.shown.preview && w.document.history().can_undo();
 }
 bool can_redo(const Workspace& w) {
-  return !w.preview && w.document.history().can_redo();
+  return !w.shown.preview && w.document.history().can_redo();
 }
 void undo(Workspace& w) {
   w.go_to(w.document.history().index() - 1);
@@ -119,13 +120,13 @@ bool has_pin(const Workspace& w) {
 
 template <int by>
 void change_depth(Workspace& w) {
-  Scene scene = w.scene();
+  Deformation deformation = w.shown.deformation();
   for (const Handle& handle : w.selection)
-    if (handle.kind == Handle::Kind::pin && exists(scene, handle, w.posture)) {
-      int& depth = scene.pins[static_cast<size_t>(handle.index)].depth;
+    if (handle.kind == Handle::Kind::pin && exists(deformation, handle, w.mode)) {
+      int& depth = deformation.pins[static_cast<size_t>(handle.index)].depth;
       depth = std::clamp(depth + by, -kMostDepth, kMostDepth);
     }
-  w.commit_or_amend(by > 0 ? "Pin up" : "Pin down", std::move(scene));
+  w.commit_or_amend(by > 0 ? "Pin up" : "Pin down", std::move(deformation));
 }
 
 }  // namespace
@@ -162,8 +163,8 @@ std::vector<Action> edit_actions() {
        "Edit",
        {'O'},
        has_cage,
-       [](Workspace& w) { w.influence.soft = !w.influence.soft; },
-       [](const Workspace& w) { return w.influence.soft; }},
+       [](Workspace& w) { w.tools.drag.soft = !w.tools.drag.soft; },
+       [](const Workspace& w) { return w.tools.drag.soft; }},
       {"edit.soft_less",
        "Softness, or the brush, reaches less far",
        "",
@@ -184,40 +185,41 @@ std::vector<Action> edit_actions() {
        "Edit",
        {'X'},
        has_cage,
-       [](Workspace& w) { w.influence.symmetric = !w.influence.symmetric; },
-       [](const Workspace& w) { return w.influence.symmetric; }},
+       [](Workspace& w) { w.tools.drag.symmetric = !w.tools.drag.symmetric; },
+       [](const Workspace& w) { return w.tools.drag.symmetric; }},
       {"edit.snap",
        "Snap: drags stop where things line up",
        kSnap,
        "Edit",
        {'G'},
        has_cage,
-       [](Workspace& w) { w.snaps = !w.snaps; },
-       [](const Workspace& w) { return w.snaps; }},
+       [](Workspace& w) { w.tools.snaps = !w.tools.snaps; },
+       [](const Workspace& w) { return w.tools.snaps; }},
       {"edit.reset", "Reset to rest", kReset, "Edit", {'R'}, has_cage, reset_selection},
       {"edit.remove_stiffness",
        "Remove the painted stiffness",
        "",
        "Edit",
        {},
-       [](const Workspace& w) { return !w.scene().stiffness.empty(); },
+       [](const Workspace& w) { return !w.shown.deformation().stiffness.empty(); },
        [](Workspace& w) {
-         Scene scene = w.document.scene();
-         scene.stiffness.clear();
-         w.commit("Remove stiffness", std::move(scene), From::document);
+         Deformation deformation = w.shown.own();
+         deformation.stiffness.clear();
+         w.commit("Remove stiffness", std::move(deformation), EditBase::document);
        }},
       {"edit.remove_outline",
        "Remove the outline",
        "",
        "Edit",
        {},
-       [](const Workspace& w) { return !w.scene().outline.empty(); },
+       [](const Workspace& w) { return !w.shown.deformation().outline.empty(); },
        [](Workspace& w) {
-         Scene scene = w.document.scene();
-         scene.outline.clear();
-         scene.surface.reset();
-         if (scene.method == "outline") scene = with_method(std::move(scene), "pins");
-         w.commit("Remove outline", scene, From::document);
+         Deformation deformation = w.shown.own();
+         deformation.outline.clear();
+         deformation.surface.reset();
+         if (deformation.method == "outline")
+           deformation = with_method(std::move(deformation), "pins");
+         w.commit("Remove outline", std::move(deformation), EditBase::document);
        }},
       {"edit.pin_up",
        "Pin up: what is around it over the rest",

@@ -21,10 +21,10 @@ inline bool always(const Workspace&) {
   return true;
 }
 inline bool has_cage(const Workspace& w) {
-  return w.scene().has_cage();
+  return w.shown.deformation().has_cage();
 }
 inline bool has_surface(const Workspace& w) {
-  return w.scene().surface.has_value();
+  return w.shown.deformation().surface.has_value();
 }
 inline bool has_content(const Workspace& w) {
   return !w.document.empty();

@@ -5,15 +5,15 @@ namespace holomorph {
 namespace {
 
 bool has_others(const Workspace& w) {
-  return layer_count(w.document.scene()) > 1;
+  return w.document.scene().layers.size() > 1;
 }
 template <int by>
 bool has_neighbour(const Workspace& w) {
   const Scene& scene = w.document.scene();
-  return by > 0 ? !scene.above.empty() : !scene.below.empty();
+  return by > 0 ? scene.edited + 1 < scene.layers.size() : scene.edited > 0;
 }
 size_t neighbour(const Workspace& w, int by) {
-  return edited_layer(w.document.scene()) + static_cast<size_t>(by);
+  return w.document.scene().edited + static_cast<size_t>(by);
 }
 template <int by>
 void choose(Workspace& w) {
@@ -26,25 +26,27 @@ void move(Workspace& w) {
 }
 
 void show_layer(Workspace& w) {
-  Scene scene = w.document.scene();
-  scene.layer.visible = !scene.layer.visible;
-  w.commit_layers(scene.layer.visible ? "Show layer" : "Hide layer", std::move(scene));
+  Layer layer = w.document.scene().layer();
+  layer.visible = !layer.visible;
+  w.commit_layers(layer.visible ? "Show layer" : "Hide layer",
+                  with_layer(w.document.scene(), layer));
 }
 void lock_layer(Workspace& w) {
-  Scene scene = w.document.scene();
-  scene.layer.locked = !scene.layer.locked;
-  w.commit_layers(scene.layer.locked ? "Lock layer" : "Unlock layer", std::move(scene));
+  Layer layer = w.document.scene().layer();
+  layer.locked = !layer.locked;
+  w.commit_layers(layer.locked ? "Lock layer" : "Unlock layer",
+                  with_layer(w.document.scene(), layer));
 }
 
-template <Background::Kind kind>
+template <Background::Fill fill>
 void set_background(Workspace& w) {
   Scene scene = w.document.scene();
-  scene.background.kind = kind;
+  scene.background.fill = fill;
   w.commit_layers("Background", std::move(scene));
 }
-template <Background::Kind kind>
+template <Background::Fill fill>
 bool has_background(const Workspace& w) {
-  return w.document.scene().background.kind == kind;
+  return w.document.scene().background.fill == fill;
 }
 
 // Glyphs of Font Awesome 4.
@@ -54,7 +56,7 @@ constexpr const char *kAdd = "\uf067", *kDouble = "\uf24d", *kTrash = "\uf1f8", 
 }  // namespace
 
 std::vector<Action> layer_actions() {
-  using Kind = Background::Kind;
+  using Fill = Background::Fill;
   return {
       {"layer.add",
        "Add a picture as a layer...",
@@ -93,7 +95,7 @@ std::vector<Action> layer_actions() {
        {},
        has_others,
        [](Workspace& w) {
-         if (w.document.scene().layer.locked) {
+         if (w.document.scene().layer().locked) {
            w.require_open_layer();
            return;
          }
@@ -134,7 +136,7 @@ std::vector<Action> layer_actions() {
        {{'H', kCtrl}},
        has_content,
        show_layer,
-       [](const Workspace& w) { return w.document.scene().layer.visible; }},
+       [](const Workspace& w) { return w.document.scene().layer().visible; }},
       {"layer.lock",
        "Lock or unlock the layer",
        "",
@@ -142,31 +144,31 @@ std::vector<Action> layer_actions() {
        {{'L', kCtrl}},
        has_content,
        lock_layer,
-       [](const Workspace& w) { return w.document.scene().layer.locked; }},
+       [](const Workspace& w) { return w.document.scene().layer().locked; }},
       {"background.transparent",
        "Background: transparent",
        "",
        "Layer",
        {},
        has_content,
-       set_background<Kind::transparent>,
-       has_background<Kind::transparent>},
+       set_background<Fill::transparent>,
+       has_background<Fill::transparent>},
       {"background.color",
        "Background: a colour",
        "",
        "Layer",
        {},
        has_content,
-       set_background<Kind::color>,
-       has_background<Kind::color>},
+       set_background<Fill::color>,
+       has_background<Fill::color>},
       {"background.original",
        "Background: the original picture",
        "",
        "Layer",
        {},
        has_content,
-       set_background<Kind::original>,
-       has_background<Kind::original>},
+       set_background<Fill::original>,
+       has_background<Fill::original>},
   };
 }
 

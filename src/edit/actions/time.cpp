@@ -8,22 +8,22 @@ bool has_keys(const Workspace& w) {
   return has_keyframes(w.document.scene());
 }
 bool has_copied(const Workspace& w) {
-  return w.copied && fits(w.scene(), *w.copied);
+  return w.copied && fits(w.shown.deformation(), *w.copied);
 }
 std::optional<size_t> key_here(const Workspace& w) {
-  const size_t key = key_at(w.document.scene(), w.timeline.time);
-  return key < w.document.scene().keyframes.size() ? std::optional(key) : std::nullopt;
+  const size_t key = key_at(w.shown.own(), w.shown.timeline.time);
+  return key < w.shown.own().keyframes.size() ? std::optional(key) : std::nullopt;
 }
 template <int by>
 void step_frame(Workspace& w) {
-  w.timeline.playing = false;
+  w.shown.timeline.playing = false;
   const Scene& scene = w.document.scene();
-  w.go_to_time(time_of_frame(scene, frame_at(scene, w.timeline.time) + by));
+  w.go_to_time(time_of_frame(scene, frame_at(scene, w.shown.timeline.time) + by));
 }
 template <bool forwards>
 void step_key(Workspace& w) {
-  w.timeline.playing = false;
-  if (const auto time = next_key(w.document.scene(), w.timeline.time, forwards))
+  w.shown.timeline.playing = false;
+  if (const auto time = next_key(w.shown.own(), w.shown.timeline.time, forwards))
     w.go_to_time(*time);
 }
 
@@ -43,12 +43,13 @@ std::vector<Action> time_actions() {
        {Key::space},
        plays,
        [](Workspace& w) {
-         w.preview.reset();
-         w.timeline.playing = !w.timeline.playing;
-         w.timeline.clock_ms.reset();
-         if (w.timeline.time >= length_of(w.document.scene()) - 1e-6) w.timeline.time = 0;
+         w.shown.preview.reset();
+         w.shown.timeline.playing = !w.shown.timeline.playing;
+         w.shown.timeline.clock_ms.reset();
+         if (w.shown.timeline.time >= length_of(w.document.scene()) - 1e-6)
+           w.shown.timeline.time = 0;
        },
-       [](const Workspace& w) { return w.timeline.playing; }},
+       [](const Workspace& w) { return w.shown.timeline.playing; }},
       {"time.back", "One frame back", kBack, "Time", {','}, has_keys, step_frame<-1>},
       {"time.forward", "One frame on", kForward, "Time", {'.'}, has_keys, step_frame<1>},
       {"time.previous_key",
@@ -73,7 +74,7 @@ std::vector<Action> time_actions() {
        {},
        [](const Workspace& w) { return key_here(w).has_value(); },
        [](Workspace& w) {
-         w.commit("Delete key", without_key(w.document.scene(), *key_here(w)), From::document);
+         w.commit("Delete key", without_key(w.shown.own(), *key_here(w)), EditBase::document);
        }},
       {"time.auto_key",
        "Auto-key: edits of the pose set keys",
@@ -82,26 +83,26 @@ std::vector<Action> time_actions() {
        {'K'},
        has_cage,
        [](Workspace& w) {
-         w.timeline.auto_key = !w.timeline.auto_key;
-         w.timeline.visible = w.timeline.visible || w.timeline.auto_key;
+         w.shown.timeline.auto_key = !w.shown.timeline.auto_key;
+         w.shown.timeline.visible = w.shown.timeline.visible || w.shown.timeline.auto_key;
        },
-       [](const Workspace& w) { return w.timeline.auto_key; }},
+       [](const Workspace& w) { return w.shown.timeline.auto_key; }},
       {"time.loop",
        "Loop",
        kLoop,
        "Time",
        {},
        has_cage,
-       [](Workspace& w) { w.timeline.loop = !w.timeline.loop; },
-       [](const Workspace& w) { return w.timeline.loop; }},
+       [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
+       [](const Workspace& w) { return w.shown.timeline.loop; }},
       {"time.onion",
        "Onion skin: the keys before and after",
        kOnion,
        "Time",
        {},
        has_cage,
-       [](Workspace& w) { w.timeline.onion = !w.timeline.onion; },
-       [](const Workspace& w) { return w.timeline.onion; }},
+       [](Workspace& w) { w.shown.timeline.onion = !w.shown.timeline.onion; },
+       [](const Workspace& w) { return w.shown.timeline.onion; }},
       {"time.copy",
        "Copy pose",
        "",
@@ -110,8 +111,8 @@ std::vector<Action> time_actions() {
        has_cage,
        [](Workspace& w) {
          if (!w.require_pose()) return;
-         w.copied = whole_pose_of(w.scene());
-         w.say("The pose is copied.");
+         w.copied = whole_pose_of(w.shown.deformation());
+         w.messages.say("The pose is copied.");
        }},
       {"time.paste",
        "Paste pose",
@@ -119,7 +120,7 @@ std::vector<Action> time_actions() {
        "Time",
        {{'V', kCtrl}},
        has_copied,
-       [](Workspace& w) { w.commit("Paste pose", posed_as(w.scene(), *w.copied)); }},
+       [](Workspace& w) { w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied)); }},
       {"time.paste_mirrored",
        "Paste pose, mirrored",
        "",
@@ -127,7 +128,8 @@ std::vector<Action> time_actions() {
        {{'V', kCtrlShift}},
        has_copied,
        [](Workspace& w) {
-         w.commit("Paste mirrored pose", posed_as(w.scene(), mirrored(w.scene(), *w.copied)));
+         w.commit("Paste mirrored pose",
+                  posed_as(w.shown.deformation(), mirrored(w.shown.deformation(), *w.copied)));
        }},
   };
 }

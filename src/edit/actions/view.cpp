@@ -7,30 +7,32 @@ namespace {
 
 template <View view>
 void look(Workspace& w) {
-  w.view = view;
+  w.display.view = view;
 }
 template <View view>
 bool looks(const Workspace& w) {
-  return w.view == view;
+  return w.display.view == view;
 }
 
 void zoom_by(Workspace& w, double factor) {
-  w.viewport.zoom_at(
-      {w.viewport.left + w.viewport.width / 2, w.viewport.top + w.viewport.height / 2}, factor);
+  w.display.viewport.zoom_at({w.display.viewport.left + w.display.viewport.width / 2,
+                              w.display.viewport.top + w.display.viewport.height / 2},
+                             factor);
 }
 
 /// Corners with angles are where the picture is, not the cage.
 Complex shown_place(const Workspace& w, const Handle& handle) {
-  const bool corner = w.tool == ToolId::angle && w.posture == Posture::pose &&
+  const bool corner = w.tools.active == ToolId::angle && w.mode == EditMode::pose &&
                       handle.kind == Handle::Kind::cage && handle.control == 0;
-  return corner ? posed_vertex(w, handle.index) : position_of(w.scene(), handle, w.posture);
+  return corner ? posed_vertex(w, handle.index)
+                : position_of(w.shown.deformation(), handle, w.mode);
 }
 
 void frame_selection(Workspace& w) {
   Box box;
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::stroke)
-      for (const Complex& z : curve_of(w.scene(), handle.index, w.posture)) box.include(z);
+      for (const Complex& z : curve_of(w.shown.deformation(), handle.index, w.mode)) box.include(z);
     else
       box.include(shown_place(w, handle));
   const double least = 60;  // one point alone is shown with its surroundings
@@ -39,7 +41,7 @@ void frame_selection(Workspace& w) {
     box.include(center + Complex(least, least));
     box.include(center - Complex(least, least));
   }
-  w.viewport.fit(box.empty() ? w.content_box() : box);
+  w.display.viewport.fit(box.empty() ? content_box(w) : box);
 }
 
 // Glyphs of Font Awesome 4.
@@ -82,7 +84,7 @@ std::vector<Action> view_actions() {
        "View",
        {},
        [](const Workspace& w) {
-         return w.document.scene().has_cage() && w.scene().method == "bounded";
+         return w.shown.own().has_cage() && w.shown.deformation().method == "bounded";
        },
        ask<Request::compare>},
       {"view.fold",
@@ -98,31 +100,31 @@ std::vector<Action> view_actions() {
        "View",
        {{'\\', kShift}, {'|', kShift}},
        has_cage,
-       [](Workspace& w) { w.split = w.split ? std::nullopt : std::optional(0.5); },
-       [](const Workspace& w) { return w.split.has_value(); }},
+       [](Workspace& w) { w.display.split = w.display.split ? std::nullopt : std::optional(0.5); },
+       [](const Workspace& w) { return w.display.split.has_value(); }},
       {"view.mesh",
        "Mesh",
        "",
        "View",
        {'M'},
        has_cage,
-       [](Workspace& w) { w.show_mesh = !w.show_mesh; },
-       [](const Workspace& w) { return w.show_mesh; }},
+       [](Workspace& w) { w.display.show_mesh = !w.display.show_mesh; },
+       [](const Workspace& w) { return w.display.show_mesh; }},
       {"view.timeline",
        "Timeline",
        kFilm,
        "View",
        {'T'},
        has_cage,
-       [](Workspace& w) { w.timeline.visible = !w.timeline.visible; },
-       [](const Workspace& w) { return w.timeline.visible; }},
+       [](Workspace& w) { w.shown.timeline.visible = !w.shown.timeline.visible; },
+       [](const Workspace& w) { return w.shown.timeline.visible; }},
       {"view.surface",
        "Surface in space",
        "",
        "View",
        {},
        has_surface,
-       [](Workspace& w) { w.show_surface = !w.show_surface; },
+       [](Workspace& w) { w.display.show_surface = !w.display.show_surface; },
        [](const Workspace& w) { return w.shows_surface(); }},
       {"view.overlays",
        "Cage and pins",
@@ -130,8 +132,8 @@ std::vector<Action> view_actions() {
        "View",
        {'0'},
        always,
-       [](Workspace& w) { w.show_cage = !w.show_cage; },
-       [](const Workspace& w) { return w.show_cage; }},
+       [](Workspace& w) { w.display.show_cage = !w.display.show_cage; },
+       [](const Workspace& w) { return w.display.show_cage; }},
       {"view.frame", "Frame selection", "", "View", {'F'}, has_content, frame_selection},
       {"view.fit",
        "Fit all",
@@ -139,14 +141,14 @@ std::vector<Action> view_actions() {
        "View",
        {{'F', kShift}, {'0', kCtrl}},
        has_content,
-       [](Workspace& w) { w.viewport.fit(w.content_box()); }},
+       [](Workspace& w) { w.display.viewport.fit(content_box(w)); }},
       {"view.actual",
        "100 %",
        "",
        "View",
        {{'1', kCtrl}},
        has_content,
-       [](Workspace& w) { zoom_by(w, 1 / w.viewport.zoom); }},
+       [](Workspace& w) { zoom_by(w, 1 / w.display.viewport.zoom); }},
       {"view.zoom_in",
        "Zoom in",
        "",

@@ -9,45 +9,47 @@
 namespace holomorph {
 namespace {
 
-auto found(const Scene& scene, Index vertex) {
-  return std::ranges::find(scene.corners, vertex, &Corner::vertex);
+auto found(const Deformation& deformation, Index vertex) {
+  return std::ranges::find(deformation.corners, vertex, &Corner::vertex);
 }
 
-/// A scene whose method sets angles, with the corners listed and this one among them.
-PoseCorner& corner(Scene& scene, Index vertex) {
-  if (!follows(scene, "angles")) scene = with_method(std::move(scene), "angles");
-  scene = scene.corners.empty() ? with_all_corners(std::move(scene))
-                                : with_corner(std::move(scene), vertex);
-  return std::ranges::find(scene.corners, vertex, &Corner::vertex)->pose;
+/// A deformation whose method sets angles, with the corners listed and this one among them.
+PoseCorner& corner(Deformation& deformation, Index vertex) {
+  if (!follows(deformation, "angles")) deformation = with_method(std::move(deformation), "angles");
+  deformation = deformation.corners.empty() ? with_all_corners(std::move(deformation))
+                                            : with_corner(std::move(deformation), vertex);
+  return std::ranges::find(deformation.corners, vertex, &Corner::vertex)->pose;
 }
 
 }  // namespace
 
-bool is_corner(const Scene& scene, Index vertex) {
-  return scene.corners.empty() || found(scene, vertex) != scene.corners.end();
+bool is_corner(const Deformation& deformation, Index vertex) {
+  return deformation.corners.empty() || found(deformation, vertex) != deformation.corners.end();
 }
 
-PoseCorner corner_at(const Scene& scene, Index vertex) {
-  const auto at = found(scene, vertex);
-  return at == scene.corners.end() ? PoseCorner{} : at->pose;
+PoseCorner corner_at(const Deformation& deformation, Index vertex) {
+  const auto at = found(deformation, vertex);
+  return at == deformation.corners.end() ? PoseCorner{} : at->pose;
 }
 
-double corner_opening(const Scene& scene, Index vertex) {
-  const PoseCorner pose = corner_at(scene, vertex);
-  return signed_area(outline_of(scene.rest)) > 0 ? pose.before - pose.after
-                                                 : pose.after - pose.before;
+double corner_opening(const Deformation& deformation, Index vertex) {
+  const PoseCorner pose = corner_at(deformation, vertex);
+  return signed_area(outline_of(deformation.rest)) > 0 ? pose.before - pose.after
+                                                       : pose.after - pose.before;
 }
 
-Scene with_corner(Scene scene, Index vertex) {
-  if (is_corner(scene, vertex)) return scene;
-  const auto next = std::ranges::upper_bound(scene.corners, vertex, {}, &Corner::vertex);
-  const size_t at = static_cast<size_t>(next - scene.corners.begin()), n = scene.corners.size();
-  const Corner &before = scene.corners[(at + n - 1) % n], &after = scene.corners[at % n];
+Deformation with_corner(Deformation deformation, Index vertex) {
+  if (is_corner(deformation, vertex)) return deformation;
+  const auto next = std::ranges::upper_bound(deformation.corners, vertex, {}, &Corner::vertex);
+  const size_t at = static_cast<size_t>(next - deformation.corners.begin()),
+               n = deformation.corners.size();
+  const Corner &before = deformation.corners[(at + n - 1) % n],
+               &after = deformation.corners[at % n];
   // The share of the way, by the rest's vertices.
   const auto way = [&](Index from, Index to) {
     double length = 0;
-    for (Index v = from; v != to; v = (v + 1) % scene.rest.size())
-      length += std::abs(scene.rest.vertex(v + 1) - scene.rest.vertex(v));
+    for (Index v = from; v != to; v = (v + 1) % deformation.rest.size())
+      length += std::abs(deformation.rest.vertex(v + 1) - deformation.rest.vertex(v));
     return length;
   };
   const double share =
@@ -56,61 +58,63 @@ Scene with_corner(Scene scene, Index vertex) {
     const double turn = (1 - share) * from.after + share * to.before;
     return PoseCorner{turn, turn, from.tension};
   };
-  for_fitting_keys(scene, [&](Pose& pose) {
+  for_fitting_keys(deformation, [&](Pose& pose) {
     if (pose.corners.empty()) return;
     pose.corners.insert(pose.corners.begin() + static_cast<long>(at),
                         between(pose.corners[(at + n - 1) % n], pose.corners[at % n]));
   });
-  scene.corners.insert(scene.corners.begin() + static_cast<long>(at),
-                       Corner{vertex, between(before.pose, after.pose), {}});
-  return scene;
+  deformation.corners.insert(deformation.corners.begin() + static_cast<long>(at),
+                             Corner{vertex, between(before.pose, after.pose), {}});
+  return deformation;
 }
 
-Scene without_corner(Scene scene, Index vertex) {
-  if (scene.corners.empty()) scene = with_all_corners(std::move(scene));
-  if (scene.corners.size() <= 3)
+Deformation without_corner(Deformation deformation, Index vertex) {
+  if (deformation.corners.empty()) deformation = with_all_corners(std::move(deformation));
+  if (deformation.corners.size() <= 3)
     throw Error(ErrorKind::bad_input, "three corners stay: fewer have no angles to set");
-  if (const auto at = found(scene, vertex); at != scene.corners.end()) {
-    const long number = at - scene.corners.begin();
-    for_fitting_keys(scene, [&](Pose& pose) {
+  if (const auto at = found(deformation, vertex); at != deformation.corners.end()) {
+    const long number = at - deformation.corners.begin();
+    for_fitting_keys(deformation, [&](Pose& pose) {
       if (!pose.corners.empty()) pose.corners.erase(pose.corners.begin() + number);
     });
-    scene.corners.erase(scene.corners.begin() + number);
+    deformation.corners.erase(deformation.corners.begin() + number);
   }
-  return scene;
+  return deformation;
 }
 
-Scene with_all_corners(Scene scene) {
-  if (scene.corners.empty())
-    for (Index v = 0; v < scene.rest.size(); ++v) scene.corners.push_back({v});
-  for (Index v = 0; v < scene.rest.size(); ++v) scene = with_corner(std::move(scene), v);
-  return scene;
+Deformation with_all_corners(Deformation deformation) {
+  if (deformation.corners.empty())
+    for (Index v = 0; v < deformation.rest.size(); ++v) deformation.corners.push_back({v});
+  for (Index v = 0; v < deformation.rest.size(); ++v)
+    deformation = with_corner(std::move(deformation), v);
+  return deformation;
 }
 
-Scene corner_turned(Scene scene, Index vertex, double by) {
-  PoseCorner& pose = corner(scene, vertex);
+Deformation corner_turned(Deformation deformation, Index vertex, double by) {
+  PoseCorner& pose = corner(deformation, vertex);
   pose.before += by;
   pose.after += by;
-  return scene;
+  return deformation;
 }
 
-Scene corner_opened(Scene scene, Index vertex, double by) {
-  PoseCorner& pose = corner(scene, vertex);
-  const double way = signed_area(outline_of(scene.rest)) > 0 ? by : -by;
+Deformation corner_opened(Deformation deformation, Index vertex, double by) {
+  PoseCorner& pose = corner(deformation, vertex);
+  const double way = signed_area(outline_of(deformation.rest)) > 0 ? by : -by;
   pose.before += way;
   pose.after -= way;
-  return scene;
+  return deformation;
 }
 
-Index corner_before(const Scene& scene, Index segment) {
-  if (scene.corners.empty()) return segment;
-  const auto next = std::ranges::upper_bound(scene.corners, segment, {}, &Corner::vertex);
-  return next == scene.corners.begin() ? scene.corners.back().vertex : std::prev(next)->vertex;
+Index corner_before(const Deformation& deformation, Index segment) {
+  if (deformation.corners.empty()) return segment;
+  const auto next = std::ranges::upper_bound(deformation.corners, segment, {}, &Corner::vertex);
+  return next == deformation.corners.begin() ? deformation.corners.back().vertex
+                                             : std::prev(next)->vertex;
 }
 
-Scene with_tension(Scene scene, Index vertex, double tension) {
-  corner(scene, vertex).tension = std::clamp(tension, 0.0, 1.0);
-  return scene;
+Deformation with_tension(Deformation deformation, Index vertex, double tension) {
+  corner(deformation, vertex).tension = std::clamp(tension, 0.0, 1.0);
+  return deformation;
 }
 
 void follow_insertion(std::vector<Corner>& corners, Index segment) {

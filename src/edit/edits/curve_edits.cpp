@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kInLine = 0.02;  ///< sine of the angle between opposite tangents
 
-Cage& cage_of(Scene& scene, Posture posture) {
-  return posture == Posture::rest ? scene.rest : scene.pose;
+Cage& cage_of(Deformation& deformation, EditMode mode) {
+  return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }
 
 Index wrapped(const Cage& cage, Index i) {
@@ -28,8 +28,8 @@ void raise_to(Cage& cage, Index segment, int degree) {
 
 }  // namespace
 
-Tangents tangents_of(const Scene& scene, Index vertex, Posture posture) {
-  const Cage& cage = cage_of(scene, posture);
+Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode) {
+  const Cage& cage = cage_of(deformation, mode);
   const Index before = wrapped(cage, vertex - 1);
   Tangents tangents;
   if (cage.degree(before) > 1)
@@ -38,50 +38,51 @@ Tangents tangents_of(const Scene& scene, Index vertex, Posture posture) {
   return tangents;
 }
 
-bool is_smooth(const Scene& scene, Index vertex, Posture posture) {
-  const auto [before, after] = tangents_of(scene, vertex, posture);
+bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode) {
+  const auto [before, after] = tangents_of(deformation, vertex, mode);
   if (!before || !after) return false;
-  const Complex z = cage_of(scene, posture).vertex(vertex);
-  const Complex in = position_of(scene, *before, posture) - z,
-                out = position_of(scene, *after, posture) - z;
+  const Complex z = cage_of(deformation, mode).vertex(vertex);
+  const Complex in = position_of(deformation, *before, mode) - z,
+                out = position_of(deformation, *after, mode) - z;
   return dot(in, out) < 0 && std::abs(cross(in, out)) <= kInLine * std::abs(in) * std::abs(out);
 }
 
-Scene tangent_moved(Scene scene, Handle tangent, Complex to, Posture posture, bool breaks) {
-  const Cage& cage = cage_of(scene, posture);
+Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
+                          bool breaks) {
+  const Cage& cage = cage_of(deformation, mode);
   std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its other tangent
   for (const Index vertex : {tangent.index, wrapped(cage, tangent.index + 1)}) {
-    if (breaks || !is_smooth(scene, vertex, posture)) continue;
-    const auto [before, after] = tangents_of(scene, vertex, posture);
+    if (breaks || !is_smooth(deformation, vertex, mode)) continue;
+    const auto [before, after] = tangents_of(deformation, vertex, mode);
     if (*before == tangent) opposite.push_back({vertex, *after});
     if (*after == tangent) opposite.push_back({vertex, *before});
   }
-  Cage& moved = cage_of(scene, posture);
+  Cage& moved = cage_of(deformation, mode);
   moved.segments[tangent.index][tangent.control] = to;
   for (const auto& [vertex, other] : opposite) {
     const Complex z = moved.vertex(vertex), arm = to - z;
     Complex& place = moved.segments[wrapped(moved, other.index)][other.control];
     if (std::abs(arm) > 0) place = z - arm * (std::abs(place - z) / std::abs(arm));
   }
-  return scene;
+  return deformation;
 }
 
-Scene smoothed(Scene scene, Index vertex, Posture posture) {
-  Cage& cage = cage_of(scene, posture);
+Deformation smoothed(Deformation deformation, Index vertex, EditMode mode) {
+  Cage& cage = cage_of(deformation, mode);
   const Index before = wrapped(cage, vertex - 1);
   raise_to(cage, before, 3);
   raise_to(cage, vertex, 3);
   const Complex z = cage.vertex(vertex), last = cage.vertex(vertex - 1),
                 next = cage.vertex(vertex + 1);
-  if (std::abs(next - last) == 0) return scene;
+  if (std::abs(next - last) == 0) return deformation;
   const Complex along = (next - last) / std::abs(next - last);
   cage.segments[before].back() = z - along * (std::abs(z - last) / 3);
   cage.segments[vertex][1] = z + along * (std::abs(next - z) / 3);
-  return scene;
+  return deformation;
 }
 
-Scene cornered(Scene scene, Index vertex, Posture posture) {
-  Cage& cage = cage_of(scene, posture);
+Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
+  Cage& cage = cage_of(deformation, mode);
   const Index before = wrapped(cage, vertex - 1);
   const Complex z = cage.vertex(vertex);
   for (const Index e : {before, vertex})  // a quadratic's one tangent belongs to the other end, too
@@ -89,41 +90,42 @@ Scene cornered(Scene scene, Index vertex, Posture posture) {
   if (cage.degree(before) > 2)
     cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;
   if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.vertex(vertex + 1) - z) / 3.0;
-  return scene;
+  return deformation;
 }
 
-Scene toggled_corners(Scene scene, const Selection& selection, Posture posture) {
+Deformation toggled_corners(Deformation deformation, const Selection& selection, EditMode mode) {
   std::vector<Index> vertices;
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) vertices.push_back(handle.index);
   const bool all_smooth = std::all_of(vertices.begin(), vertices.end(),
-                                      [&](Index v) { return is_smooth(scene, v, posture); });
+                                      [&](Index v) { return is_smooth(deformation, v, mode); });
   for (const Index v : vertices)
-    scene = all_smooth ? cornered(std::move(scene), v, posture)
-                       : smoothed(std::move(scene), v, posture);
-  return scene;
+    deformation = all_smooth ? cornered(std::move(deformation), v, mode)
+                             : smoothed(std::move(deformation), v, mode);
+  return deformation;
 }
 
-std::set<Index> segments_of(const Scene& scene, const Selection& selection, Posture posture) {
+std::set<Index> segments_of(const Deformation& deformation, const Selection& selection,
+                            EditMode mode) {
   std::set<Index> segments;
   for (const Handle& handle : selection)
-    if (handle.kind == Handle::Kind::cage && exists(scene, handle, posture))
+    if (handle.kind == Handle::Kind::cage && exists(deformation, handle, mode))
       segments.insert(handle.index);
   if (segments.empty())
-    for (Index e = 0; e < cage_of(scene, posture).size(); ++e) segments.insert(e);
+    for (Index e = 0; e < cage_of(deformation, mode).size(); ++e) segments.insert(e);
   return segments;
 }
 
-Scene raised(Scene scene, const Selection& selection, Posture posture) {
-  const std::set<Index> segments = segments_of(scene, selection, posture);
-  Cage& cage = cage_of(scene, posture);
+Deformation raised(Deformation deformation, const Selection& selection, EditMode mode) {
+  const std::set<Index> segments = segments_of(deformation, selection, mode);
+  Cage& cage = cage_of(deformation, mode);
   for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
-  return scene;
+  return deformation;
 }
 
-Scene lowered(Scene scene, const Selection& selection, Posture posture) {
-  const std::set<Index> segments = segments_of(scene, selection, posture);
-  Cage& cage = cage_of(scene, posture);
+Deformation lowered(Deformation deformation, const Selection& selection, EditMode mode) {
+  const std::set<Index> segments = segments_of(deformation, selection, mode);
+  Cage& cage = cage_of(deformation, mode);
   for (const Index e : segments) {
     if (cage.degree(e) == 1) continue;
     const Points controls = cage.controls(e);
@@ -136,7 +138,7 @@ Scene lowered(Scene scene, const Selection& selection, Posture posture) {
     }
     set_controls(cage, e, fitted(samples, parameters, cage.degree(e) - 1));
   }
-  return scene;
+  return deformation;
 }
 
 }  // namespace holomorph

@@ -10,30 +10,32 @@ namespace holomorph {
 struct Tangents {
   std::optional<Handle> before, after;
 };
-Tangents tangents_of(const Scene& scene, Index vertex, Posture posture);
+Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode);
 
 /// Whether both tangents of a vertex lie on one line through it.
-bool is_smooth(const Scene& scene, Index vertex, Posture posture);
+bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode);
 
 /// Puts a control point at a place. Opposite tangents of a smooth vertex turn along and keep their
 /// lengths, unless `breaks`.
-Scene tangent_moved(Scene scene, Handle tangent, Complex to, Posture posture, bool breaks);
+Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
+                          bool breaks);
 
 /// With a smooth vertex: tangents along the line between its neighbours, a third of the way to
 /// them. Straight neighbours become cubics.
-Scene smoothed(Scene scene, Index vertex, Posture posture);
+Deformation smoothed(Deformation deformation, Index vertex, EditMode mode);
 /// With a corner: tangents on the lines to the neighbours.
-Scene cornered(Scene scene, Index vertex, Posture posture);
+Deformation cornered(Deformation deformation, Index vertex, EditMode mode);
 /// Smooth vertices of a selection become corners when all of them are smooth, else smooth.
-Scene toggled_corners(Scene scene, const Selection& selection, Posture posture);
+Deformation toggled_corners(Deformation deformation, const Selection& selection, EditMode mode);
 
 /// The segments that a selection means: of its control points, and after its vertices; all when
 /// there are none.
-std::set<Index> segments_of(const Scene& scene, const Selection& selection, Posture posture);
+std::set<Index> segments_of(const Deformation& deformation, const Selection& selection,
+                            EditMode mode);
 
 /// Degrees up by one (the curves stay, exactly) or down (least squares), within 1 to
 /// kHighestDegree.
-Scene raised(Scene scene, const Selection& selection, Posture posture);
-Scene lowered(Scene scene, const Selection& selection, Posture posture);
+Deformation raised(Deformation deformation, const Selection& selection, EditMode mode);
+Deformation lowered(Deformation deformation, const Selection& selection, EditMode mode);
 
 }  // namespace holomorph

@@ -11,15 +11,15 @@ double falloff(double share) {
   return share >= 1 ? 0 : (1 - share * share) * (1 - share * share);
 }
 
-Displacements softly(const Scene& scene, const Selection& dragged, Complex by, Posture posture,
-                     double reach) {
+Displacements softly(const Deformation& deformation, const Selection& dragged, Complex by,
+                     EditMode mode, double reach) {
   Displacements all;
-  for (const Handle& handle : handles_of(scene, posture)) {
+  for (const Handle& handle : handles_of(deformation, mode)) {
     if (is_tangent(handle) || dragged.contains(handle)) continue;
-    const Complex here = position_of(scene, handle, posture);
+    const Complex here = position_of(deformation, handle, mode);
     double distance = reach;
     for (const Handle& other : dragged)
-      distance = std::min(distance, std::abs(position_of(scene, other, posture) - here));
+      distance = std::min(distance, std::abs(position_of(deformation, other, mode) - here));
     if (const double share = falloff(distance / reach); share > 0) all[handle] = share * by;
   }
   return all;
@@ -31,16 +31,16 @@ Complex mirrored_way(Complex by) {
 
 }  // namespace
 
-std::map<Handle, Handle> counterparts_of(const Scene& scene) {
-  const Mirror mirror(scene);
+std::map<Handle, Handle> counterparts_of(const Deformation& deformation) {
+  const Mirror mirror(deformation);
   std::map<Handle::Kind, std::vector<Handle>> kinds;
-  for (const Handle& handle : handles_of(scene, Posture::rest))
+  for (const Handle& handle : handles_of(deformation, EditMode::rest))
     if (!is_tangent(handle)) kinds[handle.kind].push_back(handle);
   std::map<Handle, Handle> counterparts;
   for (const auto& [kind, handles] : kinds) {
     Points places;
     for (const Handle& handle : handles)
-      places.push_back(position_of(scene, handle, Posture::rest));
+      places.push_back(position_of(deformation, handle, EditMode::rest));
     for (size_t i = 0; i < handles.size(); ++i)
       if (const auto found = mirror.counterpart(places, places[i]))
         counterparts[handles[i]] = handles[*found];
@@ -48,14 +48,14 @@ std::map<Handle, Handle> counterparts_of(const Scene& scene) {
   return counterparts;
 }
 
-Displacements displacements(const Scene& scene, const Selection& dragged, Complex by,
-                            Posture posture, const Influence& influence) {
+Displacements displacements(const Deformation& deformation, const Selection& dragged, Complex by,
+                            EditMode mode, const DragOptions& drag_options) {
   Displacements all;
-  if (influence.soft) all = softly(scene, dragged, by, posture, influence.reach);
+  if (drag_options.soft) all = softly(deformation, dragged, by, mode, drag_options.reach);
   for (const Handle& handle : dragged) all[handle] = by;
-  if (!influence.symmetric) return all;
+  if (!drag_options.symmetric) return all;
   Displacements both = all;
-  for (const auto& [handle, other] : counterparts_of(scene)) {
+  for (const auto& [handle, other] : counterparts_of(deformation)) {
     const auto way = all.find(handle), own = all.find(other);
     if (way == all.end()) continue;
     if (other == handle)
@@ -66,14 +66,14 @@ Displacements displacements(const Scene& scene, const Selection& dragged, Comple
   return both;
 }
 
-Scene displaced(Scene scene, const Displacements& by, Posture posture) {
+Deformation displaced(Deformation deformation, const Displacements& by, EditMode mode) {
   Displacements all = by;
   for (const auto& [handle, way] : by)
-    for (const Handle& tangent : tangents_beside(cage_of(scene, posture), handle))
+    for (const Handle& tangent : tangents_beside(cage_of(deformation, mode), handle))
       all.try_emplace(tangent, way);
   for (const auto& [handle, way] : all)
-    if (exists(scene, handle, posture)) shift(scene, handle, way, posture);
-  return scene;
+    if (exists(deformation, handle, mode)) shift(deformation, handle, way, mode);
+  return deformation;
 }
 
 }  // namespace holomorph

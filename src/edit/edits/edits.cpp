@@ -12,66 +12,67 @@
 
 namespace holomorph {
 
-const Cage& cage_of(const Scene& scene, Posture posture) {
-  return posture == Posture::rest ? scene.rest : scene.pose;
+const Cage& cage_of(const Deformation& deformation, EditMode mode) {
+  return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }
 
 namespace {
 
-Cage& cage_of(Scene& scene, Posture posture) {
-  return posture == Posture::rest ? scene.rest : scene.pose;
+Cage& cage_of(Deformation& deformation, EditMode mode) {
+  return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }
 
-/// A stroke's points, to read in a const scene and to change in another.
+/// A stroke's points, to read in a const deformation and to change in another.
 template <class AnyScene>
-auto& curve(AnyScene& scene, Index stroke, Posture posture) {
-  auto& found = scene.strokes[static_cast<size_t>(stroke)];
-  return posture == Posture::rest ? found.rest : found.pose;
+auto& curve(AnyScene& deformation, Index stroke, EditMode mode) {
+  auto& found = deformation.strokes[static_cast<size_t>(stroke)];
+  return mode == EditMode::rest ? found.rest : found.pose;
 }
 
-/// The place of a pin or control point, to read in a const scene and to change in another.
+/// The place of a pin or control point, to read in a const deformation and to change in another.
 template <class AnyScene>
-auto& place(AnyScene& scene, Handle handle, Posture posture) {
+auto& place(AnyScene& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
-    return posture == Posture::rest ? scene.pins[handle.index].rest : scene.pins[handle.index].pose;
-  return cage_of(scene, posture).segments[handle.index][handle.control];
+    return mode == EditMode::rest ? deformation.pins[handle.index].rest
+                                  : deformation.pins[handle.index].pose;
+  return cage_of(deformation, mode).segments[handle.index][handle.control];
 }
 
 }  // namespace
 
-const Points& curve_of(const Scene& scene, Index stroke, Posture posture) {
-  return curve(scene, stroke, posture);
+const Points& curve_of(const Deformation& deformation, Index stroke, EditMode mode) {
+  return curve(deformation, stroke, mode);
 }
 
-Complex position_of(const Scene& scene, Handle handle, Posture posture) {
+Complex position_of(const Deformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::stroke) {
-    const Polyline line(without_repeats(curve_of(scene, handle.index, posture)), false);
+    const Polyline line(without_repeats(curve_of(deformation, handle.index, mode)), false);
     return line.at(0.5 * line.length());
   }
-  return place(scene, handle, posture);
+  return place(deformation, handle, mode);
 }
 
-bool exists(const Scene& scene, Handle handle, Posture posture) {
+bool exists(const Deformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
-    return method_named(scene.method).uses_pins &&
-           handle.index < static_cast<Index>(scene.pins.size());
+    return method_named(deformation.method).uses_pins &&
+           handle.index < static_cast<Index>(deformation.pins.size());
   if (handle.kind == Handle::Kind::stroke)
-    return method_named(scene.method).uses_strokes &&
-           handle.index < static_cast<Index>(scene.strokes.size());
-  const Cage& cage = cage_of(scene, posture);
+    return method_named(deformation.method).uses_strokes &&
+           handle.index < static_cast<Index>(deformation.strokes.size());
+  const Cage& cage = cage_of(deformation, mode);
   return handle.index < cage.size() && handle.control < cage.degree(handle.index);
 }
 
-std::vector<Handle> handles_of(const Scene& scene, Posture posture) {
+std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode) {
   std::vector<Handle> handles;
-  const Cage& cage = cage_of(scene, posture);
+  const Cage& cage = cage_of(deformation, mode);
   for (Index i = 0; i < cage.size(); ++i)
     for (int m = 0; m < cage.degree(i); ++m) handles.push_back({Handle::Kind::cage, i, m});
-  if (method_named(scene.method).uses_pins)
-    for (Index i = 0; i < static_cast<Index>(scene.pins.size()); ++i)
+  if (method_named(deformation.method).uses_pins)
+    for (Index i = 0; i < static_cast<Index>(deformation.pins.size()); ++i)
       handles.push_back({Handle::Kind::pin, i, 0});
-  if (method_named(scene.method).uses_strokes)
-    for (Index i = 0; i < static_cast<Index>(scene.strokes.size()); ++i)
+  if (method_named(deformation.method).uses_strokes)
+    for (Index i = 0; i < static_cast<Index>(deformation.strokes.size()); ++i)
       handles.push_back({Handle::Kind::stroke, i, 0});
   return handles;
 }
@@ -86,107 +87,112 @@ std::vector<Handle> tangents_beside(const Cage& cage, Handle handle) {
   return tangents;
 }
 
-void shift(Scene& scene, Handle handle, Complex by, Posture posture) {
+void shift(Deformation& deformation, Handle handle, Complex by, EditMode mode) {
   if (handle.kind != Handle::Kind::stroke) {
-    place(scene, handle, posture) += by;
+    place(deformation, handle, mode) += by;
     return;
   }
-  for (Complex& z : curve(scene, handle.index, posture)) z += by;
+  for (Complex& z : curve(deformation, handle.index, mode)) z += by;
 }
 
-Scene moved(Scene scene, const Selection& selection, Complex by, Posture posture) {
+Deformation moved(Deformation deformation, const Selection& selection, Complex by, EditMode mode) {
   Displacements all;
   for (const Handle& handle : selection)
-    if (exists(scene, handle, posture)) all[handle] = by;
-  return displaced(std::move(scene), all, posture);
+    if (exists(deformation, handle, mode)) all[handle] = by;
+  return displaced(std::move(deformation), all, mode);
 }
 
-Scene placed(Scene scene, Handle handle, Complex at, Posture posture) {
-  const Complex by = at - position_of(scene, handle, posture);
-  return moved(std::move(scene), {handle}, by, posture);
+Deformation placed(Deformation deformation, Handle handle, Complex at, EditMode mode) {
+  const Complex by = at - position_of(deformation, handle, mode);
+  return moved(std::move(deformation), {handle}, by, mode);
 }
 
-Complex center_of(const Scene& scene, const Selection& selection, Posture posture) {
+Complex center_of(const Deformation& deformation, const Selection& selection, EditMode mode) {
   Box box;
-  for (const Handle& handle : selection) box.include(position_of(scene, handle, posture));
+  for (const Handle& handle : selection) box.include(position_of(deformation, handle, mode));
   return box.center();
 }
 
-Scene inserted(Scene scene, Index segment, double t) {
-  for_fitting_keys(scene, [&](Pose& pose) { insert_vertex(pose.cage, segment, t); });
-  insert_vertex(scene.rest, segment, t);
-  insert_vertex(scene.pose, segment, t);
-  follow_insertion(scene.corners, segment);
-  return scene;
+Deformation inserted(Deformation deformation, Index segment, double t) {
+  for_fitting_keys(deformation, [&](Pose& pose) { insert_vertex(pose.cage, segment, t); });
+  insert_vertex(deformation.rest, segment, t);
+  insert_vertex(deformation.pose, segment, t);
+  follow_insertion(deformation.corners, segment);
+  return deformation;
 }
 
-Scene erased(Scene scene, const Selection& selection, Refit refit) {
+Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
   // From the highest number down, so that the remaining numbers stay valid.
   Index vertices = 0;
   for (const Handle& handle : selection)
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
-  if (scene.rest.size() - vertices < 3 && vertices > 0)
+  if (deformation.rest.size() - vertices < 3 && vertices > 0)
     throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
   const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
   for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::pin) {
-      for_fitting_keys(scene,
+      for_fitting_keys(deformation,
                        [&](Pose& pose) { pose.pins.erase(pose.pins.begin() + handle.index); });
-      scene.pins.erase(scene.pins.begin() + handle.index);
+      deformation.pins.erase(deformation.pins.begin() + handle.index);
     } else if (handle.kind == Handle::Kind::stroke) {
-      for_fitting_keys(
-          scene, [&](Pose& pose) { pose.strokes.erase(pose.strokes.begin() + handle.index); });
-      scene.strokes.erase(scene.strokes.begin() + handle.index);
+      for_fitting_keys(deformation, [&](Pose& pose) {
+        pose.strokes.erase(pose.strokes.begin() + handle.index);
+      });
+      deformation.strokes.erase(deformation.strokes.begin() + handle.index);
     } else if (handle.control == 0) {
-      const double joint = joint_parameter(scene.rest, handle.index);
-      const auto corner = std::ranges::find(scene.corners, handle.index, &Corner::vertex);
-      for_fitting_keys(scene, [&](Pose& pose) {
+      const double joint = joint_parameter(deformation.rest, handle.index);
+      const auto corner = std::ranges::find(deformation.corners, handle.index, &Corner::vertex);
+      for_fitting_keys(deformation, [&](Pose& pose) {
         erase_vertex(pose.cage, handle.index, joint, refit);
-        if (corner == scene.corners.end() || pose.corners.empty()) return;
-        pose.corners.erase(pose.corners.begin() + (corner - scene.corners.begin()));
+        if (corner == deformation.corners.end() || pose.corners.empty()) return;
+        pose.corners.erase(pose.corners.begin() + (corner - deformation.corners.begin()));
         if (pose.corners.size() < 3) pose.corners.clear();
       });
-      erase_vertex(scene.rest, handle.index, joint, refit);
-      erase_vertex(scene.pose, handle.index, joint, refit);
-      follow_erasure(scene.corners, handle.index);
+      erase_vertex(deformation.rest, handle.index, joint, refit);
+      erase_vertex(deformation.pose, handle.index, joint, refit);
+      follow_erasure(deformation.corners, handle.index);
     }
   }
-  return scene;
+  return deformation;
 }
 
-Scene with_pin(Scene scene, Complex rest, Complex pose, const std::vector<Points>& in_keyframes) {
-  if (!method_named(scene.method).uses_pins) scene = with_method(std::move(scene), "pins");
-  for (size_t i = 0; i < scene.keyframes.size(); ++i)
-    if (Pose& key = scene.keyframes[i].pose; fits(scene, key))
+Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
+                     const std::vector<Points>& in_keyframes) {
+  if (!method_named(deformation.method).uses_pins)
+    deformation = with_method(std::move(deformation), "pins");
+  for (size_t i = 0; i < deformation.keyframes.size(); ++i)
+    if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i].front() : pose});
-  scene.pins.push_back({rest, pose, {}, {}});
-  return scene;
+  deformation.pins.push_back({rest, pose, {}, {}});
+  return deformation;
 }
 
-bool follows(const Scene& scene, const std::string& id) {
-  return scene.method == id ||
-         (scene.method == "bounded" &&
-          choice(method_named("bounded"), scene.parameters, "reference") == id);
+bool follows(const Deformation& deformation, const std::string& id) {
+  return deformation.method == id ||
+         (deformation.method == "bounded" &&
+          choice(method_named("bounded"), deformation.parameters, "reference") == id);
 }
 
-Scene with_stroke(Scene scene, Points rest, Points pose, const std::vector<Points>& in_keyframes) {
-  if (!follows(scene, "strokes")) scene = with_method(std::move(scene), "strokes");
-  for (size_t i = 0; i < scene.keyframes.size(); ++i)
-    if (Pose& key = scene.keyframes[i].pose; fits(scene, key))
+Deformation with_stroke(Deformation deformation, Points rest, Points pose,
+                        const std::vector<Points>& in_keyframes) {
+  if (!follows(deformation, "strokes"))
+    deformation = with_method(std::move(deformation), "strokes");
+  for (size_t i = 0; i < deformation.keyframes.size(); ++i)
+    if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.strokes.push_back(i < in_keyframes.size() ? in_keyframes[i] : pose);
-  scene.strokes.push_back({std::move(rest), std::move(pose), {}});
-  return scene;
+  deformation.strokes.push_back({std::move(rest), std::move(pose), {}});
+  return deformation;
 }
 
-Scene redrawn(Scene scene, Index stroke, Points drawn, Posture posture) {
-  Points& points = curve(scene, stroke, posture);
+Deformation redrawn(Deformation deformation, Index stroke, Points drawn, EditMode mode) {
+  Points& points = curve(deformation, stroke, mode);
   const double kept = std::abs(drawn.front() - points.front()) +
                       std::abs(drawn.back() - points.back()),
                turned = std::abs(drawn.front() - points.back()) +
                         std::abs(drawn.back() - points.front());
   if (turned < kept) std::ranges::reverse(drawn);
   points = std::move(drawn);
-  return scene;
+  return deformation;
 }
 
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach) {
@@ -209,107 +215,111 @@ Points pulled(const Points& curve, bool closed, size_t point, Complex by, double
   return points;
 }
 
-Scene with_curve(Scene scene, Index stroke, Points drawn, Posture posture) {
-  curve(scene, stroke, posture) = std::move(drawn);
-  return scene;
+Deformation with_curve(Deformation deformation, Index stroke, Points drawn, EditMode mode) {
+  curve(deformation, stroke, mode) = std::move(drawn);
+  return deformation;
 }
 
-Scene with_outline(Scene scene, Points outline, std::optional<SurfaceReference> surface) {
-  scene.outline = std::move(outline);
-  scene.surface = std::move(surface);
-  return follows(scene, "outline") ? scene : with_method(std::move(scene), "outline");
+Deformation with_outline(Deformation deformation, Points outline,
+                         std::optional<SurfaceReference> surface) {
+  deformation.outline = std::move(outline);
+  deformation.surface = std::move(surface);
+  return follows(deformation, "outline") ? deformation
+                                         : with_method(std::move(deformation), "outline");
 }
 
-Scene turned(Scene scene, Index pin, double angle) {
-  scene.pins[pin].angle = angle;
-  return scene;
+Deformation turned(Deformation deformation, Index pin, double angle) {
+  deformation.pins[pin].angle = angle;
+  return deformation;
 }
 
-Scene scaled(Scene scene, Index pin, double factor) {
-  Pin& p = scene.pins[pin];
+Deformation scaled(Deformation deformation, Index pin, double factor) {
+  Pin& p = deformation.pins[pin];
   p.angle = p.angle.value_or(0);
   p.scale = std::clamp(p.scale * factor, kLeastPinScale, kMostPinScale);
-  return scene;
+  return deformation;
 }
 
 namespace {
 
 /// Where an inner control point of a posed segment is when that segment is posed as it rests.
-Complex rest_control(const Scene& scene, Handle handle) {
-  const Points rest = scene.rest.controls(handle.index);
-  const int degree = scene.pose.degree(handle.index);
+Complex rest_control(const Deformation& deformation, Handle handle) {
+  const Points rest = deformation.rest.controls(handle.index);
+  const int degree = deformation.pose.degree(handle.index);
   if (static_cast<int>(rest.size()) - 1 <= degree) return elevated(rest, degree)[handle.control];
   return bezier_point(rest, static_cast<double>(handle.control) / degree);
 }
 
 }  // namespace
 
-Scene reset(Scene scene, const Selection& selection) {
-  if (selection.empty()) return at_rest(std::move(scene));
+Deformation reset(Deformation deformation, const Selection& selection) {
+  if (selection.empty()) return at_rest(std::move(deformation));
   // Vertices first: they take the tangents along that are not selected themselves.
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) {
-      const Complex rest = scene.rest.vertex(handle.index);
-      scene = placed(std::move(scene), handle, rest, Posture::pose);
-      for (Corner& corner : scene.corners)
+      const Complex rest = deformation.rest.vertex(handle.index);
+      deformation = placed(std::move(deformation), handle, rest, EditMode::pose);
+      for (Corner& corner : deformation.corners)
         if (corner.vertex == handle.index) corner.pose = {};
     }
   for (const Handle& handle : selection) {
     if (handle.kind == Handle::Kind::pin) {
-      Pin& pin = scene.pins[handle.index];
+      Pin& pin = deformation.pins[handle.index];
       pin.pose = pin.rest;
       if (pin.angle) pin.angle = 0.0;
       pin.scale = 1;
     } else if (handle.kind == Handle::Kind::stroke) {
-      curve(scene, handle.index, Posture::pose) = curve_of(scene, handle.index, Posture::rest);
-    } else if (handle.control > 0 && exists(scene, handle, Posture::pose)) {
-      place(scene, handle, Posture::pose) = rest_control(scene, handle);
+      curve(deformation, handle.index, EditMode::pose) =
+          curve_of(deformation, handle.index, EditMode::rest);
+    } else if (handle.control > 0 && exists(deformation, handle, EditMode::pose)) {
+      place(deformation, handle, EditMode::pose) = rest_control(deformation, handle);
     }
   }
-  return scene;
+  return deformation;
 }
 
-Scene baked(Scene scene) {
-  Rest rest = rest_of(scene, Precision::full);
-  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest));
-  const auto deformer = method_named(scene.method).prepare(rest, nullptr);
-  const std::optional<Cage> solved = deformer->solved_cage(pose_of(scene));
+Deformation baked(Deformation deformation) {
+  Rest rest = rest_of(deformation, Precision::full);
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest));
+  const auto deformer = method_named(deformation.method).prepare(rest, nullptr);
+  const std::optional<Cage> solved = deformer->solved_cage(pose_of(deformation));
   if (!solved)
     throw Error(
         ErrorKind::bad_input,
         "the pins move a finer boundary than the cage's points; switch \"Cage's own points\" on");
-  scene.pose = *solved;
-  return with_method(std::move(scene), "cage");
+  deformation.pose = *solved;
+  return with_method(std::move(deformation), "cage");
 }
 
-Scene with_method(Scene scene, const std::string& id) {
+Deformation with_method(Deformation deformation, const std::string& id) {
   method_named(id);
-  if (id == scene.method) return scene;
-  if (scene.parameters.empty())
-    scene.other_parameters.erase(scene.method);
+  if (id == deformation.method) return deformation;
+  if (deformation.parameters.empty())
+    deformation.other_parameters.erase(deformation.method);
   else
-    scene.other_parameters[scene.method] = std::move(scene.parameters);
-  scene.parameters.clear();
-  if (auto kept = scene.other_parameters.extract(id)) scene.parameters = std::move(kept.mapped());
-  scene.method = id;
-  return scene;
+    deformation.other_parameters[deformation.method] = std::move(deformation.parameters);
+  deformation.parameters.clear();
+  if (auto kept = deformation.other_parameters.extract(id))
+    deformation.parameters = std::move(kept.mapped());
+  deformation.method = id;
+  return deformation;
 }
 
-Scene with_preset(Scene scene, const Preset& preset) {
-  for (const Preset& other : method_named(scene.method).presets)
-    for (const auto& entry : other.parameters) scene.parameters.erase(entry.first);
-  for (const auto& [key, value] : preset.parameters) scene.parameters[key] = value;
-  return scene;
+Deformation with_preset(Deformation deformation, const Preset& preset) {
+  for (const Preset& other : method_named(deformation.method).presets)
+    for (const auto& entry : other.parameters) deformation.parameters.erase(entry.first);
+  for (const auto& [key, value] : preset.parameters) deformation.parameters[key] = value;
+  return deformation;
 }
 
-Scene fold_free(Scene scene) {
+Deformation fold_free(Deformation deformation) {
   const ParameterSpec& reference = method_named("bounded").parameters[0];
   const auto followed =
-      std::ranges::find(reference.options, scene.method, &ParameterSpec::Option::id);
+      std::ranges::find(reference.options, deformation.method, &ParameterSpec::Option::id);
   check(followed != reference.options.end(), "fold_free: a method that can be followed");
-  scene = with_method(std::move(scene), "bounded");
-  scene.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
-  return scene;
+  deformation = with_method(std::move(deformation), "bounded");
+  deformation.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
+  return deformation;
 }
 
 CageHit nearest_on_cage(const Cage& cage, Complex z) {

@@ -21,14 +21,14 @@ class AngleTool final : public Tool {
     mark_.reset();
     edge_.reset();
     hover_.reset();
-    const Scene& scene = workspace.scene();
-    if (!scene.has_cage() || workspace.posture == Posture::rest) return;
+    const Deformation& deformation = workspace.shown.deformation();
+    if (!deformation.has_cage() || workspace.mode == EditMode::rest) return;
     if (const auto shown = shown_corner(workspace)) {
       mark_ = corner_mark(workspace, *shown);
-      if (input.inside) mark_->hovered = part_at(*mark_, input.px, workspace.handle_px);
+      if (input.inside) mark_->hovered = part_at(*mark_, input.px, workspace.display.handle_px);
     }
     if (!input.inside) return;
-    const bool on_mark = mark_ && mark_->hovered != CornerMark::Part::none;
+    const bool on_mark = mark_ && mark_->hovered != CornerMark::Region::none;
     if (const auto vertex = posed_vertex_at(workspace, input.px); vertex && !on_mark)
       hover_ = vertex;
     else if (!on_mark)
@@ -45,7 +45,7 @@ class AngleTool final : public Tool {
   }
 
   void cancel(Workspace& workspace) override {
-    if (dragging_) workspace.preview.reset();
+    if (dragging_) workspace.shown.preview.reset();
     dragging_ = false;
     marquee_.reset();
     shown_.reset();
@@ -57,7 +57,7 @@ class AngleTool final : public Tool {
       cancel(workspace);
       return true;
     }
-    if (key != Key::del || workspace.posture == Posture::rest || !shown_corner(workspace))
+    if (key != Key::del || workspace.mode == EditMode::rest || !shown_corner(workspace))
       return false;
     remove(corners_of(workspace), workspace);
     return true;
@@ -77,26 +77,27 @@ class AngleTool final : public Tool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    const Scene& scene = workspace.scene();
-    if (!scene.has_cage()) return needs_a_cage("Angles are those of a cage");
-    if (workspace.posture == Posture::rest)
+    const Deformation& deformation = workspace.shown.deformation();
+    if (!deformation.has_cage()) return needs_a_cage("Angles are those of a cage");
+    if (workspace.mode == EditMode::rest)
       return key_of("cage.rest") + " shows the pose, where corners turn";
     if (dragging_ && edge_)
-      return "Tension " + text_of_number(corner_at(scene, corner_before(scene, *edge_)).tension) +
+      return "Tension " +
+             text_of_number(corner_at(deformation, corner_before(deformation, *edge_)).tension) +
              ": drag down to let the edge bend";
     if (dragging_) {
-      const PoseCorner pose = corner_at(scene, mark_->vertex);
+      const PoseCorner pose = corner_at(deformation, mark_->vertex);
       const double turn = (pose.before + pose.after) / 2,
-                   opening = corner_opening(scene, mark_->vertex);
+                   opening = corner_opening(deformation, mark_->vertex);
       return "Turned by " + text_of_number(turn * 180 / kPi) + ", opened by " +
              text_of_number(opening * 180 / kPi) + " degrees; Shift snaps to 15";
     }
-    if (mark_ && mark_->hovered == CornerMark::Part::ring)
+    if (mark_ && mark_->hovered == CornerMark::Region::ring)
       return "Drag the ring to turn the corner, as often around as you like";
-    if (mark_ && mark_->hovered != CornerMark::Part::none)
+    if (mark_ && mark_->hovered != CornerMark::Region::none)
       return "Drag the arm to open or shut the corner";
     if (hover_)
-      return is_corner(scene, *hover_)
+      return is_corner(deformation, *hover_)
                  ? "Click to turn or open it; Shift-click: more; Alt-click: no corner"
                  : "Click to make this point a corner";
     if (edge_) return "Drag down to let the edge bend, up to keep it straight";
@@ -116,8 +117,8 @@ class AngleTool final : public Tool {
     std::vector<Index> corners;
     for (const Handle& handle : workspace.selection)
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-          handle.index < workspace.scene().pose.size() &&
-          is_corner(workspace.scene(), handle.index))
+          handle.index < workspace.shown.deformation().pose.size() &&
+          is_corner(workspace.shown.deformation(), handle.index))
         corners.push_back(handle.index);
     return corners;
   }
@@ -130,19 +131,20 @@ class AngleTool final : public Tool {
 
   static void remove(const std::vector<Index>& corners, Workspace& workspace) {
     try {
-      Scene scene = workspace.scene();
-      for (const Index corner : corners) scene = without_corner(std::move(scene), corner);
-      workspace.commit(corners.size() == 1 ? "No corner" : "No corners", std::move(scene));
+      Deformation deformation = workspace.shown.deformation();
+      for (const Index corner : corners)
+        deformation = without_corner(std::move(deformation), corner);
+      workspace.commit(corners.size() == 1 ? "No corner" : "No corners", std::move(deformation));
       workspace.selection.clear();
     } catch (const Error& error) {
-      workspace.complain(error);
+      workspace.messages.complain(error);
     }
   }
 
   void pick(const Input& input, Workspace& workspace) {
     if (input.mods.alt) return remove({*hover_}, workspace);
-    if (!is_corner(workspace.scene(), *hover_))
-      workspace.commit("Corner", with_corner(workspace.scene(), *hover_));
+    if (!is_corner(workspace.shown.deformation(), *hover_))
+      workspace.commit("Corner", with_corner(workspace.shown.deformation(), *hover_));
     const Handle handle{Handle::Kind::cage, *hover_, 0};
     if (!input.mods.shift) workspace.selection.clear();
     if (!workspace.selection.erase(handle)) workspace.selection.insert(handle);
@@ -157,8 +159,8 @@ class AngleTool final : public Tool {
     box.include(marquee_->second);
     marquee_.reset();
     if (!input.mods.shift) workspace.selection.clear();
-    for (Index v = 0; v < workspace.scene().pose.size(); ++v)
-      if (box.contains(workspace.viewport.px_at_plane(posed_vertex(workspace, v))))
+    for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v)
+      if (box.contains(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v))))
         workspace.selection.insert({Handle::Kind::cage, v, 0});
   }
 
@@ -166,9 +168,9 @@ class AngleTool final : public Tool {
     dragging_ = true;
     start_px_ = last_px_ = input.px;
     turned_ = 0;
-    scene_ = workspace.scene();
+    deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
-    switches_ = !follows(scene_, "angles");
+    switches_ = !follows(deformation_, "angles");
   }
 
   /// The angle that was dragged around the mark's centre, counter-clockwise and unwrapped.
@@ -182,31 +184,31 @@ class AngleTool final : public Tool {
     return input.mods.shift ? std::round(turned_ / kSnap) * kSnap : turned_;
   }
 
-  Scene changed(const Input& input) {
-    if (!mark_ || mark_->hovered == CornerMark::Part::none) {
-      const Index corner = corner_before(scene_, *edge_);
+  Deformation changed(const Input& input) {
+    if (!mark_ || mark_->hovered == CornerMark::Region::none) {
+      const Index corner = corner_before(deformation_, *edge_);
       const double up = (start_px_ - input.px).imag() / kTensionPx;
-      return with_tension(scene_, corner, corner_at(scene_, corner).tension + up);
+      return with_tension(deformation_, corner, corner_at(deformation_, corner).tension + up);
     }
     const double by = turned(input);
     // Inside is to the left of a counter-clockwise cage's edges: what starts at the corner opens
     // it clockwise.
-    const bool opens_clockwise =
-        (mark_->hovered == CornerMark::Part::after) == (signed_area(outline_of(scene_.rest)) > 0);
-    Scene scene = scene_;
+    const bool opens_clockwise = (mark_->hovered == CornerMark::Region::after) ==
+                                 (signed_area(outline_of(deformation_.rest)) > 0);
+    Deformation deformation = deformation_;
     for (const Index corner : corners_)
-      scene = mark_->hovered == CornerMark::Part::ring
-                  ? corner_turned(std::move(scene), corner, by)
-                  : corner_opened(std::move(scene), corner, opens_clockwise ? -by : by);
-    return scene;
+      deformation = mark_->hovered == CornerMark::Region::ring
+                        ? corner_turned(std::move(deformation), corner, by)
+                        : corner_opened(std::move(deformation), corner, opens_clockwise ? -by : by);
+    return deformation;
   }
 
   void follow(const Input& input, Workspace& workspace) {
-    if (workspace.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
-      workspace.preview = changed(input);
+    if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
+      workspace.shown.preview = changed(input);
     if (input.down && !input.released) {
       if (mark_) {  // drawn where the corner is by now
-        const CornerMark::Part hovered = mark_->hovered;
+        const CornerMark::Region hovered = mark_->hovered;
         const Complex center = mark_->center;
         shown_ = corner_mark(workspace, mark_->vertex);
         shown_->hovered = hovered;
@@ -216,13 +218,13 @@ class AngleTool final : public Tool {
     }
     dragging_ = false;
     shown_.reset();
-    if (!workspace.preview) return;
-    const bool tension = !mark_ || mark_->hovered == CornerMark::Part::none;
-    workspace.commit(tension                                    ? "Tension"
-                     : mark_->hovered == CornerMark::Part::ring ? "Turn corner"
-                                                                : "Open corner",
-                     *workspace.preview);
-    if (switches_) workspace.say("The method is \"Angles\": corners turn, nothing folds.");
+    if (!workspace.shown.preview) return;
+    const bool tension = !mark_ || mark_->hovered == CornerMark::Region::none;
+    workspace.commit(tension                                      ? "Tension"
+                     : mark_->hovered == CornerMark::Region::ring ? "Turn corner"
+                                                                  : "Open corner",
+                     *workspace.shown.preview);
+    if (switches_) workspace.messages.say("The method is \"Angles\": corners turn, nothing folds.");
   }
 
   std::optional<CornerMark> mark_, shown_;
@@ -233,7 +235,7 @@ class AngleTool final : public Tool {
   bool dragging_ = false, switches_ = false;
   Complex start_px_, last_px_;
   double turned_ = 0;
-  Scene scene_;
+  Deformation deformation_;
 };
 
 }  // namespace

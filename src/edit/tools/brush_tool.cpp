@@ -18,13 +18,13 @@ class BrushTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     place_ = input.inside ? std::optional(input.position) : std::nullopt;
-    radius_ = workspace.brush_radius;
+    radius_ = workspace.tools.brush_radius;
     if (input.inside && input.pressed) {
-      if (!workspace.scene().has_cage())
-        return workspace.say(needs_a_cage("Stiffness acts inside a cage"));
+      if (!workspace.shown.deformation().has_cage())
+        return workspace.messages.say(needs_a_cage("Stiffness acts inside a cage"));
       painting_ = true;
       last_.reset();
-      dabs_ = workspace.scene().stiffness;
+      dabs_ = workspace.shown.deformation().stiffness;
       erases_ = input.mods.shift;
       level_ = input.mods.ctrl ? -kStrength : kStrength;
     }
@@ -50,18 +50,18 @@ class BrushTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    const bool acts = method_named(workspace.scene().method).uses_stiffness;
+    const bool acts = method_named(workspace.shown.deformation().method).uses_stiffness;
     return std::string("Drag makes stiff, Ctrl-drag soft, Shift-drag erases; [ and ] size") +
            (acts ? "" : "; acts in \"As rigid as possible\"");
   }
 
  private:
   void touch(const Input& input, const Workspace& workspace) {
-    const auto at = workspace.rest_at(input.position);
+    const auto at = rest_at(workspace, input.position);
     if (!at || (last_ && std::abs(*at - *last_) < kSpacing * radius_)) return;
     last_ = at;
     if (erases_)
-      std::erase_if(dabs_, [&](const Dab& dab) { return std::abs(dab.at - *at) < radius_; });
+      std::erase_if(dabs_, [&](const BrushDab& dab) { return std::abs(dab.at - *at) < radius_; });
     else if (dabs_.size() < kMostDabs)
       dabs_.push_back({*at, radius_, level_});
     else
@@ -70,25 +70,26 @@ class BrushTool final : public Tool {
 
   void finish(Workspace& workspace) {
     if (std::exchange(full_, false))
-      workspace.say("5000 touches of the brush are the most; erase some with Shift.");
-    Scene scene = workspace.scene();
-    if (scene.stiffness == dabs_) return;
-    scene.stiffness = std::move(dabs_);
-    const bool switches = !method_named(scene.method).uses_stiffness;
-    if (switches) scene = with_method(std::move(scene), "arap");
+      workspace.messages.say("5000 touches of the brush are the most; erase some with Shift.");
+    Deformation deformation = workspace.shown.deformation();
+    if (deformation.stiffness == dabs_) return;
+    deformation.stiffness = std::move(dabs_);
+    const bool switches = !method_named(deformation.method).uses_stiffness;
+    if (switches) deformation = with_method(std::move(deformation), "arap");
     if (!workspace.commit(erases_      ? "Erase stiffness"
                           : level_ > 0 ? "Stiffen"
                                        : "Soften",
-                          std::move(scene)))
+                          std::move(deformation)))
       return;
     if (switches)
-      workspace.say("The method is \"As rigid as possible\": the one that knows stiffness.");
+      workspace.messages.say(
+          "The method is \"As rigid as possible\": the one that knows stiffness.");
   }
 
   bool painting_ = false, erases_ = false, full_ = false;
   double level_ = kStrength, radius_ = 1;
   std::optional<Complex> place_, last_;
-  std::vector<Dab> dabs_;
+  std::vector<BrushDab> dabs_;
 };
 
 }  // namespace

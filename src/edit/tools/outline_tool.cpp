@@ -19,7 +19,8 @@ class OutlineTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     if (path_.active()) {
-      if (path_.follow(input, workspace.viewport, workspace.handle_px)) close(workspace);
+      if (path_.follow(input, workspace.display.viewport, workspace.display.handle_px))
+        close(workspace);
       return;
     }
     if (drawing_.active()) {
@@ -29,27 +30,27 @@ class OutlineTool final : public Tool {
     if (pull_) return follow_pull(input, workspace);
     hovered_ = input.inside && is_near(input, workspace);
     if (!input.pressed) return;
-    if (!workspace.scene().has_cage())
-      return workspace.say("The outline is for the cage's shape: make a cage first.");
+    if (!workspace.shown.deformation().has_cage())
+      return workspace.messages.say("The outline is for the cage's shape: make a cage first.");
     if (!hovered_) return drawing_.start(input);
-    const Points& outline = workspace.scene().outline;
+    const Points& outline = workspace.shown.deformation().outline;
     const auto nearest = std::ranges::min_element(
         outline, {}, [&](Complex z) { return std::abs(z - input.position); });
     pull_ = Pull{static_cast<size_t>(nearest - outline.begin()), input.mods.ctrl, input.position,
-                 input.px, workspace.scene()};
+                 input.px, workspace.shown.deformation()};
   }
 
   void cancel(Workspace& workspace) override {
     drawing_.cancel();
     path_.cancel();
-    if (pull_) workspace.preview.reset();
+    if (pull_) workspace.shown.preview.reset();
     pull_.reset();
   }
   bool key(Key key, Workspace& workspace) override {
     const PenPath::Answer answer = path_.key(key);
     if (answer == PenPath::Answer::close) close(workspace);
     if (answer == PenPath::Answer::too_few)
-      workspace.say("An outline needs three points at least.");
+      workspace.messages.say("An outline needs three points at least.");
     if (answer != PenPath::Answer::ignored) return true;
     if (key != Key::escape || !busy()) return false;
     cancel(workspace);
@@ -64,7 +65,8 @@ class OutlineTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return "Make a cage first: its shape goes onto the outline";
+    if (!workspace.shown.deformation().has_cage())
+      return "Make a cage first: its shape goes onto the outline";
     if (path_.active() && path_.closes()) return "Click to close the outline";
     if (path_.active())
       return "Click for corners, drag for smooth points; Enter or the first point closes; "
@@ -80,28 +82,29 @@ class OutlineTool final : public Tool {
     size_t point;
     bool whole;  ///< the outline is moved
     Complex start, start_px;
-    Scene scene;
+    Deformation deformation;
   };
 
   static bool is_near(const Input& input, const Workspace& workspace) {
-    const Points& outline = workspace.scene().outline;
+    const Points& outline = workspace.shown.deformation().outline;
     if (!workspace.shows_outline()) return false;
     const double distance = nearest_on_polygon(outline, input.position).distance;
-    return distance * workspace.viewport.zoom <= workspace.handle_px;
+    return distance * workspace.display.viewport.zoom <= workspace.display.handle_px;
   }
 
   /// A drawing that goes nowhere is a click: the first of the points of a path.
   void finish(const Input& input, Workspace& workspace) {
     const Complex first = drawing_.line().front();
     const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
-      return std::abs(z - first) * workspace.viewport.zoom < kDragThresholdPx;
+      return std::abs(z - first) * workspace.display.viewport.zoom < kDragThresholdPx;
     });
-    Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.viewport);
+    Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.display.viewport);
     if (clicked) {
       path_.set_point(first);
-      path_.follow(input, workspace.viewport, workspace.handle_px);
+      path_.follow(input, workspace.display.viewport, workspace.display.handle_px);
     } else if (outline.empty()) {
-      workspace.say("Keep the button down and draw all around the new shape, or click its points.");
+      workspace.messages.say(
+          "Keep the button down and draw all around the new shape, or click its points.");
     } else {
       take_outline(workspace, "Draw outline", std::move(outline));
     }
@@ -113,22 +116,22 @@ class OutlineTool final : public Tool {
   }
 
   void follow_pull(const Input& input, Workspace& workspace) {
-    if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx) {
-      const Points& before = pull_->scene.outline;
+    if (workspace.shown.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx) {
+      const Points& before = pull_->deformation.outline;
       const Complex by = input.position - pull_->start;
-      Scene scene = pull_->scene;
+      Deformation deformation = pull_->deformation;
       if (pull_->whole)
-        for (Complex& z : scene.outline) z += by;
+        for (Complex& z : deformation.outline) z += by;
       else
-        scene.outline =
+        deformation.outline =
             pulled(before, true, pull_->point, by, kReach * Polyline(before, true).length());
-      workspace.preview = std::move(scene);
+      workspace.shown.preview = std::move(deformation);
     }
     if (input.down && !input.released) return;
     const bool whole = pull_->whole;
     pull_.reset();
-    if (workspace.preview)
-      workspace.commit(whole ? "Move outline" : "Bend outline", *workspace.preview);
+    if (workspace.shown.preview)
+      workspace.commit(whole ? "Move outline" : "Bend outline", *workspace.shown.preview);
   }
 
   Freehand drawing_;
@@ -144,15 +147,15 @@ bool take_outline(Workspace& workspace, const std::string& label, Points outline
   try {
     check_outline(outline);
   } catch (const Error& error) {
-    workspace.complain(error);
+    workspace.messages.complain(error);
     return false;
   }
-  if (!workspace.commit(
-          label, with_outline(workspace.document.scene(), std::move(outline), std::move(surface)),
-          From::document))
+  if (!workspace.commit(label,
+                        with_outline(workspace.shown.own(), std::move(outline), std::move(surface)),
+                        EditBase::document))
     return false;
-  workspace.posture = Posture::pose;
-  workspace.show_surface = true;
+  workspace.mode = EditMode::pose;
+  workspace.display.show_surface = true;
   workspace.playback = {0, true};
   return true;
 }

@@ -12,7 +12,8 @@ class PenTool final : public Tool {
   void input(const Input& input, Workspace& workspace) override {
     if (drag_.active()) return void(drag_.follow(input, workspace));
     if (path_.active()) {
-      if (path_.follow(input, workspace.viewport, workspace.handle_px)) close(workspace);
+      if (path_.follow(input, workspace.display.viewport, workspace.display.handle_px))
+        close(workspace);
       return;
     }
     hover_.reset();
@@ -28,7 +29,8 @@ class PenTool final : public Tool {
     }
     const PenPath::Answer answer = path_.key(key);
     if (answer == PenPath::Answer::close) close(workspace);
-    if (answer == PenPath::Answer::too_few) workspace.say("A cage needs at least three points.");
+    if (answer == PenPath::Answer::too_few)
+      workspace.messages.say("A cage needs at least three points.");
     return answer != PenPath::Answer::ignored;
   }
 
@@ -55,7 +57,7 @@ class PenTool final : public Tool {
       return "Click the first point, press Enter or double-click to close; drag for a smooth "
              "point; "
              "Backspace takes one back; Esc cancels";
-    if (!workspace.scene().has_cage()) return "Click around the picture to draw a cage";
+    if (!workspace.shown.deformation().has_cage()) return "Click around the picture to draw a cage";
     if (insertion_) return "Click to insert a point; rest and pose keep their shape";
     return "Click an edge to insert a point; click elsewhere to draw another cage in place of this "
            "one";
@@ -64,31 +66,31 @@ class PenTool final : public Tool {
  private:
   /// Nothing is being drawn.
   void idle(const Input& input, Workspace& workspace) {
-    const Scene& scene = workspace.scene();
-    if (scene.has_cage()) {
+    const Deformation& deformation = workspace.shown.deformation();
+    if (deformation.has_cage()) {
       hover_ = handle_at(workspace, input.px);
       if (hover_) {
         if (!input.pressed) return;
         if (erases(input, *hover_, workspace)) return hover_.reset();
         workspace.selection = {*hover_};
-        drag_.start(input, *hover_, workspace.selection, scene);
+        drag_.start(input, *hover_, workspace.selection, deformation);
         return;
       }
       if (const auto hit = edge_at(workspace, input.px)) {
         insertion_ = hit->point;
         if (!input.pressed || !insert_at(workspace, *hit)) return;
-        drag_.start_amending(input, workspace.selection, workspace.scene());
+        drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
         return;
       }
     }
     if (!input.pressed) return;
     // A cage is drawn around the picture as it rests.
-    if (scene.has_cage() && scene != at_rest(scene)) {
-      if (workspace.posture == Posture::pose)
-        workspace.say(
+    if (deformation.has_cage() && deformation != at_rest(deformation)) {
+      if (workspace.mode == EditMode::pose)
+        workspace.messages.say(
             "Drawing another cage on the picture at rest. Closing it replaces the cage; " +
             key_of("edit.undo") + " brings it back.");
-      workspace.posture = Posture::rest;
+      workspace.mode = EditMode::rest;
     }
     workspace.selection.clear();
     path_.set_point(input.position);
@@ -96,12 +98,12 @@ class PenTool final : public Tool {
 
   void close(Workspace& workspace) {
     // A refused drawing stays, so that a point can be taken back.
-    if (!workspace.commit("Draw cage", with_cage(workspace.document.scene(), path_.cage()),
-                          From::document))
+    if (!workspace.commit("Draw cage", with_cage(workspace.shown.own(), path_.cage()),
+                          EditBase::document))
       return;
     path_.cancel();
-    workspace.posture = Posture::pose;
-    workspace.tool = ToolId::select;
+    workspace.mode = EditMode::pose;
+    workspace.tools.active = ToolId::select;
   }
 
   PenPath path_;

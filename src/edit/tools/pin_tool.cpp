@@ -22,30 +22,31 @@ class PinTool final : public Tool {
     if (hover_) {
       if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
       workspace.selection.insert(*hover_);
-      drag_.start(input, *hover_, workspace.selection, workspace.scene());
+      drag_.start(input, *hover_, workspace.selection, workspace.shown.deformation());
       return;
     }
-    if (!workspace.scene().has_cage()) {
-      workspace.say(needs_a_cage("Pins act inside a cage"));
+    if (!workspace.shown.deformation().has_cage()) {
+      workspace.messages.say(needs_a_cage("Pins act inside a cage"));
       return;
     }
-    const auto rest = workspace.rest_at(input.position);
+    const auto rest = rest_at(workspace, input.position);
     if (!rest) {
-      workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
-                                           : "A pin goes on the picture, inside the cage.");
+      workspace.messages.say(workspace.map().busy()
+                                 ? "One moment, the map is being prepared."
+                                 : "A pin goes on the picture, inside the cage.");
       return;
     }
-    const bool switches = !method_named(workspace.scene().method).uses_pins;
+    const bool switches = !method_named(workspace.shown.deformation().method).uses_pins;
     // At rest a pin's pose is where the picture is posed, so that adding it moves nothing.
-    const Complex pose = workspace.at_rest() ? workspace.posed_at(*rest) : input.position;
-    if (!workspace.commit("Add pin", with_pin(workspace.scene(), *rest, pose,
+    const Complex pose = workspace.at_rest() ? posed_at(workspace.map(), *rest) : input.position;
+    if (!workspace.commit("Add pin", with_pin(workspace.shown.deformation(), *rest, pose,
                                               workspace.in_keyframes({&*rest, 1}))))
       return;
     if (switches)
-      workspace.say("The method is \"Cage and pins\": cage points and pins act together.");
+      workspace.messages.say("The method is \"Cage and pins\": cage points and pins act together.");
     workspace.selection = {
-        {Handle::Kind::pin, static_cast<Index>(workspace.scene().pins.size()) - 1, 0}};
-    drag_.start_amending(input, workspace.selection, workspace.scene());
+        {Handle::Kind::pin, static_cast<Index>(workspace.shown.deformation().pins.size()) - 1, 0}};
+    drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
   }
 
   void cancel(Workspace& workspace) override {
@@ -72,7 +73,7 @@ class PinTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return needs_a_cage("Pins act inside a cage");
+    if (!workspace.shown.deformation().has_cage()) return needs_a_cage("Pins act inside a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"

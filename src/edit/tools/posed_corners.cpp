@@ -10,20 +10,20 @@ constexpr double kRing = 2.8, kArm = 4.6;  ///< in picking distances
 
 bool has_images(const Workspace& w) {
   return w.map().has_map() && static_cast<Index>(w.map().prepared()->mesh->cage_vertices.size()) ==
-                                  w.scene().rest.size();
+                                  w.shown.deformation().rest.size();
 }
 
 }  // namespace
 
 Complex posed_vertex(const Workspace& workspace, Index vertex) {
-  if (!has_images(workspace)) return workspace.scene().pose.vertex(vertex);
+  if (!has_images(workspace)) return workspace.shown.deformation().pose.vertex(vertex);
   return workspace.map()
       .map()
       .f[workspace.map().prepared()->mesh->cage_vertices[static_cast<size_t>(vertex)]];
 }
 
 Points posed_segment(const Workspace& workspace, Index segment) {
-  const Cage& pose = workspace.scene().pose;
+  const Cage& pose = workspace.shown.deformation().pose;
   if (!has_images(workspace)) {
     Points line;
     const Points controls = pose.controls(segment);
@@ -38,7 +38,7 @@ Points posed_segment(const Workspace& workspace, Index segment) {
   };
   const size_t from = place(segment), to = place((segment + 1) % pose.size());
   // The boundary runs counter-clockwise, the cage as it was drawn.
-  const size_t step = signed_area(outline_of(workspace.scene().rest)) > 0 ? 1 : n - 1;
+  const size_t step = signed_area(outline_of(workspace.shown.deformation().rest)) > 0 ? 1 : n - 1;
   Points line{workspace.map().map().f[mesh.boundary[from]]};
   for (size_t at = from; at != to;) {
     at = (at + step) % n;
@@ -48,10 +48,10 @@ Points posed_segment(const Workspace& workspace, Index segment) {
 }
 
 CornerMark corner_mark(const Workspace& workspace, Index vertex) {
-  const Viewport& viewport = workspace.viewport;
+  const Viewport& viewport = workspace.display.viewport;
   CornerMark mark{vertex, viewport.px_at_plane(posed_vertex(workspace, vertex))};
-  mark.radius = kRing * workspace.handle_px;
-  const double arm = kArm * workspace.handle_px;
+  mark.radius = kRing * workspace.display.handle_px;
+  const double arm = kArm * workspace.display.handle_px;
   const auto end = [&](Points line) {
     Complex last = mark.center;
     for (const Complex& z : line) {
@@ -61,7 +61,7 @@ CornerMark corner_mark(const Workspace& workspace, Index vertex) {
     const Complex way = last - mark.center;
     return mark.center + (std::abs(way) > 0 ? arm * way / std::abs(way) : Complex(arm));
   };
-  const Index n = workspace.scene().pose.size();
+  const Index n = workspace.shown.deformation().pose.size();
   Points before = posed_segment(workspace, (vertex + n - 1) % n);
   std::ranges::reverse(before);
   mark.before = end(std::move(before));
@@ -69,20 +69,21 @@ CornerMark corner_mark(const Workspace& workspace, Index vertex) {
   return mark;
 }
 
-CornerMark::Part part_at(const CornerMark& mark, Complex px, double handle_px) {
+CornerMark::Region part_at(const CornerMark& mark, Complex px, double handle_px) {
   const double before = std::abs(px - mark.before), after = std::abs(px - mark.after);
   if (std::min(before, after) <= handle_px)
-    return before < after ? CornerMark::Part::before : CornerMark::Part::after;
+    return before < after ? CornerMark::Region::before : CornerMark::Region::after;
   if (std::abs(std::abs(px - mark.center) - mark.radius) <= 0.6 * handle_px)
-    return CornerMark::Part::ring;
-  return CornerMark::Part::none;
+    return CornerMark::Region::ring;
+  return CornerMark::Region::none;
 }
 
 std::optional<Index> posed_vertex_at(const Workspace& workspace, Complex px) {
   std::optional<Index> best;
-  double distance = workspace.handle_px;
-  for (Index v = 0; v < workspace.scene().pose.size(); ++v) {
-    const double here = std::abs(workspace.viewport.px_at_plane(posed_vertex(workspace, v)) - px);
+  double distance = workspace.display.handle_px;
+  for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v) {
+    const double here =
+        std::abs(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)) - px);
     if (here >= distance) continue;
     best = v;
     distance = here;
@@ -92,9 +93,9 @@ std::optional<Index> posed_vertex_at(const Workspace& workspace, Complex px) {
 
 std::optional<Index> posed_segment_at(const Workspace& workspace, Complex px) {
   std::optional<Index> best;
-  double distance = 0.8 * workspace.handle_px / workspace.viewport.zoom;
-  const Complex z = workspace.viewport.plane_at_px(px);
-  for (Index s = 0; s < workspace.scene().pose.size(); ++s) {
+  double distance = 0.8 * workspace.display.handle_px / workspace.display.viewport.zoom;
+  const Complex z = workspace.display.viewport.plane_at_px(px);
+  for (Index s = 0; s < workspace.shown.deformation().pose.size(); ++s) {
     const Points line = posed_segment(workspace, s);
     for (size_t i = 0; i + 1 < line.size(); ++i) {
       const double here = nearest_on_segment(line[i], line[i + 1], z).distance;

@@ -36,9 +36,10 @@ Pose between(Pose a, const Pose& b, double share) {
 constexpr double kLongestStep = 0.4;  ///< seconds between keys while something moves
 
 /// Whether a segment has the same degree in all keyframes that play.
-bool keeps_degree(const Scene& scene, Index segment) {
-  return std::ranges::all_of(scene.keyframes, [&](const Keyframe& key) {
-    return !fits(scene, key.pose) || key.pose.cage.degree(segment) == scene.pose.degree(segment);
+bool keeps_degree(const Deformation& deformation, Index segment) {
+  return std::ranges::all_of(deformation.keyframes, [&](const Keyframe& key) {
+    return !fits(deformation, key.pose) ||
+           key.pose.cage.degree(segment) == deformation.pose.degree(segment);
   });
 }
 
@@ -46,67 +47,69 @@ bool keeps_degree(const Scene& scene, Index segment) {
 
 bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
   if (!workspace.require_pose()) return false;
-  start_ = workspace.unedited();
+  start_ = workspace.shown.base();
   workspace.map().follow_keys();
   over_keys_ = !start_.keyframes.empty() && workspace.map().motion().plays();
   what_ = what;
-  influence_ = workspace.influence;
+  drag_options_ = workspace.tools.drag;
   std::erase_if(what_, [&](const Handle& handle) {
-    return !exists(start_, handle, Posture::pose) ||
+    return !exists(start_, handle, EditMode::pose) ||
            (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
   });
-  start_time_ = workspace.timeline.time;
+  start_time_ = workspace.shown.timeline.time;
   if (what_.empty() || start_time_ >= kLongestTime) {
-    workspace.say(what_.empty() ? "These tangents are none in other keys: they are not recorded."
-                                : "There is no time left to record.");
+    workspace.messages.say(what_.empty()
+                               ? "These tangents are none in other keys: they are not recorded."
+                               : "There is no time left to record.");
     return false;
   }
   start_ms_ = now_ms;
   const Pose pose = whole_pose_of(dragged(base_at(workspace, start_time_), 0));
   samples_ = {{start_time_, 0, pose, places_in(pose)}};
-  workspace.timeline.playing = false;
-  workspace.timeline.recording = true;
+  workspace.shown.timeline.playing = false;
+  workspace.shown.timeline.recording = true;
   return true;
 }
 
-Scene Recording::base_at(const Workspace& workspace, double time) const {
+Deformation Recording::base_at(const Workspace& workspace, double time) const {
   const Motion& motion = workspace.map().motion();
-  return over_keys_ && motion.plays() ? motion.scene_at(start_, time, motion.map_at(time)) : start_;
+  return over_keys_ && motion.plays() ? motion.deformation_at(start_, time, motion.map_at(time))
+                                      : start_;
 }
 
-Scene Recording::dragged(Scene scene, Complex by) const {
-  const Displacements ways = displacements(start_, what_, by, Posture::pose, influence_);
+Deformation Recording::dragged(Deformation deformation, Complex by) const {
+  const Displacements ways = displacements(start_, what_, by, EditMode::pose, drag_options_);
   // Vertices take their tangents along, so these come behind them.
   for (const bool tangents : {false, true})
     for (const auto& [handle, way] : ways) {
-      if (is_tangent(handle) != tangents || !exists(scene, handle, Posture::pose)) continue;
+      if (is_tangent(handle) != tangents || !exists(deformation, handle, EditMode::pose)) continue;
       if (handle.kind == Handle::Kind::stroke) {
-        Points& pose = scene.strokes[static_cast<size_t>(handle.index)].pose;
-        pose = curve_of(start_, handle.index, Posture::pose);
+        Points& pose = deformation.strokes[static_cast<size_t>(handle.index)].pose;
+        pose = curve_of(start_, handle.index, EditMode::pose);
         for (Complex& z : pose) z += way;
       } else {
-        scene = placed(std::move(scene), handle, position_of(start_, handle, Posture::pose) + way,
-                       Posture::pose);
+        deformation = placed(std::move(deformation), handle,
+                             position_of(start_, handle, EditMode::pose) + way, EditMode::pose);
       }
     }
-  return scene;
+  return deformation;
 }
 
-Scene Recording::follow(Workspace& workspace, Complex by, double now_ms) {
+Deformation Recording::follow(Workspace& workspace, Complex by, double now_ms) {
   const double time = std::min(kLongestTime, start_time_ + (now_ms - start_ms_) / 1000);
-  Scene scene = dragged(base_at(workspace, time), by);
-  workspace.timeline.time = time;
-  const Pose pose = whole_pose_of(scene);
+  Deformation deformation = dragged(base_at(workspace, time), by);
+  workspace.shown.timeline.time = time;
+  const Pose pose = whole_pose_of(deformation);
   if (time > samples_.back().time) samples_.emplace_back();
   samples_.back() = {time, by, pose, places_in(pose)};
-  return scene;
+  return deformation;
 }
 
-Recording::Sample Recording::sample_at(double time) const {
-  const auto after = std::ranges::lower_bound(samples_, time, {}, &Sample::time);
+Recording::RecordedPose Recording::sample_at(double time) const {
+  const auto after = std::ranges::lower_bound(samples_, time, {}, &RecordedPose::time);
   if (after == samples_.end()) return samples_.back();
   if (after == samples_.begin()) return samples_.front();
-  const Sample &a = *std::prev(after), &b = *after;
+  const RecordedPose &a = *std::prev(after), &b = *after;
   const double share = (time - a.time) / (b.time - a.time);
   return {time, a.by + share * (b.by - a.by), between(a.pose, b.pose, share), {}};
 }
@@ -115,7 +118,7 @@ Recording::Sample Recording::sample_at(double time) const {
 std::vector<double> Recording::needed(double tolerance) const {
   std::vector<double> times{samples_.front().time};
   const auto split = [&](const auto& self, size_t first, size_t last) -> void {
-    const Sample &a = samples_[first], &b = samples_[last];
+    const RecordedPose &a = samples_[first], &b = samples_[last];
     size_t worst = first;
     double most = tolerance;
     for (size_t i = first + 1; i < last; ++i) {
@@ -147,19 +150,22 @@ std::vector<double> Recording::needed(double tolerance) const {
 
 void Recording::finish(Workspace& workspace) {
   constexpr double kTolerancePx = 3;
-  const Scene before = workspace.document.scene();
-  const auto at_frame = [&](double time) { return time_of_frame(before, frame_at(before, time)); };
+  const Scene& scene = workspace.document.scene();
+  const Deformation before = scene.deformation();
+  const auto at_frame = [&](double time) { return time_of_frame(scene, frame_at(scene, time)); };
   const double end = samples_.back().time;
   if (at_frame(end) <= start_time_) return cancel(workspace);
-  double tolerance = kTolerancePx / workspace.viewport.zoom;
+  double tolerance = kTolerancePx / workspace.display.viewport.zoom;
   std::vector<double> times = needed(tolerance);
   while (times.size() + before.keyframes.size() > kMostKeyframes && times.size() > 2)
     times = needed(tolerance *= 2);
-  Scene scene = before;
+  Deformation deformation = before;
   const auto set = [&](double time, const Pose& pose) {
-    const size_t there = key_at(scene, time);
-    if (there < scene.keyframes.size() && !fits(scene, scene.keyframes[there].pose)) return;
-    scene = with_key(posed_as(std::move(scene), pose), time);
+    const size_t there = key_at(deformation, time);
+    if (there < deformation.keyframes.size() &&
+        !fits(deformation, deformation.keyframes[there].pose))
+      return;
+    deformation = with_key(posed_as(std::move(deformation), pose), time);
   };
   for (const double time : times) {
     const double at = time == start_time_ ? time : at_frame(time);
@@ -172,26 +178,27 @@ void Recording::finish(Workspace& workspace) {
   const auto behind = std::ranges::upper_bound(before.keyframes, end, {}, &Keyframe::time);
   const Ease last = behind == before.keyframes.begin() ? Ease::smooth : std::prev(behind)->ease;
   const double last_time = at_frame(end);
-  for (Keyframe& key : scene.keyframes)
-    if (key.time >= start_time_ && key.time <= last_time && fits(scene, key.pose))
+  for (Keyframe& key : deformation.keyframes)
+    if (key.time >= start_time_ && key.time <= last_time && fits(deformation, key.pose))
       key.ease = key.time < last_time ? Ease::linear : last;
-  keep_turns(scene, before, workspace.map().motion());
+  keep_turns(deformation, before, workspace.map().motion());
   samples_.clear();
-  workspace.timeline.recording = false;
-  if (!workspace.commit("Record motion", posed_as(std::move(scene), whole_pose_of(before)),
-                        From::document)) {
-    workspace.timeline.time = start_time_;
+  workspace.shown.timeline.recording = false;
+  if (!workspace.commit("Record motion", posed_as(std::move(deformation), whole_pose_of(before)),
+                        EditBase::document)) {
+    workspace.shown.timeline.time = start_time_;
     return;
   }
-  workspace.timeline.visible = true;
+  workspace.shown.timeline.visible = true;
   workspace.go_to_time(last_time);
 }
 
 void Recording::cancel(Workspace& workspace) {
   samples_.clear();
-  workspace.preview.reset();
+  workspace.shown.preview.reset();
   // Another document has a time of its own.
-  if (std::exchange(workspace.timeline.recording, false)) workspace.timeline.time = start_time_;
+  if (std::exchange(workspace.shown.timeline.recording, false))
+    workspace.shown.timeline.time = start_time_;
 }
 
 std::string recording_hint(const Timeline& timeline) {

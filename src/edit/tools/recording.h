@@ -12,9 +12,9 @@ class Recording {
   /// are left out. Returns whether anything is left to record.
   bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
-  /// The scene at this moment with the handles by `by` from where they were at the start. The
+  /// The deformation at this moment with the handles by `by` from where they were at the start. The
   /// workspace's time goes along.
-  Scene follow(Workspace& workspace, Complex by, double now_ms);
+  Deformation follow(Workspace& workspace, Complex by, double now_ms);
   /// Sets linear keyframes at frames, as few as keep everything within three window pixels of its
   /// way, as one step. Keys that are there already keep what was not dragged; those that do not
   /// play stay as they are.
@@ -22,24 +22,24 @@ class Recording {
   void cancel(Workspace& workspace);
 
  private:
-  struct Sample {
+  struct RecordedPose {
     double time = 0;
     Complex by;
     Pose pose;
     Points places;  ///< of all handles
   };
-  /// A scene with the handles where they are dragged to.
-  Scene dragged(Scene scene, Complex by) const;
-  Scene base_at(const Workspace& workspace, double time) const;
-  Sample sample_at(double time) const;
+  /// A deformation with the handles where they are dragged to.
+  Deformation dragged(Deformation deformation, Complex by) const;
+  Deformation base_at(const Workspace& workspace, double time) const;
+  RecordedPose sample_at(double time) const;
   std::vector<double> needed(double tolerance) const;
 
   Selection what_;
-  Influence influence_;
-  Scene start_;  ///< what was shown
+  DragOptions drag_options_;
+  Deformation start_;  ///< what was shown
   double start_time_ = 0, start_ms_ = 0;
   bool over_keys_ = false;
-  std::vector<Sample> samples_;
+  std::vector<RecordedPose> samples_;
 };
 
 /// What to say meanwhile.

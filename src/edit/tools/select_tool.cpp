@@ -74,7 +74,8 @@ class SelectTool final : public Tool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return needs_a_cage("What bends is inside a cage");
+    if (!workspace.shown.deformation().has_cage())
+      return needs_a_cage("What bends is inside a cage");
     if (drag_.active()) return "Shift keeps the axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
     if (ring_.active()) return "Shift snaps to 15 degrees";
@@ -86,7 +87,7 @@ class SelectTool final : public Tool {
     if (hover_)
       return "Drag to move, with Ctrl to record motion; Shift-click adds; Alt-click deletes; "
              "Ctrl-click: smooth or corner";
-    return workspace.posture == Posture::rest
+    return workspace.mode == EditMode::rest
                ? "Rest: drag points, the pose stays; double-click an edge inserts; " +
                      key_of("cage.rest") + " returns to the pose"
                : "Drag points or pins; drag a box to select; double-click an edge inserts; " +
@@ -102,7 +103,7 @@ class SelectTool final : public Tool {
     }
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
     selection.insert(*hover_);
-    drag_.start(input, *hover_, selection, workspace.scene());
+    drag_.start(input, *hover_, selection, workspace.shown.deformation());
   }
 
   void follow_marquee(const Input& input, Workspace& workspace) {
@@ -115,10 +116,10 @@ class SelectTool final : public Tool {
     marquee_start_.reset();
     if (!input.mods.shift) workspace.selection.clear();
     if (!dragged) return;
-    const Scene& scene = workspace.scene();
-    for (const Handle& handle : handles_of(scene, workspace.posture))
-      if (box.contains(
-              workspace.viewport.px_at_plane(position_of(scene, handle, workspace.posture))))
+    const Deformation& deformation = workspace.shown.deformation();
+    for (const Handle& handle : handles_of(deformation, workspace.mode))
+      if (box.contains(workspace.display.viewport.px_at_plane(
+              position_of(deformation, handle, workspace.mode))))
         workspace.selection.insert(handle);
   }
 

@@ -3,17 +3,17 @@
 
 namespace holomorph {
 
-Complex snapped(const Scene& scene, const Selection& dragged, Handle pressed, Complex by,
-                Posture posture, const Snapping& snapping, std::vector<Guide>& guides) {
-  Points places{position_of(scene, pressed, Posture::rest)};
-  for (const Handle& handle : handles_of(scene, posture))
+Complex snapped(const Deformation& deformation, const Selection& dragged, Handle pressed,
+                Complex by, EditMode mode, const Snapping& snapping, std::vector<Guide>& guides) {
+  Points places{position_of(deformation, pressed, EditMode::rest)};
+  for (const Handle& handle : handles_of(deformation, mode))
     if (!dragged.contains(handle) && handle.control == 0)
-      places.push_back(position_of(scene, handle, posture));
+      places.push_back(position_of(deformation, handle, mode));
   if (snapping.picture) {
     const Box& box = *snapping.picture;
     places.insert(places.end(), {{box.left, box.bottom}, {box.right, box.top}, box.center()});
   }
-  const Complex start = position_of(scene, pressed, posture), free = start + by;
+  const Complex start = position_of(deformation, pressed, mode), free = start + by;
   const auto nearest = [&](auto coordinate) {
     const Complex* found = nullptr;
     double least = snapping.distance;

@@ -18,7 +18,7 @@ struct Snapping {
 };
 
 /// A drag of handles, changed so that the pressed one lines up; appends what it lines up with.
-Complex snapped(const Scene& scene, const Selection& dragged, Handle pressed, Complex by,
-                Posture posture, const Snapping& snapping, std::vector<Guide>& guides);
+Complex snapped(const Deformation& deformation, const Selection& dragged, Handle pressed,
+                Complex by, EditMode mode, const Snapping& snapping, std::vector<Guide>& guides);
 
 }  // namespace holomorph

@@ -34,12 +34,12 @@ class StrokeTool final : public Tool {
     if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
     selection.insert(*hover_);
     if (hover_->kind == Handle::Kind::stroke && start_pull(input, workspace)) return;
-    drag_.start(input, *hover_, selection, workspace.scene());
+    drag_.start(input, *hover_, selection, workspace.shown.deformation());
   }
 
   void cancel(Workspace& workspace) override {
     drag_.cancel(workspace);
-    if (pull_) workspace.preview.reset();
+    if (pull_) workspace.shown.preview.reset();
     pull_.reset();
     drawing_.cancel();
     redrawn_.reset();
@@ -61,7 +61,7 @@ class StrokeTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.scene().has_cage()) return needs_a_cage("Strokes act inside a cage");
+    if (!workspace.shown.deformation().has_cage()) return needs_a_cage("Strokes act inside a cage");
     if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";
@@ -75,7 +75,7 @@ class StrokeTool final : public Tool {
     size_t point;
     double reach;
     Complex start, start_px;
-    Scene scene;
+    Deformation deformation;
   };
 
   static std::optional<Index> selected_stroke(const Workspace& workspace) {
@@ -85,76 +85,81 @@ class StrokeTool final : public Tool {
   }
 
   void start_drawing(const Input& input, Workspace& workspace) {
-    if (!workspace.scene().has_cage())
-      return workspace.say(needs_a_cage("Strokes act inside a cage"));
-    if (input.mods.shift && !selected_stroke(workspace) && !workspace.scene().strokes.empty())
-      return workspace.say("Click a stroke first: Shift-drag draws its new place.");
+    if (!workspace.shown.deformation().has_cage())
+      return workspace.messages.say(needs_a_cage("Strokes act inside a cage"));
+    if (input.mods.shift && !selected_stroke(workspace) &&
+        !workspace.shown.deformation().strokes.empty())
+      return workspace.messages.say("Click a stroke first: Shift-drag draws its new place.");
     redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;
-    if (!redrawn_ && !workspace.rest_at(input.position))
-      return workspace.say(workspace.map().busy() ? "One moment, the map is being prepared."
-                                                  : "A stroke starts on the picture.");
+    if (!redrawn_ && !rest_at(workspace, input.position))
+      return workspace.messages.say(workspace.map().busy()
+                                        ? "One moment, the map is being prepared."
+                                        : "A stroke starts on the picture.");
     drawing_.start(input);
   }
 
   void finish(Workspace& workspace) {
-    const Points drawn = drawing_.finish(false, kStepPx, kShortestPx, workspace.viewport);
+    const Points drawn = drawing_.finish(false, kStepPx, kShortestPx, workspace.display.viewport);
     const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
     if (drawn.empty()) {
       workspace.selection.clear();  // a click beside everything
       return;
     }
     if (redrawn_stroke) {
-      workspace.commit("Redraw stroke",
-                       redrawn(workspace.scene(), *redrawn_stroke, drawn, workspace.posture));
+      workspace.commit("Redraw stroke", redrawn(workspace.shown.deformation(), *redrawn_stroke,
+                                                drawn, workspace.mode));
       return;
     }
     Points rest, pose;
     for (const Complex& z : drawn) {
-      const auto at = workspace.rest_at(z);
+      const auto at = rest_at(workspace, z);
       if (!at) continue;
       rest.push_back(*at);
-      pose.push_back(workspace.at_rest() ? workspace.posed_at(*at) : z);
+      pose.push_back(workspace.at_rest() ? posed_at(workspace.map(), *at) : z);
     }
-    if (rest.size() < 2) return workspace.say("A stroke goes on the picture, inside the cage.");
+    if (rest.size() < 2)
+      return workspace.messages.say("A stroke goes on the picture, inside the cage.");
     const bool clipped = rest.size() < drawn.size();
-    const bool switches = !method_named(workspace.scene().method).uses_strokes;
-    if (!workspace.commit("Draw stroke",
-                          with_stroke(workspace.scene(), rest, pose, workspace.in_keyframes(rest))))
+    const bool switches = !method_named(workspace.shown.deformation().method).uses_strokes;
+    if (!workspace.commit("Draw stroke", with_stroke(workspace.shown.deformation(), rest, pose,
+                                                     workspace.in_keyframes(rest))))
       return;
-    workspace.selection = {
-        {Handle::Kind::stroke, static_cast<Index>(workspace.scene().strokes.size()) - 1, 0}};
-    if (clipped) workspace.say("What was drawn beside the picture was left out.");
+    workspace.selection = {{Handle::Kind::stroke,
+                            static_cast<Index>(workspace.shown.deformation().strokes.size()) - 1,
+                            0}};
+    if (clipped) workspace.messages.say("What was drawn beside the picture was left out.");
     if (switches)
-      workspace.say("The method is \"Strokes\": strokes, pins and cage points act together.");
+      workspace.messages.say(
+          "The method is \"Strokes\": strokes, pins and cage points act together.");
   }
 
   /// At an end, or anywhere with Ctrl, a stroke is bent instead of moved.
   bool start_pull(const Input& input, Workspace& workspace) {
-    const Points& curve = curve_of(workspace.scene(), hover_->index, workspace.posture);
+    const Points& curve = curve_of(workspace.shown.deformation(), hover_->index, workspace.mode);
     const auto off = [&](Complex z) {
-      return std::abs(workspace.viewport.px_at_plane(z) - input.px);
+      return std::abs(workspace.display.viewport.px_at_plane(z) - input.px);
     };
     const auto nearest = std::ranges::min_element(curve, {}, off);
     const size_t point = static_cast<size_t>(nearest - curve.begin());
-    const bool end = std::min(off(curve.front()), off(curve.back())) <= workspace.handle_px;
+    const bool end = std::min(off(curve.front()), off(curve.back())) <= workspace.display.handle_px;
     if (!end && !input.mods.ctrl) return false;
     const size_t at = !end ? point : off(curve.front()) <= off(curve.back()) ? 0 : curve.size() - 1;
     const double length = Polyline(without_repeats(curve), false).length();
     pull_ = Pull{hover_->index,  at,       (end ? kEndReach : kReach) * length,
-                 input.position, input.px, workspace.scene()};
+                 input.position, input.px, workspace.shown.deformation()};
     return true;
   }
 
   void follow_pull(const Input& input, Workspace& workspace) {
-    if (workspace.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx)
-      workspace.preview =
-          with_curve(pull_->scene, pull_->stroke,
-                     pulled(curve_of(pull_->scene, pull_->stroke, workspace.posture), false,
+    if (workspace.shown.preview || std::abs(input.px - pull_->start_px) >= kDragThresholdPx)
+      workspace.shown.preview =
+          with_curve(pull_->deformation, pull_->stroke,
+                     pulled(curve_of(pull_->deformation, pull_->stroke, workspace.mode), false,
                             pull_->point, input.position - pull_->start, pull_->reach),
-                     workspace.posture);
+                     workspace.mode);
     if (input.down && !input.released) return;
     pull_.reset();
-    if (workspace.preview) workspace.commit("Bend stroke", *workspace.preview);
+    if (workspace.shown.preview) workspace.commit("Bend stroke", *workspace.shown.preview);
   }
 
   Freehand drawing_;

@@ -11,13 +11,13 @@ namespace holomorph {
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
     moving_ = true;
-    const bool records = with_ctrl_ && !amends_ && workspace.posture == Posture::pose;
+    const bool records = with_ctrl_ && !amends_ && workspace.mode == EditMode::pose;
     if (records && !recording_.start(workspace, what_, input.now_ms)) {
       active_ = false;
       return true;
     }
   }
-  if (moving_) workspace.preview = dragged(input, workspace);
+  if (moving_) workspace.shown.preview = dragged(input, workspace);
   if (!input.released && input.down) return false;
   active_ = false;
   const bool vertex = pressed_.kind == Handle::Kind::cage && pressed_.control == 0;
@@ -29,47 +29,49 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   return true;
 }
 
-Scene HandleDrag::dragged(const Input& input, Workspace& workspace) {
+Deformation HandleDrag::dragged(const Input& input, Workspace& workspace) {
   Complex by = input.position - start_;
   if (input.mods.shift)
     by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
   if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
   guides_.clear();
-  if (workspace.snaps) {
+  if (workspace.tools.snaps) {
     constexpr double kReach = 0.7;  // picking distances
-    Snapping snapping{kReach * workspace.handle_px / workspace.viewport.zoom, {}};
+    Snapping snapping{kReach * workspace.display.handle_px / workspace.display.viewport.zoom, {}};
     if (const Image* image = workspace.document.image())
       snapping.picture =
           Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
-    by = snapped(scene_, what_, pressed_, by, workspace.posture, snapping, guides_);
+    by = snapped(deformation_, what_, pressed_, by, workspace.mode, snapping, guides_);
   }
   const Handle& first = *what_.begin();
   if (what_.size() == 1 && is_tangent(first))
-    return tangent_moved(scene_, first, position_of(scene_, first, workspace.posture) + by,
-                         workspace.posture, input.mods.alt);
-  return displaced(scene_, displacements(scene_, what_, by, workspace.posture, workspace.influence),
-                   workspace.posture);
+    return tangent_moved(deformation_, first, position_of(deformation_, first, workspace.mode) + by,
+                         workspace.mode, input.mods.alt);
+  return displaced(deformation_,
+                   displacements(deformation_, what_, by, workspace.mode, workspace.tools.drag),
+                   workspace.mode);
 }
 
 void HandleDrag::finish(Workspace& workspace) {
   guides_.clear();
   if (recording_.active()) return recording_.finish(workspace);
-  if (!workspace.preview) return;
+  if (!workspace.shown.preview) return;
   if (amends_)
-    workspace.amend(*workspace.preview);
+    workspace.amend(*workspace.shown.preview);
   else
-    workspace.commit(workspace.posture == Posture::rest ? "Move at rest"
-                     : kind_of(what_) == "point"        ? "Move"
-                                                        : "Move " + kind_of(what_),
-                     *workspace.preview);
+    workspace.commit(workspace.mode == EditMode::rest ? "Move at rest"
+                     : kind_of(what_) == "point"      ? "Move"
+                                                      : "Move " + kind_of(what_),
+                     *workspace.shown.preview);
 }
 
 void toggle_corners(Workspace& workspace) {
-  const Scene after = toggled_corners(workspace.scene(), workspace.selection, workspace.posture);
+  const Deformation after =
+      toggled_corners(workspace.shown.deformation(), workspace.selection, workspace.mode);
   bool smooth = false;
   for (const Handle& handle : workspace.selection)
     smooth = smooth || (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-                        is_smooth(after, handle.index, workspace.posture));
+                        is_smooth(after, handle.index, workspace.mode));
   workspace.commit(smooth ? "Smooth point" : "Corner", after);
 }
 
@@ -82,7 +84,7 @@ bool erases(const Input& input, Handle handle, Workspace& workspace) {
 namespace {
 
 Complex center_px(const Workspace& workspace, Index pin) {
-  return workspace.viewport.px_at_plane(workspace.scene().pins[pin].pose);
+  return workspace.display.viewport.px_at_plane(workspace.shown.deformation().pins[pin].pose);
 }
 
 }  // namespace
@@ -90,13 +92,15 @@ Complex center_px(const Workspace& workspace, Index pin) {
 void PinRing::hover(const Input& input, const Workspace& workspace) {
   pin_.reset();
   hovered_ = false;
-  if (workspace.posture != Posture::pose || workspace.selection.size() != 1) return;
+  if (workspace.mode != EditMode::pose || workspace.selection.size() != 1) return;
   const Handle handle = *workspace.selection.begin();
-  if (handle.kind != Handle::Kind::pin || !exists(workspace.scene(), handle, Posture::pose)) return;
+  if (handle.kind != Handle::Kind::pin ||
+      !exists(workspace.shown.deformation(), handle, EditMode::pose))
+    return;
   pin_ = handle.index;
   const double off =
-      std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.handle_px;
-  hovered_ = input.inside && std::abs(off) < 0.6 * workspace.handle_px;
+      std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.display.handle_px;
+  hovered_ = input.inside && std::abs(off) < 0.6 * workspace.display.handle_px;
 }
 
 double PinRing::angle_to(const Input& input, const Workspace& workspace) const {
@@ -107,33 +111,34 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
   active_ = true;
   start_px_ = input.px;
   start_angle_ = angle_to(input, workspace);
-  start_scene_ = workspace.scene();
+  start_deformation_ = workspace.shown.deformation();
 }
 
 void PinRing::follow(const Input& input, Workspace& workspace) {
-  const double before = start_scene_.pins[*pin_].angle.value_or(0);
+  const double before = start_deformation_.pins[*pin_].angle.value_or(0);
   double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
   // Unwrapped from frame to frame, so that more than half a turn can be dragged.
-  const double last = workspace.preview ? workspace.preview->pins[*pin_].angle.value_or(0) : before;
+  const double last =
+      workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
   if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
-  if (workspace.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
-    workspace.preview = turned(start_scene_, *pin_, angle);
+  if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
+    workspace.shown.preview = turned(start_deformation_, *pin_, angle);
   if (input.down && !input.released) return;
   active_ = false;
-  if (workspace.preview) workspace.commit("Turn pin", *workspace.preview);
+  if (workspace.shown.preview) workspace.commit("Turn pin", *workspace.shown.preview);
 }
 
 bool PinRing::scroll(const Input& input, Workspace& workspace) {
   hover(input, workspace);
   if (!hovered_) return false;
   const double factor = std::pow(1.05, input.wheel);
-  workspace.commit_or_amend("Scale at pin", scaled(workspace.scene(), *pin_, factor));
+  workspace.commit_or_amend("Scale at pin", scaled(workspace.shown.deformation(), *pin_, factor));
   return true;
 }
 
 void PinRing::cancel(Workspace& workspace) {
-  if (active_) workspace.preview.reset();
+  if (active_) workspace.shown.preview.reset();
   active_ = false;
 }
 

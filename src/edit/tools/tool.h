@@ -1,4 +1,4 @@
-// Tools turn input into a changed scene: nothing, a preview, or a commit.
+// Tools turn input into a changed deformation: nothing, a preview, or a commit.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace holomorph {
 
-/// What a tool wants drawn besides the scene.
+/// What a tool wants drawn besides the deformation.
 struct ToolOverlay {
   Points line;                      ///< what is being drawn, as a polyline in the plane
   Points line_points;               ///< the points that were set
@@ -26,8 +26,8 @@ struct ToolOverlay {
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
   std::optional<BoxMark> box;        ///< around what is selected
   std::vector<Guide> guides;         ///< what is lined up with
-  bool shows_dabs = false;           ///< what is painted: `dabs`, or the scene's
-  std::optional<std::vector<Dab>> dabs;
+  bool shows_dabs = false;           ///< what is painted: `dabs`, or the deformation's
+  std::optional<std::vector<BrushDab>> dabs;
   std::optional<Complex> brush;  ///< where the brush is
 };
 
@@ -69,18 +69,18 @@ std::unique_ptr<Tool> brush_tool();
 class HandleDrag {
  public:
   /// A drag that carries the last step on, which set or inserted what is dragged.
-  void start_amending(const Input& input, const Selection& what, const Scene& scene) {
-    start(input, *what.begin(), what, scene);
+  void start_amending(const Input& input, const Selection& what, const Deformation& deformation) {
+    start(input, *what.begin(), what, deformation);
     amends_ = true;
   }
   /// `pressed` is the one of them that is under the pointer.
-  void start(const Input& input, Handle pressed, Selection what, const Scene& scene) {
+  void start(const Input& input, Handle pressed, Selection what, const Deformation& deformation) {
     amends_ = false;
     pressed_ = pressed;
     start_px_ = input.px;
     start_ = input.position;
     what_ = std::move(what);
-    scene_ = scene;
+    deformation_ = deformation;
     with_ctrl_ = input.mods.ctrl;
     active_ = true;
     moving_ = false;
@@ -92,20 +92,20 @@ class HandleDrag {
   /// Follows the pointer; on release commits. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
-    if (active_) workspace.preview.reset();
+    if (active_) workspace.shown.preview.reset();
     if (recording_.active()) recording_.cancel(workspace);
     guides_.clear();
     active_ = false;
   }
 
  private:
-  Scene dragged(const Input& input, Workspace& workspace);
+  Deformation dragged(const Input& input, Workspace& workspace);
   void finish(Workspace& workspace);
 
   Complex start_px_, start_;
   Handle pressed_;
   Selection what_;
-  Scene scene_;
+  Deformation deformation_;
   Recording recording_;
   std::vector<Guide> guides_;
   bool active_ = false, moving_ = false, amends_ = false, with_ctrl_ = false;
@@ -147,7 +147,7 @@ class PinRing {
   bool hovered_ = false, active_ = false;
   Complex start_px_;
   double start_angle_ = 0;
-  Scene start_scene_;
+  Deformation start_deformation_;
 };
 
 }  // namespace holomorph

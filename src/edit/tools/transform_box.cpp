@@ -25,13 +25,13 @@ double at_least(double scale) {
   return std::abs(scale) < kLeastScale ? std::copysign(kLeastScale, scale) : scale;
 }
 
-Box box_around(const Scene& scene, const Selection& selection, Posture posture) {
+Box box_around(const Deformation& deformation, const Selection& selection, EditMode mode) {
   Box box;
   for (const Handle& handle : selection) {
     if (handle.kind != Handle::Kind::stroke)
-      box.include(position_of(scene, handle, posture));
+      box.include(position_of(deformation, handle, mode));
     else
-      for (const Complex& z : curve_of(scene, handle.index, posture)) box.include(z);
+      for (const Complex& z : curve_of(deformation, handle.index, mode)) box.include(z);
   }
   return box;
 }
@@ -50,32 +50,32 @@ Affine Affine::turning(double angle, Complex about) {
   return map;
 }
 
-Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
-                  Posture posture) {
+Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
+                        double turn, EditMode mode) {
   Selection all = selection;
   for (const Handle& handle : selection)
-    for (const Handle& tangent : tangents_beside(cage_of(scene, posture), handle))
+    for (const Handle& tangent : tangents_beside(cage_of(deformation, mode), handle))
       all.insert(tangent);
   const double size = std::sqrt(std::abs(std::norm(map.a) - std::norm(map.b)));
   for (const Handle& handle : all) {
     if (handle.kind == Handle::Kind::stroke) {
-      Stroke& stroke = scene.strokes[static_cast<size_t>(handle.index)];
-      for (Complex& z : posture == Posture::rest ? stroke.rest : stroke.pose) z = map(z);
+      Stroke& stroke = deformation.strokes[static_cast<size_t>(handle.index)];
+      for (Complex& z : mode == EditMode::rest ? stroke.rest : stroke.pose) z = map(z);
       continue;
     }
-    const Complex z = position_of(scene, handle, posture);
-    shift(scene, handle, map(z) - z, posture);
-    if (handle.kind != Handle::Kind::pin || posture == Posture::rest) continue;
-    Pin& pin = scene.pins[static_cast<size_t>(handle.index)];
+    const Complex z = position_of(deformation, handle, mode);
+    shift(deformation, handle, map(z) - z, mode);
+    if (handle.kind != Handle::Kind::pin || mode == EditMode::rest) continue;
+    Pin& pin = deformation.pins[static_cast<size_t>(handle.index)];
     if (!pin.angle) continue;
     *pin.angle += turn;
     pin.scale = std::clamp(size * pin.scale, kLeastPinScale, kMostPinScale);
   }
-  return scene;
+  return deformation;
 }
 
 BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) const {
-  const auto px = [&](Complex z) { return workspace.viewport.px_at_plane(map(z)); };
+  const auto px = [&](Complex z) { return workspace.display.viewport.px_at_plane(map(z)); };
   const Complex top(box_.center().real(), box_.top);
   return {{px({box_.left, box_.bottom}), px({box_.right, box_.bottom}), px({box_.right, box_.top}),
            px({box_.left, box_.top})},
@@ -86,9 +86,11 @@ BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) con
 void TransformBox::hover(const Input& input, const Workspace& workspace) {
   mark_.reset();
   inside_ = false;
-  if (workspace.selection.size() < 2 || !workspace.show_cage || workspace.hide_overlays) return;
-  const double unit = workspace.handle_px / workspace.viewport.zoom;
-  content_ = box_around(workspace.scene(), workspace.selection, workspace.posture);
+  if (workspace.selection.size() < 2 || !workspace.display.show_cage ||
+      workspace.display.hide_overlays)
+    return;
+  const double unit = workspace.display.handle_px / workspace.display.viewport.zoom;
+  content_ = box_around(workspace.shown.deformation(), workspace.selection, workspace.mode);
   const double margin = kMargin * unit;
   box_ = {content_.left - margin, content_.bottom - margin, content_.right + margin,
           content_.top + margin};
@@ -96,7 +98,8 @@ void TransformBox::hover(const Input& input, const Workspace& workspace) {
   mark_ = mark_of(workspace, {});
   if (!input.inside) return;
   for (int grip = 0; grip <= kKnobNumber; ++grip)
-    if (std::abs(mark_->grip(grip) - input.px) < kPick * workspace.handle_px) mark_->hovered = grip;
+    if (std::abs(mark_->grip(grip) - input.px) < kPick * workspace.display.handle_px)
+      mark_->hovered = grip;
   inside_ = !mark_->hovered && box_.contains(input.position);
 }
 
@@ -116,7 +119,7 @@ void TransformBox::start(const Input& input, const Workspace& workspace) {
   start_px_ = input.px;
   start_ = input.position;
   turn_ = 0;
-  scene_ = workspace.scene();
+  deformation_ = workspace.shown.deformation();
 }
 
 Affine TransformBox::map(const Input& input) {
@@ -152,23 +155,24 @@ void TransformBox::follow(const Input& input, Workspace& workspace) {
   moving_ = moving_ || std::abs(input.px - start_px_) >= kDragThresholdPx;
   if (moving_) {
     const Affine now = map(input);
-    workspace.preview = transformed(scene_, workspace.selection, now, turn_, workspace.posture);
+    workspace.shown.preview =
+        transformed(deformation_, workspace.selection, now, turn_, workspace.mode);
     mark_ = mark_of(workspace, now);
     if (grip_ != kInside) mark_->hovered = grip_;
   }
   if (input.down && !input.released) return;
   active_ = false;
-  if (workspace.preview)
+  if (workspace.shown.preview)
     workspace.commit(grip_ == kKnobNumber ? "Turn"
                      : grip_ == kInside   ? "Move"
                                           : "Scale",
-                     *workspace.preview);
+                     *workspace.shown.preview);
   else if (grip_ == kInside)
     workspace.selection.clear();
 }
 
 void TransformBox::cancel(Workspace& workspace) {
-  if (active_) workspace.preview.reset();
+  if (active_) workspace.shown.preview.reset();
   active_ = false;
   mark_.reset();
 }

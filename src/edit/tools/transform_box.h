@@ -20,8 +20,8 @@ struct Affine {
 
 /// Handles taken along; tangents beside vertices go with these, pins that turn are turned and
 /// scaled by `turn` radians and what the map does to lengths.
-Scene transformed(Scene scene, const Selection& selection, const Affine& map, double turn,
-                  Posture posture);
+Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
+                        double turn, EditMode mode);
 
 /// What is drawn of the box, in window px: corners from the lower left, counter-clockwise.
 struct BoxMark {
@@ -64,7 +64,7 @@ class TransformBox {
   bool active_ = false, moving_ = false, inside_ = false;
   Complex start_px_, start_;
   double turn_ = 0;
-  Scene scene_;
+  Deformation deformation_;
 };
 
 }  // namespace holomorph

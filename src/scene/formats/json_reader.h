@@ -92,10 +92,14 @@ class Reader {
   }
 
   /// The keys other than the known ones, with their values, as text; empty when there are none.
-  Extra others(std::initializer_list<const char*> known) const {
+  Extra others(std::initializer_list<const char*> known,
+               std::initializer_list<const char*> known_too = {}) const {
+    const auto is_in = [](std::initializer_list<const char*> list, std::string_view key) {
+      return std::find(list.begin(), list.end(), key) != list.end();
+    };
     std::string text;
     for (const auto& [key, i] : last_of_each()) {
-      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      if (is_in(known, key) || is_in(known_too, key)) continue;
       text += (text.empty() ? "{" : ",") + Json(key).dump() + ":";
       value_.member(i).write(text);
     }

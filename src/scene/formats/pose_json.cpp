@@ -1,4 +1,4 @@
-// A pose in a keyframe has the sections of a scene, each with what moves alone.
+// A pose in a keyframe has the sections of a deformation, each with what moves alone.
 #include "scene/formats/pose_json.h"
 
 #include <algorithm>
@@ -48,9 +48,9 @@ auto read_list(const Reader& list, size_t most, Read read) {
   return items;
 }
 
-Pose read_pose(const Reader& reader, const Scene& scene) {
+Pose read_pose(const Reader& reader, const Deformation& deformation) {
   reader.object();
-  Pose pose = whole_pose_of(at_rest(scene));
+  Pose pose = whole_pose_of(at_rest(deformation));
   if (reader.has("cage")) pose.cage = read_loop(reader["cage"]);
   if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMostPins, read_pose_pin);
   if (reader.has("strokes"))
@@ -63,13 +63,13 @@ Pose read_pose(const Reader& reader, const Scene& scene) {
   return pose;
 }
 
-/// What is empty is written where the scene has some: it would be read as resting otherwise.
-Json pose_json(const Pose& pose, const Scene& scene) {
+/// What is empty is written where the deformation has some: it would be read as resting otherwise.
+Json pose_json(const Pose& pose, const Deformation& deformation) {
   Json json = Json::object();
   json["cage"] = loop_json(pose.cage);
-  if (!scene.pins.empty()) json["pins"] = Json::array();
-  if (!scene.strokes.empty()) json["strokes"] = Json::array();
-  if (!scene.corners.empty()) json["corners"] = Json::array();
+  if (!deformation.pins.empty()) json["pins"] = Json::array();
+  if (!deformation.strokes.empty()) json["strokes"] = Json::array();
+  if (!deformation.corners.empty()) json["corners"] = Json::array();
   for (const PosePin& pin : pose.pins) {
     Json item;
     item["pose"] = point_json(pin.position);
@@ -115,26 +115,27 @@ Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>))
   return curve;
 }
 
-Corner read_corner(const Reader& reader, const Scene& scene) {
+Corner read_corner(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Corner corner;
-  const int last = static_cast<int>(scene.rest.size()) - 1;
+  const int last = static_cast<int>(deformation.rest.size()) - 1;
   if (last < 0) reader.fail("there is no cage that it could be a corner of");
   corner.vertex = reader["vertex"].whole(0, last);
-  if (!scene.corners.empty() && scene.corners.back().vertex >= corner.vertex)
+  if (!deformation.corners.empty() && deformation.corners.back().vertex >= corner.vertex)
     reader["vertex"].fail("corners must be in the order of their vertices, each once");
   corner.pose = read_corner_pose(reader);
   corner.extra = reader.others({"vertex", "before", "after", "tension"});
   return corner;
 }
 
-Keyframe read_keyframe(const Reader& reader, const Scene& scene) {
+Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Keyframe key;
   key.time = reader["time"].within(0, kLongestTime);
-  if (!scene.keyframes.empty() && scene.keyframes.back().time >= key.time)
+  if (!deformation.keyframes.empty() && deformation.keyframes.back().time >= key.time)
     reader["time"].fail("keyframes must be in the order of their times, and no two at one time");
-  key.pose = reader.has("pose") ? read_pose(reader["pose"], scene) : whole_pose_of(at_rest(scene));
+  key.pose = reader.has("pose") ? read_pose(reader["pose"], deformation)
+                                : whole_pose_of(at_rest(deformation));
   if (reader.has("pose"))
     key.pose_extra = reader["pose"].others({"cage", "pins", "strokes", "corners"});
   if (reader.has("ease")) {
@@ -158,7 +159,7 @@ AnimationSettings read_animation(const Reader& reader) {
     const std::string what = reader["in_betweens"].text();
     if (what != "shapes" && what != "places")
       reader["in_betweens"].fail("'" + what + "' cannot be blended: shapes or places");
-    settings.straight = what == "places";
+    settings.linear_blend = what == "places";
   }
   return settings;
 }
@@ -189,12 +190,12 @@ Json corner_json(const Corner& corner) {
   return item;
 }
 
-Json keyframe_json(const Keyframe& key, const Scene& scene) {
+Json keyframe_json(const Keyframe& key, const Deformation& deformation) {
   Json item;
   item["time"] = key.time;
   if (key.ease != Ease::smooth) item["ease"] = kEases[static_cast<size_t>(key.ease)];
   if (key.turns != 0) item["turns"] = key.turns;
-  item["pose"] = pose_json(key.pose, scene);
+  item["pose"] = pose_json(key.pose, deformation);
   add_extra(item["pose"], key.pose_extra);
   add_extra(item, key.extra);
   return item;
@@ -203,7 +204,7 @@ Json keyframe_json(const Keyframe& key, const Scene& scene) {
 Json animation_json(const AnimationSettings& settings) {
   Json json;
   json["frames_per_second"] = settings.frames_per_second;
-  if (settings.straight) json["in_betweens"] = "places";
+  if (settings.linear_blend) json["in_betweens"] = "places";
   return json;
 }
 

@@ -16,17 +16,18 @@ namespace {
 constexpr int kVersion = 2, kPlainVersion = 1;  ///< with layers, and without
 constexpr int kDeepest = 200;                   ///< nesting, unknown keys included
 
-void read_cage(const Reader& reader, Scene& scene) {
+void read_cage(const Reader& reader, Deformation& deformation) {
   reader.object();
-  scene.rest = read_loop(reader["rest"]);
-  scene.pose = reader.has("pose") ? read_loop(reader["pose"]) : scene.rest;
-  scene.cage_extra = reader.others({"rest", "pose"});
-  if (scene.pose.size() != scene.rest.size())
-    reader["pose"].fail("there are " + std::to_string(scene.pose.size()) + " posed segments and " +
-                        std::to_string(scene.rest.size()) + " at rest; they must agree");
-  if (!scene.has_cage()) return;  // not drawn yet
+  deformation.rest = read_loop(reader["rest"]);
+  deformation.pose = reader.has("pose") ? read_loop(reader["pose"]) : deformation.rest;
+  deformation.cage_extra = reader.others({"rest", "pose"});
+  if (deformation.pose.size() != deformation.rest.size())
+    reader["pose"].fail("there are " + std::to_string(deformation.pose.size()) +
+                        " posed segments and " + std::to_string(deformation.rest.size()) +
+                        " at rest; they must agree");
+  if (!deformation.has_cage()) return;  // not drawn yet
   try {
-    check_rest_cage(scene.rest);
+    check_rest_cage(deformation.rest);
   } catch (const Error& error) {
     reader["rest"].fail(error.what(), error.where());
   }
@@ -81,12 +82,12 @@ SurfaceReference read_surface(const Reader& reader) {
 /// "original", or a colour as "#rrggbb".
 Background read_background(const Reader& reader) {
   const std::string text = reader.text();
-  if (text == "original") return {Background::Kind::original};
+  if (text == "original") return {Background::Fill::original};
   unsigned color = 0;
   int end = 0;
   if (text.size() != 7 || std::sscanf(text.c_str(), "#%6x%n", &color, &end) != 1 || end != 7)
     reader.fail("'" + text + "' is no background: \"original\", or a colour as \"#rrggbb\"");
-  return {Background::Kind::color,
+  return {Background::Fill::color,
           {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
            static_cast<std::uint8_t>(color)}};
 }
@@ -98,7 +99,7 @@ Parameters read_parameters(const Reader& values, const Method& method) {
     const auto spec = std::ranges::find(method.parameters, key, &ParameterSpec::key);
     if (spec == method.parameters.end())
       values.fail("method '" + method.id + "' has no parameter '" + key + "'");
-    if (spec->kind == ParameterSpec::Kind::choice) {
+    if (spec->type == ParameterSpec::Type::choice) {
       const std::string id = reader.text();
       const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
       if (option == spec->options.end()) reader.fail("'" + id + "' is no choice here");
@@ -122,16 +123,17 @@ const Method& read_id(const Reader& reader, const std::string& id) {
   }
 }
 
-void read_method(const Reader& reader, Scene& scene) {
+void read_method(const Reader& reader, Deformation& deformation) {
   reader.object();
-  scene.method = reader["id"].text();
-  const Method& method = read_id(reader["id"], scene.method);
-  if (reader.has("parameters")) scene.parameters = read_parameters(reader["parameters"], method);
+  deformation.method = reader["id"].text();
+  const Method& method = read_id(reader["id"], deformation.method);
+  if (reader.has("parameters"))
+    deformation.parameters = read_parameters(reader["parameters"], method);
   if (reader.has("others")) {
     for (const auto& [id, parameters] : reader["others"].object().members())
-      scene.other_parameters[id] = read_parameters(parameters, read_id(parameters, id));
+      deformation.other_parameters[id] = read_parameters(parameters, read_id(parameters, id));
   }
-  scene.method_extra = reader.others({"id", "parameters", "others"});
+  deformation.method_extra = reader.others({"id", "parameters", "others"});
 }
 
 Stroke read_stroke(const Reader& reader) {
@@ -148,9 +150,9 @@ Json parameters_json(const Method& method, const Parameters& parameters) {
   for (const ParameterSpec& spec : method.parameters) {
     const auto found = parameters.find(spec.key);
     if (found == parameters.end()) continue;
-    if (spec.kind == ParameterSpec::Kind::toggle)
+    if (spec.type == ParameterSpec::Type::toggle)
       values[spec.key] = found->second != 0;
-    else if (spec.kind == ParameterSpec::Kind::choice)
+    else if (spec.type == ParameterSpec::Type::choice)
       values[spec.key] = spec.options[static_cast<size_t>(found->second)].id;
     else
       values[spec.key] = found->second;
@@ -190,51 +192,54 @@ void write_value(const Json& value, int depth, std::string& out) {
 }
 
 /// [x, y, radius, level].
-Dab read_dab(const Reader& reader) {
+BrushDab read_dab(const Reader& reader) {
   if (reader.array().size() != 4) reader.fail("[x, y, radius, level] is wanted here");
   const double x = reader[size_t{0}].within(-kLargestCoordinate, kLargestCoordinate),
                y = reader[1].within(-kLargestCoordinate, kLargestCoordinate);
   return {{x, y}, reader[2].within(kLeastBrush, kMostBrush), reader[3].within(-10, 10)};
 }
 
-/// What belongs to one layer; `scene` has the animation's settings.
-void read_layer(const Reader& reader, Scene& scene) {
-  if (reader.has("image")) scene.image = read_image(reader["image"]);
-  read_cage(reader["cage"], scene);
+/// What belongs to one layer, in both shapes of the file.
+Deformation read_deformation(const Reader& reader) {
+  Deformation deformation;
+  read_cage(reader["cage"], deformation);
   if (reader.has("pins")) {
     const Reader pins = reader["pins"].array();
     if (pins.size() > 2000) pins.fail("more than 2000 pins");
-    for (size_t i = 0; i < pins.size(); ++i) scene.pins.push_back(read_pin(pins[i]));
+    for (size_t i = 0; i < pins.size(); ++i) deformation.pins.push_back(read_pin(pins[i]));
   }
   if (reader.has("strokes")) {
     const Reader strokes = reader["strokes"].array();
     if (strokes.size() > 200) strokes.fail("more than 200 strokes");
-    for (size_t i = 0; i < strokes.size(); ++i) scene.strokes.push_back(read_stroke(strokes[i]));
+    for (size_t i = 0; i < strokes.size(); ++i)
+      deformation.strokes.push_back(read_stroke(strokes[i]));
   }
   if (reader.has("corners")) {
     const Reader corners = reader["corners"].array();
     for (size_t i = 0; i < corners.size(); ++i)
-      scene.corners.push_back(read_corner(corners[i], scene));
-    if (!scene.corners.empty() && scene.corners.size() < 3)
+      deformation.corners.push_back(read_corner(corners[i], deformation));
+    if (!deformation.corners.empty() && deformation.corners.size() < 3)
       corners.fail("there must be three corners at least, or none: all vertices");
   }
   if (reader.has("stiffness")) {
     const Reader dabs = reader["stiffness"].array();
     if (dabs.size() > kMostDabs) dabs.fail("more than 5000 touches of the brush");
-    for (size_t i = 0; i < dabs.size(); ++i) scene.stiffness.push_back(read_dab(dabs[i]));
+    for (size_t i = 0; i < dabs.size(); ++i) deformation.stiffness.push_back(read_dab(dabs[i]));
   }
-  if (reader.has("outline")) scene.outline = read_curve(reader["outline"], check_outline);
+  if (reader.has("outline")) deformation.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
-    scene.surface = read_surface(reader["surface"]);
-    if (scene.outline.empty()) reader["surface"].fail("it needs its flat boundary as the outline");
+    deformation.surface = read_surface(reader["surface"]);
+    if (deformation.outline.empty())
+      reader["surface"].fail("it needs its flat boundary as the outline");
   }
-  if (reader.has("method")) read_method(reader["method"], scene);
+  if (reader.has("method")) read_method(reader["method"], deformation);
   if (reader.has("keyframes")) {
     const Reader keys = reader["keyframes"].array();
     if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
     for (size_t i = 0; i < keys.size(); ++i)
-      scene.keyframes.push_back(read_keyframe(keys[i], scene));
+      deformation.keyframes.push_back(read_keyframe(keys[i], deformation));
   }
+  return deformation;
 }
 
 /// What all layers share.
@@ -246,41 +251,41 @@ void read_shared(const Reader& reader, Scene& scene) {
   if (reader.has("background")) scene.background = read_background(reader["background"]);
 }
 
-Scene read_single(const Reader& reader) {
-  Scene scene;
-  read_shared(reader, scene);
-  read_layer(reader, scene);
-  scene.extra = reader.others({"format", "version", "image", "cage", "pins", "strokes", "corners",
-                               "stiffness", "outline", "surface", "method", "animation",
-                               "keyframes", "background"});
-  return scene;
+/// The keys of a layer that are ours in both shapes of the file.
+constexpr std::initializer_list<const char*> kLayerKeys{
+    "image",     "cage",    "pins",    "strokes", "corners",
+    "stiffness", "outline", "surface", "method",  "keyframes"};
+
+Layer read_layer(const Reader& reader) {
+  Layer layer;
+  if (reader.has("image")) layer.image = read_image(reader["image"]);
+  layer.deformation = read_deformation(reader);
+  return layer;
 }
 
-Scene read_layers(const Reader& reader) {
-  Scene shared;
-  read_shared(reader, shared);
-  shared.extra =
-      reader.others({"format", "version", "layers", "edited", "animation", "background"});
+/// A file of one plain layer, whose keys are the scene's.
+void read_single(const Reader& reader, Scene& scene) {
+  scene = with_layer(std::move(scene), read_layer(reader));
+  scene.extra = reader.others({"format", "version", "animation", "background"}, kLayerKeys);
+}
+
+void read_layers(const Reader& reader, Scene& scene) {
+  scene.extra = reader.others({"format", "version", "layers", "edited", "animation", "background"});
   const Reader list = reader["layers"].array();
   if (list.size() < 1 || list.size() > kMostLayers) list.fail("1 to 100 layers are wanted here");
-  std::vector<Scene> layers;
+  scene.layers.clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader item = list[i].object();
-    Scene layer;
-    layer.animation = shared.animation;
-    read_layer(item, layer);
-    layer.layer.id = static_cast<int>(i) + 1;
-    if (item.has("name")) layer.layer.name = item["name"].text();
-    if (item.has("visible")) layer.layer.visible = item["visible"].truth();
-    if (item.has("locked")) layer.layer.locked = item["locked"].truth();
-    layer.layer.extra =
-        item.others({"name", "visible", "locked", "image", "cage", "pins", "strokes", "corners",
-                     "stiffness", "outline", "surface", "method", "keyframes"});
-    layers.push_back(std::move(layer));
+    Layer layer = read_layer(item);
+    layer.id = static_cast<int>(i) + 1;
+    if (item.has("name")) layer.name = item["name"].text();
+    if (item.has("visible")) layer.visible = item["visible"].truth();
+    if (item.has("locked")) layer.locked = item["locked"].truth();
+    layer.extra = item.others({"name", "visible", "locked"}, kLayerKeys);
+    scene.layers.emplace_back(std::move(layer));
   }
   const int last = static_cast<int>(list.size()) - 1;
-  const int edited = reader.has("edited") ? reader["edited"].whole(0, last) : last;
-  return scene_of_layers(std::move(layers), static_cast<size_t>(edited), shared);
+  scene.edited = static_cast<size_t>(reader.has("edited") ? reader["edited"].whole(0, last) : last);
 }
 
 }  // namespace
@@ -310,30 +315,36 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     reader["version"].fail("the scene is of version " + std::to_string(version) +
                            ", written by a newer program; this one reads up to version " +
                            std::to_string(kVersion));
-  return reader.has("layers") ? read_layers(reader) : read_single(reader);
+  Scene scene;
+  read_shared(reader, scene);
+  if (reader.has("layers"))
+    read_layers(reader, scene);
+  else
+    read_single(reader, scene);
+  return scene;
 }
 
 namespace {
 
-void write_layer(const Scene& scene, Json& document) {
-  if (scene.image) {
-    Json image;
-    image["file"] = scene.image->file;
-    if (!scene.image->entry.empty()) image["entry"] = scene.image->entry;
-    if (scene.image->width > 0)
-      image["size"] = Json::array({scene.image->width, scene.image->height});
-    if (!scene.image->sha256.empty()) image["sha256"] = scene.image->sha256;
-    add_extra(image, scene.image->extra);
-    document["image"] = std::move(image);
-  }
+void write_image(const ImageReference& reference, Json& document) {
+  Json image;
+  image["file"] = reference.file;
+  if (!reference.entry.empty()) image["entry"] = reference.entry;
+  if (reference.width > 0) image["size"] = Json::array({reference.width, reference.height});
+  if (!reference.sha256.empty()) image["sha256"] = reference.sha256;
+  add_extra(image, reference.extra);
+  document["image"] = std::move(image);
+}
+
+void write_deformation(const Deformation& deformation, Json& document) {
   Json cage;
-  cage["rest"] = loop_json(scene.rest);
-  cage["pose"] = loop_json(scene.pose);
-  add_extra(cage, scene.cage_extra);
+  cage["rest"] = loop_json(deformation.rest);
+  cage["pose"] = loop_json(deformation.pose);
+  add_extra(cage, deformation.cage_extra);
   document["cage"] = std::move(cage);
-  if (!scene.pins.empty()) {
+  if (!deformation.pins.empty()) {
     document["pins"] = Json::array();
-    for (const Pin& pin : scene.pins) {
+    for (const Pin& pin : deformation.pins) {
       Json item;
       item["rest"] = point_json(pin.rest);
       item["pose"] = point_json(pin.pose);
@@ -344,9 +355,9 @@ void write_layer(const Scene& scene, Json& document) {
       document["pins"].push_back(std::move(item));
     }
   }
-  if (!scene.strokes.empty()) {
+  if (!deformation.strokes.empty()) {
     document["strokes"] = Json::array();
-    for (const Stroke& stroke : scene.strokes) {
+    for (const Stroke& stroke : deformation.strokes) {
       Json item;
       item["rest"] = curve_json(stroke.rest);
       item["pose"] = curve_json(stroke.pose);
@@ -354,33 +365,39 @@ void write_layer(const Scene& scene, Json& document) {
       document["strokes"].push_back(std::move(item));
     }
   }
-  if (!scene.corners.empty()) {
+  if (!deformation.corners.empty()) {
     document["corners"] = Json::array();
-    for (const Corner& corner : scene.corners) document["corners"].push_back(corner_json(corner));
+    for (const Corner& corner : deformation.corners)
+      document["corners"].push_back(corner_json(corner));
   }
-  for (const Dab& dab : scene.stiffness)
+  for (const BrushDab& dab : deformation.stiffness)
     document["stiffness"].push_back(
         Json::array({dab.at.real(), dab.at.imag(), dab.radius, dab.level}));
-  if (!scene.outline.empty()) document["outline"] = curve_json(scene.outline);
-  if (scene.surface) {
+  if (!deformation.outline.empty()) document["outline"] = curve_json(deformation.outline);
+  if (deformation.surface) {
     Json surface;
-    surface["file"] = scene.surface->file;
-    surface["flattening"] = name_of(scene.surface->flattening);
-    add_extra(surface, scene.surface->extra);
+    surface["file"] = deformation.surface->file;
+    surface["flattening"] = name_of(deformation.surface->flattening);
+    add_extra(surface, deformation.surface->extra);
     document["surface"] = std::move(surface);
   }
   Json method;
-  method["id"] = scene.method;
-  method["parameters"] = parameters_json(method_named(scene.method), scene.parameters);
-  if (!scene.other_parameters.empty()) {
+  method["id"] = deformation.method;
+  method["parameters"] = parameters_json(method_named(deformation.method), deformation.parameters);
+  if (!deformation.other_parameters.empty()) {
     method["others"] = Json::object();
-    for (const auto& [id, parameters] : scene.other_parameters)
+    for (const auto& [id, parameters] : deformation.other_parameters)
       method["others"][id] = parameters_json(method_named(id), parameters);
   }
-  add_extra(method, scene.method_extra);
+  add_extra(method, deformation.method_extra);
   document["method"] = std::move(method);
-  for (const Keyframe& key : scene.keyframes)
-    document["keyframes"].push_back(keyframe_json(key, scene));
+  for (const Keyframe& key : deformation.keyframes)
+    document["keyframes"].push_back(keyframe_json(key, deformation));
+}
+
+void write_layer(const Layer& layer, Json& document) {
+  if (layer.image) write_image(*layer.image, document);
+  write_deformation(layer.deformation, document);
 }
 
 void write_shared(const Scene& scene, Json& document) {
@@ -388,9 +405,9 @@ void write_shared(const Scene& scene, Json& document) {
     document["animation"] = animation_json(scene.animation);
     add_extra(document["animation"], scene.animation_extra);
   }
-  if (scene.background.kind == Background::Kind::original)
+  if (scene.background.fill == Background::Fill::original)
     document["background"] = "original";
-  else if (scene.background.kind == Background::Kind::color) {
+  else if (scene.background.fill == Background::Fill::color) {
     const auto& [red, green, blue] = scene.background.color;
     char text[8];
     std::snprintf(text, sizeof text, "#%02x%02x%02x", red, green, blue);
@@ -400,14 +417,14 @@ void write_shared(const Scene& scene, Json& document) {
 
 Json layers_json(const Scene& scene) {
   Json layers = Json::array();
-  for (size_t i = 0; i < layer_count(scene); ++i) {
-    const Scene& layer = layer_at(scene, i);
+  for (const SharedLayer& shared : scene.layers) {
+    const Layer& layer = *shared;
     Json item = Json::object();
-    if (!layer.layer.name.empty()) item["name"] = layer.layer.name;
-    if (!layer.layer.visible) item["visible"] = false;
-    if (layer.layer.locked) item["locked"] = true;
+    if (!layer.name.empty()) item["name"] = layer.name;
+    if (!layer.visible) item["visible"] = false;
+    if (layer.locked) item["locked"] = true;
     write_layer(layer, item);
-    add_extra(item, layer.layer.extra);
+    add_extra(item, layer.extra);
     layers.push_back(std::move(item));
   }
   return layers;
@@ -423,10 +440,10 @@ std::string json_of(const Scene& scene) {
   document["version"] = layered ? kVersion : kPlainVersion;
   if (layered) {
     document["layers"] = layers_json(scene);
-    document["edited"] = edited_layer(scene);
+    document["edited"] = scene.edited;
     write_shared(scene, document);
   } else {
-    write_layer(scene, document);
+    write_layer(scene.layer(), document);
     write_shared(scene, document);
   }
   add_extra(document, scene.extra);

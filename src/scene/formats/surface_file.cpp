@@ -53,7 +53,7 @@ class ObjReader {
   }
 
  private:
-  struct Corner {
+  struct FaceCorner {
     int point = 0, texture = -1;
   };
 
@@ -93,10 +93,10 @@ class ObjReader {
   }
 
   void face() {
-    std::vector<Corner> face;
+    std::vector<FaceCorner> face;
     for (std::string_view text = word(); !text.empty(); text = word()) {
       const size_t slash = text.find('/');
-      Corner corner;
+      FaceCorner corner;
       corner.point = index(text.substr(0, slash), points_.size());
       if (slash != std::string_view::npos) {
         const std::string_view rest = text.substr(slash + 1),
@@ -115,7 +115,7 @@ class ObjReader {
     std::vector<int> number(points_.size(), -1), texture(points_.size(), -1);
     bool consistent = true;
     for (const auto& triangle : corners_)
-      for (const Corner& corner : triangle) {
+      for (const FaceCorner& corner : triangle) {
         const size_t at = static_cast<size_t>(corner.point);
         consistent =
             consistent && corner.texture >= 0 && (number[at] < 0 || texture[at] == corner.texture);
@@ -143,7 +143,7 @@ class ObjReader {
   std::vector<Eigen::Vector3d> points_;
   Points textures_;
   std::string materials_;
-  std::vector<std::array<Corner, 3>> corners_;
+  std::vector<std::array<FaceCorner, 3>> corners_;
 };
 
 }  // namespace

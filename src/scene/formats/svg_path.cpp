@@ -321,32 +321,33 @@ std::string path_data(const Cage& cage, const std::vector<int>& counts, double h
 
 }  // namespace
 
-std::string svg_of(const Scene& scene) {
-  Box box = box_of(outline_of(scene.pose));
-  for (const Complex& z : outline_of(scene.rest)) box.include(z);
+std::string svg_of(const Deformation& deformation, const std::optional<ImageReference>& image) {
+  Box box = box_of(outline_of(deformation.pose));
+  for (const Complex& z : outline_of(deformation.rest)) box.include(z);
   double height = box.height();
-  if (scene.image && scene.image->width > 0) {
-    height = scene.image->height;
+  if (image && image->width > 0) {
+    height = image->height;
     box.include({0, 0});
-    box.include({static_cast<double>(scene.image->width), height});
+    box.include({static_cast<double>(image->width), height});
   }
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
                     "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
                     " " + number(height - box.top) + " " + number(box.width()) + " " +
                     number(box.height()) + "\">\n";
   std::vector<int> counts;  // the same for both, so that they still belong together
-  for (Index i = 0; i < scene.rest.size(); ++i)
-    counts.push_back(
-        std::max(cubics_for(scene.rest.controls(i)), cubics_for(scene.pose.controls(i))));
+  for (Index i = 0; i < deformation.rest.size(); ++i)
+    counts.push_back(std::max(cubics_for(deformation.rest.controls(i)),
+                              cubics_for(deformation.pose.controls(i))));
   const auto add_path = [&](const Cage& cage, const std::string& look) {
     svg += "  <path d=\"" + path_data(cage, counts, height) + "\" fill=\"none\" " + look + "/>\n";
   };
-  if (scene.has_cage()) {
-    if (scene.rest != scene.pose)
-      add_path(scene.rest, "id=\"rest\" stroke=\"#808080\" stroke-dasharray=\"4 4\"");
-    add_path(scene.pose, "id=\"pose\" stroke=\"#1a7f37\" stroke-width=\"2\"");
+  if (deformation.has_cage()) {
+    if (deformation.rest != deformation.pose)
+      add_path(deformation.rest, "id=\"rest\" stroke=\"#808080\" stroke-dasharray=\"4 4\"");
+    add_path(deformation.pose, "id=\"pose\" stroke=\"#1a7f37\" stroke-width=\"2\"");
   }
-  for (const Pin& pin : method_named(scene.method).uses_pins ? scene.pins : std::vector<Pin>{})
+  for (const Pin& pin :
+       method_named(deformation.method).uses_pins ? deformation.pins : std::vector<Pin>{})
     svg += "  <circle cx=\"" + number(pin.pose.real()) + "\" cy=\"" +
            number(height - pin.pose.imag()) + "\" r=\"4\" fill=\"#b35900\"/>\n";
   return svg + "</svg>\n";

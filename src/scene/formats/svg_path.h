@@ -24,6 +24,6 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
 /// rest, where it differs, dashed as "rest", pins as circles. cage_of_svg reads both back to
 /// rounding; segments of a degree above three, and their counterparts, become several that are at
 /// most cubic and follow them to 1e-4 of their size.
-std::string svg_of(const Scene& scene);
+std::string svg_of(const Deformation& deformation, const std::optional<ImageReference>& image);
 
 }  // namespace holomorph

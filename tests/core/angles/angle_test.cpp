@@ -259,8 +259,7 @@ TEST_CASE("Harmonic coordinates: as a finite-difference solution, positive, and 
   for (const size_t moved : {size_t{1}, size_t{3}}) {
     Pose pose{rest.cage, {}};
     pose.cage.segments[moved][0] += 1.0;
-    SampledMap map;
-    deformer->deform(pose, map, {});
+    SampledMap map = deformer->deform(pose, {});
     const auto weight = [&](Complex z) {  // linear along the edges beside the vertex
       double w = 0;
       for (const size_t other : {(moved + 1) % 6, (moved + 5) % 6}) {
@@ -301,8 +300,7 @@ TEST_CASE("Harmonic coordinates: as a finite-difference solution, positive, and 
   Pose bent{rest.cage, {}};
   for (size_t j = 0; j < polygon.size(); ++j)
     bent.cage.segments[j][0] += Complex(0.2 * std::sin(3.0 * j), 0.3 * std::cos(5.0 * j));
-  SampledMap map;
-  deformer->deform(bent, map, {});
+  SampledMap map = deformer->deform(bent, {});
   for (const int v : mesh.boundary) {
     double nearest = 1;
     for (Index e = 0; e < 6; ++e)

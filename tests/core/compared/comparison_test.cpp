@@ -167,7 +167,7 @@ TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says ho
     INFO(row.label);
     CHECK(row.f.size() == static_cast<Index>(bar.rest.mesh->vertices.size()));
     if (row.label == rows[0].label) continue;
-    CHECK(row.flips == 0);
+    CHECK(row.flipped_triangles == 0);
     CHECK(row.max_k <= 0.7 + 0.05);
     CHECK(row.max_tau <= 5 + 0.05);
   }

@@ -80,7 +80,7 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
     const Injectivity found = injectivity_of(mesh, f);
     CHECK(found.least_stretch == Approx(std::abs(a) - std::abs(b)));
     CHECK(found.folds() == (std::abs(a) < std::abs(b)));
-    CHECK(found.boundary_turns == Approx(found.folds() ? -1 : 1));
+    CHECK(found.turning_number == Approx(found.folds() ? -1 : 1));
   }
   // z^3 + 3 r z presses everything to nothing near its branch points.
   VectorXc f(static_cast<Index>(mesh.vertices.size()));
@@ -89,7 +89,7 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
     f[i] = z * z * z + 3 * 36.0 * z;
   }
   const Injectivity found = injectivity_of(mesh, f);
-  CHECK(found.boundary_turns == Approx(3));
+  CHECK(found.turning_number == Approx(3));
   CHECK(std::abs(found.least_stretch) < 0.1 * 3 * 36);
   REQUIRE_FALSE(found.folds_at.empty());
   CHECK(std::min(std::abs(found.folds_at[0] - Complex(0, 2 * 216)),

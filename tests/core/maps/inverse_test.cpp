@@ -29,7 +29,7 @@ struct Warp {
     all.samples = mesh.vertices;
     all.precision = Precision::full;
     deformer = method_named("cage").prepare(all, nullptr);
-    deformer->deform({pose, {}}, sampled, {});
+    sampled = deformer->deform({pose, {}}, {});
     map = deformer->point_map({pose, {}});
     inverse = std::make_unique<InverseMap>(
         rest, mesh, std::span<const Complex>(sampled.f.data(), mesh.vertices.size()), *map);
@@ -249,8 +249,7 @@ TEST_CASE(
         for (Points& segment : pose.cage.segments)
           for (Complex& z : segment) z += Complex(by(random), by(random));
         const auto deformer = method.prepare(rest, nullptr);
-        SampledMap map;
-        deformer->deform(pose, map, {});
+        SampledMap map = deformer->deform(pose, {});
         const auto at = deformer->point_map(pose);
         if (!at) continue;
         const InverseMap inverse(rest.cage, *rest.mesh,

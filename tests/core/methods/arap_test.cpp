@@ -51,8 +51,7 @@ TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its 
   for (const double angle : {0.8, 1.6}) {
     const Bar bar(angle);
     const auto run = [&](const char* id) {
-      SampledMap map;
-      method_named(id).prepare(bar.rest, nullptr)->deform(bar.pose, map, {});
+      SampledMap map = method_named(id).prepare(bar.rest, nullptr)->deform(bar.pose, {});
       return map;
     };
     const double pins = energy(*bar.rest.mesh, run("pins").f);
@@ -73,8 +72,7 @@ TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its 
 
 TEST_CASE("As rigid as possible: no small change of the answer is more rigid") {
   const Bar bar(1.2);
-  SampledMap map;
-  method_named("arap").prepare(bar.rest, nullptr)->deform(bar.pose, map, {});
+  SampledMap map = method_named("arap").prepare(bar.rest, nullptr)->deform(bar.pose, {});
   const double least = energy(*bar.rest.mesh, map.f);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -96,12 +94,11 @@ TEST_CASE(
     const Bar bar(0.7);
     const auto deformer = method_named(id).prepare(bar.rest, nullptr);
     SampledMap draft, final_map;
-    deformer->deform(bar.pose, final_map, {});
-    for (int frame = 0; frame < 40; ++frame) deformer->deform(bar.pose, draft, {false, true});
+    final_map = deformer->deform(bar.pose, {});
+    for (int frame = 0; frame < 40; ++frame) draft = deformer->deform(bar.pose, {false, true});
     INFO(id);
     CHECK((draft.f - final_map.f).cwiseAbs().maxCoeff() < 0.3);
-    SampledMap again;
-    deformer->deform(bar.pose, again, {});
+    SampledMap again = deformer->deform(bar.pose, {});
     CHECK(again.f == final_map.f);  // whatever was dragged before
   }
 }
@@ -116,8 +113,7 @@ TEST_CASE("As rigid as possible: without pins the cage's vertices hold, curved o
       rest.samples = rest.mesh->vertices;
       Pose pose{cage, {}};
       pose.cage.segments[1][0] += Complex(8, -14);
-      SampledMap map;
-      method_named(id).prepare(rest, nullptr)->deform(pose, map, {});
+      SampledMap map = method_named(id).prepare(rest, nullptr)->deform(pose, {});
       INFO(id << ", " << cage.size() << " segments");
       for (Index v = 0; v < cage.size(); ++v)
         CHECK(std::abs(map.f[rest.mesh->cage_vertices[static_cast<size_t>(v)]] -

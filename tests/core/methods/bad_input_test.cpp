@@ -207,8 +207,7 @@ TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the p
       try {
         const auto deformer = method.prepare(odd.rest, nullptr);
         for (const bool draft : {false, true}) {
-          SampledMap map;
-          deformer->deform(odd.pose, map, {.derivatives = true, .draft = draft});
+          SampledMap map = deformer->deform(odd.pose, {.derivatives = true, .draft = draft});
           CHECK(map.f.size() == static_cast<Index>(odd.rest.samples.size()));
           CHECK(map.f.allFinite());
         }
@@ -238,8 +237,8 @@ TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
       std::unique_ptr<Deformer> deformer;
       if (throws([&] { deformer = method.prepare(s.rest, nullptr); })) return true;
       SampledMap map;
-      const bool refused = throws([&] { deformer->deform(s.pose, map, {true}); });
-      CHECK(throws([&] { deformer->deform(s.pose, map, {.draft = true}); }) == refused);
+      const bool refused = throws([&] { map = deformer->deform(s.pose, {true}); });
+      CHECK(throws([&] { map = deformer->deform(s.pose, {.draft = true}); }) == refused);
       std::unique_ptr<PointMap> points;
       const bool none = throws([&] { points = deformer->point_map(s.pose); }) || !points;
       if (refused) CHECK(none);
@@ -254,11 +253,11 @@ TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
       CHECK(is_refused(broken));
     }
     for (const ParameterSpec& spec : method.parameters) {
-      const double beyond = spec.kind == ParameterSpec::Kind::choice
+      const double beyond = spec.type == ParameterSpec::Type::choice
                                 ? static_cast<double>(spec.options.size())
                                 : spec.highest * 1.01 + 1;
       for (const double value : {static_cast<double>(NAN), beyond, -1e9}) {
-        if (spec.kind == ParameterSpec::Kind::toggle && std::isfinite(value)) continue;
+        if (spec.type == ParameterSpec::Type::toggle && std::isfinite(value)) continue;
         Setup broken = whole;
         broken.rest.parameters[spec.key] = value;
         INFO(method.id << ": parameter " << spec.key << " = " << value);

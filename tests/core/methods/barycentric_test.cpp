@@ -76,8 +76,7 @@ TEST_CASE("Mean value coordinates: along the cage, and below zero beyond a refle
   Pose pose{rest.cage, {}};
   for (size_t j = 0; j < 6; ++j)
     pose.cage.segments[j][0] += Complex(20 * std::sin(3.0 * j), 30 * std::cos(5.0 * j));
-  SampledMap map;
-  mean_value->deform(pose, map, {});
+  SampledMap map = mean_value->deform(pose, {});
   for (const int v : mesh.boundary) {
     double nearest = 1e9;
     for (Index e = 0; e < 6; ++e)
@@ -90,8 +89,7 @@ TEST_CASE("Mean value coordinates: along the cage, and below zero beyond a refle
   const auto least = [&](Deformer& deformer, size_t vertex) {
     Pose one{rest.cage, {}};
     one.cage.segments[vertex][0] += 1.0;
-    SampledMap moved;
-    deformer.deform(one, moved, {});
+    SampledMap moved = deformer.deform(one, {});
     double low = 1;
     for (size_t v = 0; v < mesh.vertices.size(); ++v)
       low = std::min(low, (moved.f[static_cast<Index>(v)] - mesh.vertices[v]).real());

@@ -32,11 +32,7 @@ struct Setting {
     deformer = method_named("bounded").prepare(rest, nullptr);
   }
 
-  SampledMap map(Wanted wanted = {true, false}) {
-    SampledMap map;
-    deformer->deform(pose, map, wanted);
-    return map;
-  }
+  SampledMap map(EvalOptions options = {true, false}) { return deformer->deform(pose, options); }
 
   int flips(const SampledMap& map) const {
     int count = 0;
@@ -381,8 +377,7 @@ TEST_CASE("Bounded method: positions are continuous, and their differences keep 
           rest.samples.push_back(z + by);
       }
       REQUIRE(at.size() > 80);
-      SampledMap map;
-      method_named("bounded").prepare(rest, nullptr)->deform(setting.pose, map, {true});
+      SampledMap map = method_named("bounded").prepare(rest, nullptr)->deform(setting.pose, {true});
       REQUIRE(map.status == SampledMap::Status::certified);
       for (size_t i = 0; i < at.size(); ++i) {
         const Index first = static_cast<Index>(4 * i);

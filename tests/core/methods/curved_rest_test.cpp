@@ -227,7 +227,7 @@ TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees
                    df = cauchy_coordinates(rest, points, 1) * controls_of(pose);
     double worst = 0, worst_slope = 0;
     for (size_t i = 0; i < points.size(); ++i) {
-      const CauchySum::Value at = sum.at(points[i]);
+      const CauchySum::ValueAndSlope at = sum.at(points[i]);
       worst = std::max(worst, std::abs(points[i] + at.f - f[i]) / 300);
       worst_slope = std::max(worst_slope, std::abs(1.0 + at.df - df[i]) / (1 + std::abs(df[i])));
     }

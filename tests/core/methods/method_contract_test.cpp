@@ -68,8 +68,7 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
 }
 
 SampledMap run(const Method& method, const Rest& rest, const Pose& pose) {
-  SampledMap map;
-  method.prepare(rest, nullptr)->deform(pose, map, {true});
+  SampledMap map = method.prepare(rest, nullptr)->deform(pose, {true});
   return map;
 }
 
@@ -156,8 +155,7 @@ TEST_CASE("Contract: the operator for the shader is the map") {
     const auto deformer = method.prepare(s.rest, nullptr);
     const PlanarMatrix<float>* matrix = deformer->operator_matrix();
     if (!matrix) continue;
-    SampledMap map;
-    deformer->deform(s.pose, map, {});
+    SampledMap map = deformer->deform(s.pose, {});
     const VectorXc controls = deformer->controls(s.pose);
     REQUIRE(matrix->cols() == controls.size());
     const MatrixXc exact =
@@ -176,8 +174,7 @@ TEST_CASE("Contract: the map at single points is the map at samples, inside and 
           const auto deformer = method.prepare(rest, nullptr);
           const auto points = deformer->point_map(pose);
           if (!points) return;
-          SampledMap map;
-          deformer->deform(pose, map, {true});
+          SampledMap map = deformer->deform(pose, {true});
           for (size_t i = 0; i < rest.samples.size(); i += 7) {
             const auto at = points->at(rest.samples[i]);
             CHECK(std::abs(at.f - map.f[static_cast<Index>(i)]) <= tolerance);
@@ -210,19 +207,18 @@ TEST_CASE("Contract: bad input throws and the deformer still answers") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
         const auto deformer = method.prepare(s.rest, nullptr);
-        SampledMap map;
-        deformer->deform(s.pose, map, {});
+        SampledMap map = deformer->deform(s.pose, {});
         const VectorXc before = map.f;
         Pose bad = s.pose;
         bad.cage.segments[0][0] = {NAN, 0};
-        CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
+        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
         bad = s.pose;
         bad.cage.segments[0].resize(s.rest.cage.degree(0) + 1, bad.cage.segments[0][0]);
-        CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
+        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
         bad = s.pose;
         bad.cage.segments.pop_back();
-        CHECK_THROWS_AS(deformer->deform(bad, map, {}), Error);
-        deformer->deform(s.pose, map, {});
+        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
+        map = deformer->deform(s.pose, {});
         CHECK(map.f == before);
         Rest crossed = s.rest;
         crossed.cage = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
@@ -239,8 +235,8 @@ TEST_CASE("Contract: a previous deformer changes nothing but the time") {
         if (!fewer.pins.empty()) fewer.pins.pop_back();
         const auto previous = method.prepare(fewer, nullptr);
         SampledMap a, b;
-        method.prepare(s.rest, previous.get())->deform(s.pose, a, {true});
-        method.prepare(s.rest, nullptr)->deform(s.pose, b, {true});
+        a = method.prepare(s.rest, previous.get())->deform(s.pose, {true});
+        b = method.prepare(s.rest, nullptr)->deform(s.pose, {true});
         CHECK(a.f == b.f);
         CHECK(a.fz == b.fz);
       },
@@ -336,18 +332,18 @@ TEST_CASE("Pins of the cage's own control points: the solved cage alone gives th
       s.rest.parameters = {{"own_controls", 1}, {"exact", exact}};
       const auto deformer = pins.prepare(s.rest, nullptr);
       SampledMap map, alone;
-      deformer->deform(s.pose, map, {});
+      map = deformer->deform(s.pose, {});
       const auto solved = deformer->solved_cage(s.pose);
       REQUIRE(solved);
       Rest rest = s.rest;
       rest.pins.clear();
       rest.parameters.clear();
-      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, {});
+      alone = cage.prepare(rest, nullptr)->deform({*solved, {}}, {});
       CHECK((map.f - alone.f).cwiseAbs().maxCoeff() <= 1e-9);
       if (exact == 0) continue;
       rest.samples = {s.rest.pins[0].position, s.rest.pins[2].position};
       rest.derivative_samples.clear();
-      cage.prepare(rest, nullptr)->deform({*solved, {}}, alone, {});
+      alone = cage.prepare(rest, nullptr)->deform({*solved, {}}, {});
       CHECK(std::abs(alone.f[0] - s.pose.pins[0].position) <= 1e-8);
       CHECK(std::abs(alone.f[1] - s.pose.pins[2].position) <= 1e-8);
     }
@@ -375,7 +371,7 @@ TEST_CASE("The pins' correction minimizes the smoothness energy among maps that 
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;
   s.rest.parameters = {{"exact", 1}};
-  for (RestPin& pin : s.rest.pins) pin.turns = false;
+  for (RestPin& pin : s.rest.pins) pin.has_frame = false;
   const auto energy = [&](const Points& samples,
                           const SampledMap& map) {  // mean |f''|^2 by differences of f'
     double sum = 0;

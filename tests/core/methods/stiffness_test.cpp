@@ -17,7 +17,7 @@ struct Bent {
   Rest rest;
   SampledMap map;
 
-  explicit Bent(std::vector<Dab> stiffness) {
+  explicit Bent(std::vector<BrushDab> stiffness) {
     rest.cage = polygon_cage(shapes::rectangle(300, 60));
     auto mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {900}));
     rest.mesh = mesh;
@@ -25,7 +25,7 @@ struct Bent {
     rest.stiffness = std::move(stiffness);
     for (const double x : {10.0, 290.0}) rest.pins.push_back({{x, 30}});
     Pose pose{rest.cage, {{{10, 30}}, {{200, 190}}}};
-    method_named("arap").prepare(rest, nullptr)->deform(pose, map, {});
+    map = method_named("arap").prepare(rest, nullptr)->deform(pose, {});
   }
   /// How far the triangles between two abscissas are from rigid, on average.
   double strain(double from, double to) const {
@@ -45,14 +45,14 @@ struct Bent {
 }  // namespace
 
 TEST_CASE("Touches add up, fall off to nothing and stay within bounds") {
-  const std::vector<Dab> one{{{10, 20}, 30, 0.5}};
+  const std::vector<BrushDab> one{{{10, 20}, 30, 0.5}};
   CHECK(stiffness_level({}, {10, 20}) == 0);
   CHECK(stiffness_level(one, {10, 20}) == 0.5);
   CHECK(stiffness_level(one, {25, 20}) == Approx(0.5 * 0.75 * 0.75));
   CHECK(stiffness_level(one, {40, 20}) == 0);
-  std::vector<Dab> many(20, one[0]);
+  std::vector<BrushDab> many(20, one[0]);
   CHECK(stiffness_level(many, {10, 20}) == kMostStiffness);
-  for (Dab& dab : many) dab.level = -1;
+  for (BrushDab& dab : many) dab.level = -1;
   CHECK(stiffness_level(many, {10, 20}) == kLeastStiffness);
   many.push_back({{10, 20}, 30, 19.5});
   CHECK(stiffness_level(many, {10, 20}) == Approx(-0.5));

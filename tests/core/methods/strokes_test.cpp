@@ -55,8 +55,7 @@ Pose pose_of(const Rest& rest, std::vector<Points> strokes) {
 }
 
 SampledMap run(const Rest& rest, const Pose& pose) {
-  SampledMap map;
-  method_named("strokes").prepare(rest, nullptr)->deform(pose, map, {true});
+  SampledMap map = method_named("strokes").prepare(rest, nullptr)->deform(pose, {true});
   return map;
 }
 
@@ -97,8 +96,7 @@ TEST_CASE("Strokes: a target 1.4 times too long stretches the picture a third le
     pinned.pins.push_back({places[i]});
     pose.pins.push_back({wanted[i]});
   }
-  SampledMap held;
-  method_named("pins").prepare(pinned, nullptr)->deform(pose, held, {true});
+  SampledMap held = method_named("pins").prepare(pinned, nullptr)->deform(pose, {true});
   INFO(area_rms(slid) << " against " << area_rms(held));
   CHECK(area_rms(slid) < area_rms(held) * 2 / 3);
   CHECK(miss(rest, pose_of(rest, {longer})) < 0.01 * 400);
@@ -128,10 +126,10 @@ TEST_CASE("Strokes: after a drag the picture depends on the scene alone") {
   const auto dragged = method_named("strokes").prepare(rest, nullptr);
   SampledMap map;
   for (int frame = 1; frame <= 10; ++frame)
-    dragged->deform(pose_of(rest, {arc(1 + 0.04 * frame, 0.12 * frame)}), map, {false, true});
+    map = dragged->deform(pose_of(rest, {arc(1 + 0.04 * frame, 0.12 * frame)}), {false, true});
   const SampledMap cold = run(rest, pose_of(rest, {arc(1.4, 1.2)}));
   CHECK((map.f - cold.f).cwiseAbs().maxCoeff() < 0.05 * 400);  // near while it lasts
-  dragged->deform(pose_of(rest, {arc(1.4, 1.2)}), map, {false, false});
+  map = dragged->deform(pose_of(rest, {arc(1.4, 1.2)}), {false, false});
   CHECK(map.f == cold.f);
 }
 

@@ -46,7 +46,7 @@ struct Onto {
     rest.outline = outline;
     pose = {cage, {}};
     deformer = method_named("outline").prepare(rest, nullptr);
-    deformer->deform(pose, map, {true, false});
+    map = deformer->deform(pose, {true, false});
   }
 };
 
@@ -477,13 +477,12 @@ TEST_CASE("Outline: pins that contradict each other are said to") {
   onto.rest.pins = {{{-40, 0}}, {{40, 0}}};
   onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
   const Complex a = point->at({-40, 0}).f, b = point->at({40, 0}).f;
-  SampledMap map;
-  onto.deformer->deform({cage, {{a}, {b}}}, map, {});
+  SampledMap map = onto.deformer->deform({cage, {{a}, {b}}}, {});
   INFO(map.note);
   CHECK(map.note.find("contradict") == std::string::npos);
-  onto.deformer->deform({cage, {{a}, {0.8 * a + 0.2 * b}}}, map, {});
+  map = onto.deformer->deform({cage, {{a}, {0.8 * a + 0.2 * b}}}, {});
   CHECK_THAT(map.note, Catch::Contains("pins contradict each other") && Catch::Contains("missed"));
-  onto.deformer->deform({cage, {{a}, {b + 1e5}}}, map, {});
+  map = onto.deformer->deform({cage, {{a}, {b + 1e5}}}, {});
   CHECK_THAT(map.note, Catch::Contains("outside of it and held inside"));
 }
 
@@ -494,8 +493,7 @@ TEST_CASE("Outline: pins are followed while they are dragged, and solved from no
   onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
   const auto map_of = [&](Complex pin, bool draft) {
     Pose pose{cage, {{pin}}};
-    SampledMap map;
-    onto.deformer->deform(pose, map, {false, draft});
+    SampledMap map = onto.deformer->deform(pose, {false, draft});
     return map.f;
   };
   const VectorXc start = map_of({0, 0}, false);

@@ -36,7 +36,7 @@ TEST_CASE("Every key of the table has a name that is that key") {
 TEST_CASE("A key that is given to an action is its own, and no other's") {
   const OwnKeys own;
   Desk desk(shapes::rectangle(100, 100));
-  desk.workspace.commit("Move", with_cage(Scene{}, shapes::rectangle(200, 100)));
+  desk.workspace.commit("Move", with_cage(Deformation{}, shapes::rectangle(200, 100)));
   CHECK(set_keys("edit.undo", {'J'}).empty());
   CHECK(action_for('J', desk.workspace)->id == "edit.undo");
   CHECK_FALSE(action_for({'Z', kCtrl}, desk.workspace));

@@ -9,10 +9,10 @@ using namespace holomorph;
 
 namespace {
 
-Scene smooth_square() {
-  Scene scene = with_cage(Scene{}, shapes::rectangle(200, 200));
-  for (Index v = 0; v < 4; ++v) scene = smoothed(std::move(scene), v, Posture::pose);
-  return scene;
+Deformation smooth_square() {
+  Deformation deformation = with_cage(Deformation{}, shapes::rectangle(200, 200));
+  for (Index v = 0; v < 4; ++v) deformation = smoothed(std::move(deformation), v, EditMode::pose);
+  return deformation;
 }
 
 /// Largest distance between two posed cages at the same parameters.
@@ -28,70 +28,73 @@ double apart(const Cage& a, const Cage& b) {
 }  // namespace
 
 TEST_CASE("Smooth points have tangents in line with their neighbours; corners have none") {
-  const Scene scene = smooth_square();
+  const Deformation deformation = smooth_square();
   for (Index v = 0; v < 4; ++v) {
-    CHECK(is_smooth(scene, v, Posture::pose));
-    CHECK_FALSE(is_smooth(scene, v, Posture::rest));
+    CHECK(is_smooth(deformation, v, EditMode::pose));
+    CHECK_FALSE(is_smooth(deformation, v, EditMode::rest));
   }
-  CHECK(scene.rest == polygon_cage(shapes::rectangle(200, 200)));
-  Scene corner = cornered(scene, 1, Posture::pose);
-  CHECK_FALSE(is_smooth(corner, 1, Posture::pose));
-  CHECK(is_smooth(corner, 0, Posture::pose));
+  CHECK(deformation.rest == polygon_cage(shapes::rectangle(200, 200)));
+  Deformation corner = cornered(deformation, 1, EditMode::pose);
+  CHECK_FALSE(is_smooth(corner, 1, EditMode::pose));
+  CHECK(is_smooth(corner, 0, EditMode::pose));
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 1, 0}};
-  corner = toggled_corners(corner, two, Posture::pose);  // one of them is a corner: both smooth
-  CHECK(is_smooth(corner, 1, Posture::pose));
-  corner = toggled_corners(corner, two, Posture::pose);
-  CHECK_FALSE(is_smooth(corner, 0, Posture::pose));
+  corner = toggled_corners(corner, two, EditMode::pose);  // one of them is a corner: both smooth
+  CHECK(is_smooth(corner, 1, EditMode::pose));
+  corner = toggled_corners(corner, two, EditMode::pose);
+  CHECK_FALSE(is_smooth(corner, 0, EditMode::pose));
 }
 
 TEST_CASE("A tangent turns its opposite along, keeping its length, and Alt breaks them") {
-  const Scene scene = smooth_square();
-  const auto [before, after] = tangents_of(scene, 1, Posture::pose);
-  const Complex z = scene.pose.vertex(1);
-  const double length = std::abs(position_of(scene, *before, Posture::pose) - z);
-  const Scene bent = tangent_moved(scene, *after, z + Complex(70, 10), Posture::pose, false);
-  CHECK(is_smooth(bent, 1, Posture::pose));
-  CHECK(std::abs(position_of(bent, *before, Posture::pose) - z) == Approx(length));
-  CHECK(position_of(bent, *after, Posture::pose) == z + Complex(70, 10));
-  const Scene broken = tangent_moved(scene, *after, z + Complex(70, 10), Posture::pose, true);
-  CHECK(position_of(broken, *before, Posture::pose) == position_of(scene, *before, Posture::pose));
-  CHECK_FALSE(is_smooth(broken, 1, Posture::pose));
+  const Deformation deformation = smooth_square();
+  const auto [before, after] = tangents_of(deformation, 1, EditMode::pose);
+  const Complex z = deformation.pose.vertex(1);
+  const double length = std::abs(position_of(deformation, *before, EditMode::pose) - z);
+  const Deformation bent =
+      tangent_moved(deformation, *after, z + Complex(70, 10), EditMode::pose, false);
+  CHECK(is_smooth(bent, 1, EditMode::pose));
+  CHECK(std::abs(position_of(bent, *before, EditMode::pose) - z) == Approx(length));
+  CHECK(position_of(bent, *after, EditMode::pose) == z + Complex(70, 10));
+  const Deformation broken =
+      tangent_moved(deformation, *after, z + Complex(70, 10), EditMode::pose, true);
+  CHECK(position_of(broken, *before, EditMode::pose) ==
+        position_of(deformation, *before, EditMode::pose));
+  CHECK_FALSE(is_smooth(broken, 1, EditMode::pose));
 }
 
 TEST_CASE("Raising a degree keeps the curve, lowering it again gives it back") {
-  const Scene scene = smooth_square();
-  Scene high = scene;
-  for (int i = 0; i < 9; ++i) high = raised(std::move(high), {}, Posture::pose);
+  const Deformation deformation = smooth_square();
+  Deformation high = deformation;
+  for (int i = 0; i < 9; ++i) high = raised(std::move(high), {}, EditMode::pose);
   CHECK(high.pose.degree(0) == kHighestDegree);
-  CHECK(apart(high.pose, scene.pose) < 1e-10);
-  for (int i = 0; i < 5; ++i) high = lowered(std::move(high), {}, Posture::pose);
+  CHECK(apart(high.pose, deformation.pose) < 1e-10);
+  for (int i = 0; i < 5; ++i) high = lowered(std::move(high), {}, EditMode::pose);
   CHECK(high.pose.degree(0) == 3);
-  CHECK(apart(high.pose, scene.pose) < 1e-8);
-  const Scene one = raised(scene, {{Handle::Kind::cage, 2, 0}}, Posture::pose);
+  CHECK(apart(high.pose, deformation.pose) < 1e-8);
+  const Deformation one = raised(deformation, {{Handle::Kind::cage, 2, 0}}, EditMode::pose);
   CHECK(one.pose.degree(2) == 4);
   CHECK(one.pose.degree(1) == 3);
-  Scene straight = scene;
-  for (int i = 0; i < 5; ++i) straight = lowered(std::move(straight), {}, Posture::pose);
+  Deformation straight = deformation;
+  for (int i = 0; i < 5; ++i) straight = lowered(std::move(straight), {}, EditMode::pose);
   CHECK(straight.pose.degree(0) == 1);
 }
 
 TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle") {
   Desk desk(shapes::rectangle(200, 200));
   desk.click({200, 0}, {true, false, false});
-  REQUIRE(is_smooth(desk.scene(), 1, Posture::pose));
+  REQUIRE(is_smooth(desk.deformation(), 1, EditMode::pose));
   const size_t steps = desk.steps();
-  const Handle tangent = *tangents_of(desk.scene(), 1, Posture::pose).after;
-  const Complex from = position_of(desk.scene(), tangent, Posture::pose);
+  const Handle tangent = *tangents_of(desk.deformation(), 1, EditMode::pose).after;
+  const Complex from = position_of(desk.deformation(), tangent, EditMode::pose);
   desk.drag(from, from + Complex(40, 5));
   CHECK(desk.steps() == steps + 1);
-  CHECK(is_smooth(desk.scene(), 1, Posture::pose));
-  const Complex there = position_of(desk.scene(), tangent, Posture::pose);
+  CHECK(is_smooth(desk.deformation(), 1, EditMode::pose));
+  const Complex there = position_of(desk.deformation(), tangent, EditMode::pose);
   desk.drag(there, there + Complex(-80, 30), {false, false, true});  // Alt breaks
-  CHECK_FALSE(is_smooth(desk.scene(), 1, Posture::pose));
+  CHECK_FALSE(is_smooth(desk.deformation(), 1, EditMode::pose));
   desk.click({200, 0});
   CHECK(desk.workspace.selection.size() == 1);
   run(action_named("cage.corner"), desk.workspace);
-  CHECK(is_smooth(desk.scene(), 1, Posture::pose));
+  CHECK(is_smooth(desk.deformation(), 1, EditMode::pose));
   desk.settle();
   CHECK(desk.workspace.map().has_map());
   CHECK_FALSE(desk.workspace.map().error());
@@ -99,7 +102,7 @@ TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle"
 
 TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curved at rest") {
   Desk desk;
-  desk.workspace.tool = ToolId::pen;
+  desk.workspace.tools.active = ToolId::pen;
   desk.click({0, 0});
   desk.press({200, 0});
   desk.move({240, 30});
@@ -107,12 +110,12 @@ TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curv
   desk.click({200, 200});
   desk.click({0, 200});
   desk.click({0, 0});
-  REQUIRE(desk.scene().rest.size() == 4);
-  CHECK(desk.scene().rest.degree(0) == 3);
-  CHECK(desk.scene().rest.degree(1) == 3);
-  CHECK(desk.scene().rest.degree(2) == 1);
-  CHECK(desk.scene().rest.segments[1][1] == Complex(240, 30));
-  CHECK(is_smooth(desk.scene(), 1, Posture::rest));
+  REQUIRE(desk.deformation().rest.size() == 4);
+  CHECK(desk.deformation().rest.degree(0) == 3);
+  CHECK(desk.deformation().rest.degree(1) == 3);
+  CHECK(desk.deformation().rest.degree(2) == 1);
+  CHECK(desk.deformation().rest.segments[1][1] == Complex(240, 30));
+  CHECK(is_smooth(desk.deformation(), 1, EditMode::rest));
   desk.settle();
   REQUIRE(desk.workspace.map().has_map());
   const Mesh& mesh = *desk.workspace.map().prepared()->mesh;
@@ -125,21 +128,21 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
   Desk desk(shapes::rectangle(200, 200));
   run(action_named("cage.raise"), desk.workspace);
   run(action_named("cage.raise"), desk.workspace);
-  desk.workspace.tool = ToolId::pin;
+  desk.workspace.tools.active = ToolId::pin;
   for (const Complex z : {Complex(40, 40), Complex(160, 50), Complex(100, 160)}) {
     desk.settle();
     desk.drag(z, z + Complex(9, -6) * (z.real() / 100));
   }
   run(action_named("cage.bake"), desk.workspace);
-  CHECK(desk.scene().method == "pins");  // refused, with the reason
-  REQUIRE_FALSE(desk.workspace.toasts.empty());
-  Scene scene = desk.scene();
-  scene.parameters["own_controls"] = 1;
-  desk.workspace.commit("Own points", scene);
+  CHECK(desk.deformation().method == "pins");  // refused, with the reason
+  REQUIRE_FALSE(desk.workspace.messages.toasts.empty());
+  Deformation deformation = desk.deformation();
+  deformation.parameters["own_controls"] = 1;
+  desk.workspace.commit("Own points", deformation);
   desk.settle();
   const VectorXc before = desk.workspace.map().map().f;
   run(action_named("cage.bake"), desk.workspace);
-  CHECK(desk.scene().method == "cage");
+  CHECK(desk.deformation().method == "cage");
   desk.settle();
   CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 1e-2);  // single precision
 }
@@ -148,12 +151,12 @@ TEST_CASE("Rest curves are edited like posed ones, and the pose stays") {
   Desk desk(shapes::rectangle(200, 200));
   run(action_named("cage.rest"), desk.workspace);
   desk.click({200, 0}, {true, false, false});
-  CHECK(is_smooth(desk.scene(), 1, Posture::rest));
-  CHECK(desk.scene().pose == polygon_cage(shapes::rectangle(200, 200)));
-  const Handle tangent = *tangents_of(desk.scene(), 1, Posture::rest).after;
-  const Complex from = position_of(desk.scene(), tangent, Posture::rest);
+  CHECK(is_smooth(desk.deformation(), 1, EditMode::rest));
+  CHECK(desk.deformation().pose == polygon_cage(shapes::rectangle(200, 200)));
+  const Handle tangent = *tangents_of(desk.deformation(), 1, EditMode::rest).after;
+  const Complex from = position_of(desk.deformation(), tangent, EditMode::rest);
   const size_t steps = desk.steps();
   desk.drag(from, {-900, 100});  // through the other side
   CHECK(desk.steps() == steps);  // refused
-  CHECK_FALSE(desk.workspace.toasts.empty());
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());
 }

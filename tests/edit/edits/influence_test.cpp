@@ -20,46 +20,46 @@ Handle vertex(Index i) {
 TEST_CASE("Soft drags take less along the farther it is, and nothing beyond their reach") {
   Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
   run(action_named("edit.soft"), desk.workspace);
-  desk.workspace.influence.reach = 200;
+  desk.workspace.tools.drag.reach = 200;
   desk.drag({0, 0}, {0, -60});
-  CHECK(desk.scene().pose.vertex(0) == Complex(0, -60));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(0, -60));
   const double near = 1 - 0.25;  // (1 - (100 / 200)^2)^2
-  CHECK(desk.scene().pose.vertex(1).imag() == Approx(-60 * near * near));
-  CHECK(desk.scene().pose.vertex(2) == Complex(200, 0));
-  CHECK(desk.scene().pose.vertex(4) == Complex(0, 200));
-  CHECK(desk.scene().rest.vertex(1) == Complex(100, 0));
+  CHECK(desk.deformation().pose.vertex(1).imag() == Approx(-60 * near * near));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(200, 0));
+  CHECK(desk.deformation().pose.vertex(4) == Complex(0, 200));
+  CHECK(desk.deformation().rest.vertex(1) == Complex(100, 0));
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene().pose == desk.scene().rest);  // one step
+  CHECK(desk.deformation().pose == desk.deformation().rest);  // one step
   run(action_named("edit.soft_less"), desk.workspace);
-  CHECK(desk.workspace.influence.reach == Approx(160));
+  CHECK(desk.workspace.tools.drag.reach == Approx(160));
   for (int i = 0; i < 100; ++i) run(action_named("edit.soft_less"), desk.workspace);
-  CHECK(desk.workspace.influence.reach == kLeastReach);
+  CHECK(desk.workspace.tools.drag.reach == kLeastReach);
   run(action_named("edit.soft"), desk.workspace);
   desk.drag({0, 0}, {0, -60});
-  CHECK(desk.scene().pose.vertex(1) == Complex(100, 0));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(100, 0));
 }
 
 TEST_CASE("With symmetry the other side goes the mirrored way, what is on the line stays on it") {
   Desk desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
-  Scene scene = desk.scene();
-  scene.method = "pins";
-  scene.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
-  desk.workspace.commit("Pins", scene);
+  Deformation deformation = desk.deformation();
+  deformation.method = "pins";
+  deformation.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
+  desk.workspace.commit("Pins", deformation);
   desk.settle();
   run(action_named("edit.symmetry"), desk.workspace);
   desk.drag({200, 0}, {230, -20});
-  CHECK(desk.scene().pose.vertex(1) == Complex(230, -20));
-  CHECK(desk.scene().pose.vertex(0) == Complex(-30, -20));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(230, -20));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(-30, -20));
   desk.drag({40, 100}, {50, 120});
-  CHECK(std::abs(desk.scene().pins[1].pose - Complex(150, 120)) < 1e-9);
+  CHECK(std::abs(desk.deformation().pins[1].pose - Complex(150, 120)) < 1e-9);
   desk.drag({100, 240}, {130, 260});
-  CHECK(desk.scene().pose.vertex(3) == Complex(100, 260));
-  CHECK(counterparts_of(desk.scene()).at(vertex(2)) == vertex(4));
+  CHECK(desk.deformation().pose.vertex(3) == Complex(100, 260));
+  CHECK(counterparts_of(desk.deformation()).at(vertex(2)) == vertex(4));
   // Both together: soft on both sides.
-  desk.workspace.influence.soft = true;
-  desk.workspace.influence.reach = 150;
-  const Displacements ways = displacements(at_rest(desk.scene()), {vertex(0)}, {10, 0},
-                                           Posture::pose, desk.workspace.influence);
+  desk.workspace.tools.drag.soft = true;
+  desk.workspace.tools.drag.reach = 150;
+  const Displacements ways = displacements(at_rest(desk.deformation()), {vertex(0)}, {10, 0},
+                                           EditMode::pose, desk.workspace.tools.drag);
   CHECK(ways.at(vertex(0)) == Complex(10, 0));
   CHECK(ways.at(vertex(1)) == Complex(-10, 0));
   const Handle pin{Handle::Kind::pin, 0, 0}, other{Handle::Kind::pin, 1, 0};
@@ -71,8 +71,8 @@ TEST_CASE("A drag without symmetry at rest moves one side") {
   Desk desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
   run(action_named("edit.symmetry"), desk.workspace);
   desk.drag({230, 170}, {260, 200});
-  CHECK(desk.scene().pose.vertex(2) == Complex(260, 200));
-  CHECK(desk.scene().pose.vertex(3) == Complex(0, 200));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(260, 200));
+  CHECK(desk.deformation().pose.vertex(3) == Complex(0, 200));
 }
 
 TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
@@ -81,22 +81,22 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   desk.press({100, 0});
   desk.move({197, -40});
   desk.move({197, 205});  // the fourth point's column and row, 3 and 5 px away
-  CHECK(desk.scene().pose.vertex(1) == Complex(200, 200));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(200, 200));
   CHECK(desk.tool().overlay().guides.size() == 2);
   desk.move({150, 90});
-  CHECK(desk.scene().pose.vertex(1) == Complex(150, 90));  // nothing is near
+  CHECK(desk.deformation().pose.vertex(1) == Complex(150, 90));  // nothing is near
   CHECK(desk.tool().overlay().guides.empty());
   desk.move({150, 6});  // the third point's row, though rest's is near, too
-  CHECK(desk.scene().pose.vertex(1) == Complex(150, 7));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(150, 7));
   desk.release({97, 60});
-  CHECK(desk.scene().pose.vertex(1) == Complex(100, 60));  // its own column at rest
+  CHECK(desk.deformation().pose.vertex(1) == Complex(100, 60));  // its own column at rest
   CHECK(desk.tool().overlay().guides.empty());
   run(action_named("edit.snap"), desk.workspace);
   desk.drag({100, 60}, {197, 205});
-  CHECK(desk.scene().pose.vertex(1) == Complex(197, 205));
+  CHECK(desk.deformation().pose.vertex(1) == Complex(197, 205));
   // The picture's edges and middle.
   std::vector<Guide> guides;
-  const Complex by = snapped(desk.scene(), {vertex(0)}, vertex(0), {497, 303}, Posture::pose,
+  const Complex by = snapped(desk.deformation(), {vertex(0)}, vertex(0), {497, 303}, EditMode::pose,
                              {6, Box{0, 0, 1000, 600}}, guides);
   CHECK(by == Complex(500, 300));
   CHECK(guides.size() == 2);
@@ -109,30 +109,35 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
   const auto mark = desk.tool().overlay().box;
   REQUIRE(mark);
   const auto plane = [&](int grip) {
-    return desk.workspace.viewport.plane_at_px(mark->grip(grip));
+    return desk.workspace.display.viewport.plane_at_px(mark->grip(grip));
   };
   // The right side, to twice the width.
   const Complex right = plane(3);
   desk.drag(right, right + Complex(200, 0));
-  CHECK(desk.scene().pose.vertex(0) == desk.scene().rest.vertex(0));
-  CHECK(desk.scene().pose.vertex(1).imag() == Approx(0).margin(1e-9));
-  CHECK(desk.scene().pose.vertex(1).real() - desk.scene().pose.vertex(0).real() == Approx(400));
-  CHECK(desk.scene().pose.vertex(2).imag() == Approx(200));
+  CHECK(desk.deformation().pose.vertex(0) == desk.deformation().rest.vertex(0));
+  CHECK(desk.deformation().pose.vertex(1).imag() == Approx(0).margin(1e-9));
+  CHECK(desk.deformation().pose.vertex(1).real() - desk.deformation().pose.vertex(0).real() ==
+        Approx(400));
+  CHECK(desk.deformation().pose.vertex(2).imag() == Approx(200));
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene().pose == desk.scene().rest);
+  CHECK(desk.deformation().pose == desk.deformation().rest);
   // A corner evenly, about the opposite one; freely with Shift; about the middle with Alt.
   const Complex corner = plane(4), half(100, 100);
   desk.drag(corner, corner - half);
-  CHECK(desk.scene().pose.vertex(2).real() - desk.scene().pose.vertex(0).real() == Approx(100));
-  CHECK(desk.scene().pose.vertex(2).imag() - desk.scene().pose.vertex(0).imag() == Approx(100));
+  CHECK(desk.deformation().pose.vertex(2).real() - desk.deformation().pose.vertex(0).real() ==
+        Approx(100));
+  CHECK(desk.deformation().pose.vertex(2).imag() - desk.deformation().pose.vertex(0).imag() ==
+        Approx(100));
   run(action_named("edit.undo"), desk.workspace);
   desk.drag(corner, corner - Complex(half.real(), 0), kShift);
-  CHECK(desk.scene().pose.vertex(2).real() - desk.scene().pose.vertex(0).real() == Approx(100));
-  CHECK(desk.scene().pose.vertex(2).imag() - desk.scene().pose.vertex(0).imag() == Approx(200));
+  CHECK(desk.deformation().pose.vertex(2).real() - desk.deformation().pose.vertex(0).real() ==
+        Approx(100));
+  CHECK(desk.deformation().pose.vertex(2).imag() - desk.deformation().pose.vertex(0).imag() ==
+        Approx(200));
   run(action_named("edit.undo"), desk.workspace);
   desk.drag(corner, corner - 0.5 * half, kAlt);
-  CHECK(std::abs(desk.scene().pose.vertex(2) - Complex(150, 150)) < 1e-9);
-  CHECK(std::abs(desk.scene().pose.vertex(0) - Complex(50, 50)) < 1e-9);
+  CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(150, 150)) < 1e-9);
+  CHECK(std::abs(desk.deformation().pose.vertex(0) - Complex(50, 50)) < 1e-9);
 }
 
 TEST_CASE("A drag inside the box moves what is selected, and a click there lets go of it") {
@@ -141,15 +146,15 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
   desk.workspace.selection = all;
   desk.drag({60, 70}, {90, 110});
   for (Index i = 0; i < 4; ++i)
-    CHECK(std::abs(desk.scene().pose.vertex(i) - desk.scene().rest.vertex(i) - Complex(30, 40)) <
-          1e-9);
+    CHECK(std::abs(desk.deformation().pose.vertex(i) - desk.deformation().rest.vertex(i) -
+                   Complex(30, 40)) < 1e-9);
   CHECK(desk.workspace.selection == all);
   run(action_named("edit.undo"), desk.workspace);
   desk.drag({60, 70}, {90, 80}, kShift);
-  CHECK(desk.scene().pose.vertex(0) - desk.scene().rest.vertex(0) == Complex(30, 0));
+  CHECK(desk.deformation().pose.vertex(0) - desk.deformation().rest.vertex(0) == Complex(30, 0));
   run(action_named("edit.undo"), desk.workspace);
   desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift from the start it selects
-  CHECK(desk.scene().pose == desk.scene().rest);
+  CHECK(desk.deformation().pose == desk.deformation().rest);
   CHECK(desk.workspace.selection == all);
   const size_t steps = desk.workspace.document.history().index();
   desk.click({60, 70});
@@ -159,52 +164,53 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
 
 TEST_CASE("The box' knob turns, pins that turn included, as far around as it is dragged") {
   Desk desk(kSquare);
-  Scene scene = desk.scene();
-  scene.method = "pins";
-  scene.pins = {{{50, 100}, {50, 100}, 0.25, {}}, {{150, 100}, {150, 100}, {}, {}}};
-  desk.workspace.commit("Pins", scene);
+  Deformation deformation = desk.deformation();
+  deformation.method = "pins";
+  deformation.pins = {{{50, 100}, {50, 100}, 0.25, {}}, {{150, 100}, {150, 100}, {}, {}}};
+  desk.workspace.commit("Pins", deformation);
   desk.settle();
   desk.workspace.selection = {{Handle::Kind::pin, 0, 0}, {Handle::Kind::pin, 1, 0}};
   desk.hover({100, 60});
   const auto mark = desk.tool().overlay().box;
   REQUIRE(mark);
-  const Complex knob = desk.workspace.viewport.plane_at_px(mark->knob), center(100, 100);
+  const Complex knob = desk.workspace.display.viewport.plane_at_px(mark->knob), center(100, 100);
   Points way;
   for (int i = 0; i <= 18; ++i)
     way.push_back(center + (knob - center) * std::polar(1.0, kPi / 12 * i));
   desk.draw(way);
-  CHECK(std::abs(desk.scene().pins[0].pose - Complex(100, 150)) < 1e-6);  // 270 degrees
-  CHECK(std::abs(desk.scene().pins[1].pose - Complex(100, 50)) < 1e-6);
-  CHECK(desk.scene().pins[0].angle == Approx(0.25 + 1.5 * kPi));
-  CHECK_FALSE(desk.scene().pins[1].angle);
+  CHECK(std::abs(desk.deformation().pins[0].pose - Complex(100, 150)) < 1e-6);  // 270 degrees
+  CHECK(std::abs(desk.deformation().pins[1].pose - Complex(100, 50)) < 1e-6);
+  CHECK(desk.deformation().pins[0].angle == Approx(0.25 + 1.5 * kPi));
+  CHECK_FALSE(desk.deformation().pins[1].angle);
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene() == scene);
+  CHECK(desk.deformation() == deformation);
   // Escape drops it.
   desk.hover({100, 60});
   desk.press(knob);
   desk.move(knob + Complex(60, -40));
   CHECK(desk.tool().busy());
   desk.tool().key(Key::escape, desk.workspace);
-  CHECK(desk.scene() == scene);
+  CHECK(desk.deformation() == deformation);
 }
 
 TEST_CASE("Tangents and strokes go with the box") {
   Desk desk(kSquare);
-  Scene scene = desk.scene();
-  scene.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
+  Deformation deformation = desk.deformation();
+  deformation.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
   const Affine twice = Affine::scaling(2, 2, 0);
-  const Scene after = transformed(scene, {vertex(0), vertex(1)}, twice, 0, Posture::pose);
+  const Deformation after =
+      transformed(deformation, {vertex(0), vertex(1)}, twice, 0, EditMode::pose);
   CHECK(after.pose.segments[0][0] == Complex(0, 0));
   CHECK(after.pose.segments[0][1] == Complex(120, -60));
   CHECK(after.pose.segments[0][2] == Complex(280, -60));
   CHECK(after.pose.vertex(1) == Complex(400, 0));
   CHECK(after.pose.vertex(2) == Complex(200, 200));
-  scene.method = "strokes";
-  scene.strokes = {{{{20, 20}, {180, 20}}, {{20, 20}, {100, 40}, {180, 20}}, {}}};
-  const Scene turned = transformed(scene, {{Handle::Kind::stroke, 0, 0}},
-                                   Affine::turning(kPi / 2, 0), kPi / 2, Posture::pose);
+  deformation.method = "strokes";
+  deformation.strokes = {{{{20, 20}, {180, 20}}, {{20, 20}, {100, 40}, {180, 20}}, {}}};
+  const Deformation turned = transformed(deformation, {{Handle::Kind::stroke, 0, 0}},
+                                         Affine::turning(kPi / 2, 0), kPi / 2, EditMode::pose);
   CHECK(std::abs(turned.strokes[0].pose[1] - Complex(-40, 100)) < 1e-9);
-  CHECK(turned.strokes[0].rest == scene.strokes[0].rest);
+  CHECK(turned.strokes[0].rest == deformation.strokes[0].rest);
 }
 
 TEST_CASE("The brush paints what is under it at rest, as one step, in the method that knows it") {
@@ -213,50 +219,50 @@ TEST_CASE("The brush paints what is under it at rest, as one step, in the method
   desk.drag({200, 200}, {260, 200});
   desk.settle();
   run(action_named("tool.brush"), w);
-  w.brush_radius = 20;
+  w.tools.brush_radius = 20;
   const size_t steps = desk.steps();
   desk.draw({{40, 100}, {60, 100}, {80, 100}, {100, 100}});
   CHECK(desk.steps() == steps + 1);
-  CHECK(w.scene().method == "arap");
-  const std::vector<Dab> painted = w.scene().stiffness;
+  CHECK(w.shown.deformation().method == "arap");
+  const std::vector<BrushDab> painted = w.shown.deformation().stiffness;
   REQUIRE(painted.size() >= 3);
-  for (const Dab& dab : painted) {
+  for (const BrushDab& dab : painted) {
     CHECK(dab.level > 0);
     CHECK(dab.radius == 20);
   }
   desk.settle();
   desk.draw({{60, 100}, {80, 100}}, {true, false, false});
-  CHECK(w.scene().stiffness.back().level < 0);
+  CHECK(w.shown.deformation().stiffness.back().level < 0);
   desk.settle();
   desk.draw({{20, 100}, {40, 100}, {60, 100}, {80, 100}, {100, 100}, {120, 100}}, kShift);
-  CHECK(w.scene().stiffness.size() < painted.size());
+  CHECK(w.shown.deformation().stiffness.size() < painted.size());
   run(action_named("edit.undo"), w);
   run(action_named("edit.undo"), w);
-  CHECK(w.scene().stiffness == painted);
-  const double radius = w.brush_radius;
+  CHECK(w.shown.deformation().stiffness == painted);
+  const double radius = w.tools.brush_radius;
   run(action_named("edit.soft_more"), w);
-  CHECK(w.brush_radius > radius);
-  CHECK_FALSE(w.influence.soft);
+  CHECK(w.tools.brush_radius > radius);
+  CHECK_FALSE(w.tools.drag.soft);
   run(action_named("edit.remove_stiffness"), w);
-  CHECK(w.scene().stiffness.empty());
+  CHECK(w.shown.deformation().stiffness.empty());
   desk.press({60, 100});
   desk.tool().key(Key::escape, w);
   desk.release({60, 100});
-  CHECK(w.scene().stiffness.empty());
+  CHECK(w.shown.deformation().stiffness.empty());
 }
 
 TEST_CASE("Pins go up and down together") {
   Desk desk(kSquare);
-  Scene scene = desk.scene();
-  scene.method = "pins";
-  scene.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
-  desk.workspace.commit("Pins", scene);
+  Deformation deformation = desk.deformation();
+  deformation.method = "pins";
+  deformation.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
+  desk.workspace.commit("Pins", deformation);
   desk.workspace.selection = {{Handle::Kind::pin, 0, 0}};
   const size_t steps = desk.steps();
   for (int i = 0; i < 3; ++i) run(action_named("edit.pin_up"), desk.workspace);
-  CHECK(desk.scene().pins[0].depth == 3);
-  CHECK(desk.scene().pins[1].depth == 0);
+  CHECK(desk.deformation().pins[0].depth == 3);
+  CHECK(desk.deformation().pins[1].depth == 0);
   CHECK(desk.steps() == steps + 1);
   run(action_named("edit.pin_down"), desk.workspace);
-  CHECK(desk.scene().pins[0].depth == 2);
+  CHECK(desk.deformation().pins[0].depth == 2);
 }

@@ -16,11 +16,11 @@ namespace {
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
 void take_tool(Desk& desk) {
-  desk.workspace.tool = ToolId::angle;
+  desk.workspace.tools.active = ToolId::angle;
 }
 
-Index listed(const Scene& scene) {
-  return static_cast<Index>(scene.corners.size());
+Index listed(const Deformation& deformation) {
+  return static_cast<Index>(deformation.corners.size());
 }
 
 }  // namespace
@@ -35,11 +35,11 @@ TEST_CASE("Tool A: a ring turns its corner as far around as it is dragged") {
   REQUIRE(desk.tool().busy());
   for (int k = 1; k <= 14; ++k) desk.move(center + std::polar(40.0, k * kPi / 6));  // 420 degrees
   desk.release(center + std::polar(40.0, 14 * kPi / 6));
-  CHECK(desk.scene().method == "angles");
-  CHECK(listed(desk.scene()) == 4);
-  CHECK(corner_at(desk.scene(), 1).before == Approx(14 * kPi / 6));
-  CHECK(corner_at(desk.scene(), 1).after == Approx(14 * kPi / 6));
-  CHECK(corner_at(desk.scene(), 2) == PoseCorner{});
+  CHECK(desk.deformation().method == "angles");
+  CHECK(listed(desk.deformation()) == 4);
+  CHECK(corner_at(desk.deformation(), 1).before == Approx(14 * kPi / 6));
+  CHECK(corner_at(desk.deformation(), 1).after == Approx(14 * kPi / 6));
+  CHECK(corner_at(desk.deformation(), 2) == PoseCorner{});
   CHECK(desk.steps() == 3);  // cage, and one turn
 }
 
@@ -52,16 +52,16 @@ TEST_CASE("Tool A: selected corners turn together, and an arm opens them both wa
   const ToolOverlay overlay = desk.tool().overlay();
   REQUIRE(overlay.corner);
   REQUIRE(overlay.corner->vertex == 1);
-  const auto plane = [&](Complex px) { return desk.workspace.viewport.plane_at_px(px); };
+  const auto plane = [&](Complex px) { return desk.workspace.display.viewport.plane_at_px(px); };
   const Complex arm = plane(overlay.corner->after), center(300, 0);
   CHECK(std::arg(arm - center) == Approx(kPi / 2));  // along the edge that starts there
   desk.press(arm);
   desk.move(center + std::polar(46.0, kPi / 2 - 0.1));
   desk.release(center + std::polar(46.0, kPi / 2 - 0.2));
   for (const Index v : {1, 2}) {
-    CHECK(corner_at(desk.scene(), v).after == Approx(-0.2));
-    CHECK(corner_at(desk.scene(), v).before == Approx(0.2));
-    CHECK(corner_opening(desk.scene(), v) == Approx(0.4));
+    CHECK(corner_at(desk.deformation(), v).after == Approx(-0.2));
+    CHECK(corner_at(desk.deformation(), v).before == Approx(0.2));
+    CHECK(corner_opening(desk.deformation(), v) == Approx(0.4));
   }
 }
 
@@ -71,8 +71,8 @@ TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
   desk.press({150, 0});
   desk.move({150, -40});
   desk.release({150, -75});  // down by half of the way
-  CHECK(corner_at(desk.scene(), 0).tension == Approx(0.5));
-  CHECK(corner_at(desk.scene(), 1).tension == 1);
+  CHECK(corner_at(desk.deformation(), 0).tension == Approx(0.5));
+  CHECK(corner_at(desk.deformation(), 1).tension == 1);
   desk.settle();
   CHECK((desk.workspace.map().map().f -
          Eigen::Map<const VectorXc>(desk.workspace.map().prepared()->mesh->vertices.data(),
@@ -84,59 +84,57 @@ TEST_CASE("Tool A: points are made corners and none, but three stay") {
   Desk desk(kBar);
   take_tool(desk);
   desk.click({300, 0}, {false, false, true});
-  CHECK(listed(desk.scene()) == 3);
-  CHECK_FALSE(is_corner(desk.scene(), 1));
+  CHECK(listed(desk.deformation()) == 3);
+  CHECK_FALSE(is_corner(desk.deformation(), 1));
   desk.click({300, 100}, {false, false, true});
-  CHECK(listed(desk.scene()) == 3);
-  REQUIRE(desk.workspace.toasts.size() == 1);
-  CHECK(desk.workspace.toasts[0].text.find("three corners") != std::string::npos);
+  CHECK(listed(desk.deformation()) == 3);
+  REQUIRE(desk.workspace.messages.toasts.size() == 1);
+  CHECK(desk.workspace.messages.toasts[0].text.find("three corners") != std::string::npos);
   desk.click({300, 0});
-  CHECK(is_corner(desk.scene(), 1));
+  CHECK(is_corner(desk.deformation(), 1));
 }
 
 TEST_CASE("Corners: a new one is turned as its edge is, so that nothing moves") {
-  Scene scene = with_method(with_cage(Scene{}, kBar), "angles");
-  scene = without_corner(scene, 1);
-  scene = corner_turned(scene, 0, 0.3);
-  scene = corner_turned(scene, 2, 0.9);
-  const Scene more = with_corner(scene, 1);
+  Deformation deformation = with_method(with_cage(Deformation{}, kBar), "angles");
+  deformation = without_corner(deformation, 1);
+  deformation = corner_turned(deformation, 0, 0.3);
+  deformation = corner_turned(deformation, 2, 0.9);
+  const Deformation more = with_corner(deformation, 1);
   CHECK(corner_at(more, 1).before == Approx(0.3 + 0.75 * 0.6));  // after 300 of 400
-  const auto posed = [](const Scene& s) {
+  const auto posed = [](const Deformation& s) {
     Rest rest = rest_of(s, Precision::full);
     rest.mesh = std::make_shared<const Mesh>(domain_mesh(s.rest, {400}));
     rest.samples = rest.mesh->vertices;
-    SampledMap map;
-    method_named("angles").prepare(rest, nullptr)->deform(pose_of(s), map, {});
+    SampledMap map = method_named("angles").prepare(rest, nullptr)->deform(pose_of(s), {});
     return map.f;
   };
-  CHECK((posed(scene) - posed(more)).cwiseAbs().maxCoeff() <= 0.3);
+  CHECK((posed(deformation) - posed(more)).cwiseAbs().maxCoeff() <= 0.3);
 }
 
 TEST_CASE("Corners: their numbers follow inserted and deleted points") {
-  Scene scene = with_all_corners(with_method(with_cage(Scene{}, kBar), "angles"));
-  scene = corner_turned(scene, 2, 0.5);
-  scene = inserted(scene, 0, 0.5);
-  CHECK(scene.rest.size() == 5);
-  CHECK(corner_at(scene, 3).before == 0.5);
-  CHECK_FALSE(is_corner(scene, 1));
-  scene = erased(scene, {{Handle::Kind::cage, 1, 0}});
-  CHECK(corner_at(scene, 2).before == 0.5);
-  CHECK(at_rest(scene).corners[2].pose == PoseCorner{});
-  CHECK(corner_at(reset(scene, {{Handle::Kind::cage, 2, 0}}), 2) == PoseCorner{});
-  const Scene again = scene_from_json(json_of(scene), "test");
-  CHECK(again == scene);
+  Deformation deformation = with_all_corners(with_method(with_cage(Deformation{}, kBar), "angles"));
+  deformation = corner_turned(deformation, 2, 0.5);
+  deformation = inserted(deformation, 0, 0.5);
+  CHECK(deformation.rest.size() == 5);
+  CHECK(corner_at(deformation, 3).before == 0.5);
+  CHECK_FALSE(is_corner(deformation, 1));
+  deformation = erased(deformation, {{Handle::Kind::cage, 1, 0}});
+  CHECK(corner_at(deformation, 2).before == 0.5);
+  CHECK(at_rest(deformation).corners[2].pose == PoseCorner{});
+  CHECK(corner_at(reset(deformation, {{Handle::Kind::cage, 2, 0}}), 2) == PoseCorner{});
+  const Deformation again = scene_from_json(json_of(scene_of(deformation)), "test").deformation();
+  CHECK(again == deformation);
 }
 
 TEST_CASE("Corners: a clockwise cage opens its corners, too") {
   Points clockwise(kBar.rbegin(), kBar.rend());
-  Scene scene = with_method(with_cage(Scene{}, clockwise), "angles");
-  scene = corner_opened(scene, 1, 0.2);
-  CHECK(corner_opening(scene, 1) == Approx(0.4));
-  Rest rest = rest_of(scene, Precision::full);
-  rest.mesh = std::make_shared<const Mesh>(domain_mesh(scene.rest, {600}));
+  Deformation deformation = with_method(with_cage(Deformation{}, clockwise), "angles");
+  deformation = corner_opened(deformation, 1, 0.2);
+  CHECK(corner_opening(deformation, 1) == Approx(0.4));
+  Rest rest = rest_of(deformation, Precision::full);
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest, {600}));
   rest.samples = rest.mesh->vertices;
-  SampledMap map;
-  method_named("angles").prepare(rest, nullptr)->deform(pose_of(scene), map, {});
+  SampledMap map = method_named("angles").prepare(rest, nullptr)->deform(pose_of(deformation), {});
   const auto f = [&](size_t v) { return map.f[rest.mesh->cage_vertices[v]]; };
   const auto angle = [](Complex a, Complex b, Complex c) {
     return std::abs(std::arg((a - b) / (c - b)));

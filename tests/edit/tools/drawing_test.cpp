@@ -15,62 +15,62 @@ constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 
 TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::stroke;
+  desk.workspace.tools.active = ToolId::stroke;
   size_t steps = desk.steps();
   const Points line{{20, 75}, {60, 76}, {100, 74}, {140, 75}, {180, 75}};
   desk.draw(line);
   desk.settle();
-  REQUIRE(desk.scene().strokes.size() == 1);
-  CHECK(desk.scene().method == "strokes");
+  REQUIRE(desk.deformation().strokes.size() == 1);
+  CHECK(desk.deformation().method == "strokes");
   CHECK(desk.steps() == ++steps);
-  const Points rest = desk.scene().strokes[0].rest;
+  const Points rest = desk.deformation().strokes[0].rest;
   for (size_t i = 0; i < rest.size(); ++i)
-    CHECK(std::abs(desk.scene().strokes[0].pose[i] - rest[i]) < 1e-9);
+    CHECK(std::abs(desk.deformation().strokes[0].pose[i] - rest[i]) < 1e-9);
   CHECK(std::abs(rest.front() - line.front()) < 1e-9);
   CHECK(std::abs(rest.back() - line.back()) < 1e-9);
 
   desk.drag({100, 75}, {120, 135});  // by its middle: as a whole
   CHECK(desk.steps() == ++steps);
   for (size_t i = 0; i < rest.size(); ++i)
-    CHECK(std::abs(desk.scene().strokes[0].pose[i] - rest[i] - Complex(20, 60)) < 1e-9);
-  CHECK(desk.scene().strokes[0].rest == rest);
+    CHECK(std::abs(desk.deformation().strokes[0].pose[i] - rest[i] - Complex(20, 60)) < 1e-9);
+  CHECK(desk.deformation().strokes[0].rest == rest);
   desk.settle();
   const Complex middle{100, 75};
-  CHECK(std::abs(desk.workspace.posed_at(middle) - middle - Complex(20, 60)) < 1);
+  CHECK(std::abs(posed_at(desk.workspace.map(), middle) - middle - Complex(20, 60)) < 1);
 
   desk.drag({200, 135}, {210, 175});  // by its end: bent, the other end stays
   CHECK(desk.steps() == ++steps);
-  CHECK(std::abs(desk.scene().strokes[0].pose.back() - Complex(210, 175)) < 1e-9);
-  CHECK(std::abs(desk.scene().strokes[0].pose.front() - Complex(40, 135)) < 1e-9);
+  CHECK(std::abs(desk.deformation().strokes[0].pose.back() - Complex(210, 175)) < 1e-9);
+  CHECK(std::abs(desk.deformation().strokes[0].pose.front() - Complex(40, 135)) < 1e-9);
 
   // Redrawn from the other end it does not turn around.
   desk.draw({{200, 40}, {120, 60}, {30, 40}}, kShift);
   CHECK(desk.steps() == ++steps);
-  CHECK(std::abs(desk.scene().strokes[0].pose.front() - Complex(30, 40)) < 1e-9);
-  CHECK(std::abs(desk.scene().strokes[0].pose.back() - Complex(200, 40)) < 1e-9);
+  CHECK(std::abs(desk.deformation().strokes[0].pose.front() - Complex(30, 40)) < 1e-9);
+  CHECK(std::abs(desk.deformation().strokes[0].pose.back() - Complex(200, 40)) < 1e-9);
   run(action_named("edit.reset"), desk.workspace);
-  CHECK(desk.scene().strokes[0].pose == rest);
+  CHECK(desk.deformation().strokes[0].pose == rest);
   CHECK(desk.steps() == ++steps);
 
   desk.settle();
   desk.click({100, 75}, kAlt);
-  CHECK(desk.scene().strokes.empty());
+  CHECK(desk.deformation().strokes.empty());
   CHECK(desk.steps() == ++steps);
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene().strokes.size() == 1);
+  CHECK(desk.deformation().strokes.size() == 1);
 }
 
 TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::stroke;
+  desk.workspace.tools.active = ToolId::stroke;
   desk.draw({{20, 75}, {180, 75}});
   desk.settle();
-  const Points before = desk.scene().strokes[0].pose;
+  const Points before = desk.deformation().strokes[0].pose;
   desk.press({100, 75}, {true, false, false});
   desk.move({100, 85});
   desk.move({100, 105});
   desk.release({100, 105});
-  const Points& after = desk.scene().strokes[0].pose;
+  const Points& after = desk.deformation().strokes[0].pose;
   double most = 0;
   int far = 0;
   for (size_t i = 0; i < after.size(); ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
 
 TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape leave nothing") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::stroke;
+  desk.workspace.tools.active = ToolId::stroke;
   const size_t steps = desk.steps();
   desk.press({20, 75});
   desk.move({100, 75});
@@ -97,24 +97,24 @@ TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape le
   desk.click({50, 50});
   desk.draw({{300, 75}, {400, 75}});
   CHECK(desk.steps() == steps);
-  CHECK(desk.workspace.toasts.size() == 1);  // it starts on the picture
+  CHECK(desk.workspace.messages.toasts.size() == 1);  // it starts on the picture
   desk.draw({{100, 75}, {300, 75}});
-  REQUIRE(desk.scene().strokes.size() == 1);
-  CHECK(desk.scene().strokes[0].rest.back().real() <= 200);
-  CHECK_THAT(desk.workspace.toasts[1].text, Catch::Contains("left out"));
+  REQUIRE(desk.deformation().strokes.size() == 1);
+  CHECK(desk.deformation().strokes[0].rest.back().real() <= 200);
+  CHECK_THAT(desk.workspace.messages.toasts[1].text, Catch::Contains("left out"));
   // At rest it is drawn where the picture rests, and nothing moves by it.
-  desk.workspace.posture = Posture::rest;
+  desk.workspace.mode = EditMode::rest;
   desk.settle();
   desk.draw({{30, 30}, {100, 30}});
-  REQUIRE(desk.scene().strokes.size() == 2);
-  CHECK(std::abs(desk.scene().strokes[1].rest.front() - Complex(30, 30)) < 1e-9);
-  CHECK(std::abs(desk.scene().strokes[1].pose.front() - Complex(30, 30)) < 1e-6);
+  REQUIRE(desk.deformation().strokes.size() == 2);
+  CHECK(std::abs(desk.deformation().strokes[1].rest.front() - Complex(30, 30)) < 1e-9);
+  CHECK(std::abs(desk.deformation().strokes[1].pose.front() - Complex(30, 30)) < 1e-6);
 }
 
 TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like other handles") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.commit(
-      "Stroke", with_stroke(desk.scene(), {{40, 75}, {160, 75}}, {{40, 75}, {100, 75}, {160, 75}}));
+  desk.workspace.commit("Stroke", with_stroke(desk.deformation(), {{40, 75}, {160, 75}},
+                                              {{40, 75}, {100, 75}, {160, 75}}));
   desk.settle();
   const Handle handle{Handle::Kind::stroke, 0, 0};
   desk.click({60, 77});
@@ -124,13 +124,13 @@ TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like o
   desk.drag({-20, 60}, {110, 100});
   CHECK(desk.workspace.selection == Selection{handle});
   run(action_named("edit.delete"), desk.workspace);
-  CHECK(desk.scene().strokes.empty());
+  CHECK(desk.deformation().strokes.empty());
   CHECK(desk.workspace.document.history().entries().back().label == "Delete stroke");
 }
 
 TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's target, as one step") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::outline;
+  desk.workspace.tools.active = ToolId::outline;
   const size_t before = desk.steps();
   const auto around = [](int i) {
     return Complex(300, 300) + (100.0 + 1.5 * (i % 2)) * std::polar(1.0, 2 * kPi * i / 60);
@@ -138,28 +138,28 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   desk.press(around(0));
   for (int i = 1; i < 60; ++i) desk.move(around(i));
   CHECK(desk.tool().busy());
-  CHECK(desk.scene().outline.empty());
+  CHECK(desk.deformation().outline.empty());
   desk.release(around(59));
-  REQUIRE(desk.scene().outline.size() >= 24);
+  REQUIRE(desk.deformation().outline.size() >= 24);
   CHECK(desk.steps() == before + 1);
-  CHECK(desk.scene().method == "outline");
+  CHECK(desk.deformation().method == "outline");
   // The tremor is gone.
-  for (const Complex& z : desk.scene().outline)
+  for (const Complex& z : desk.deformation().outline)
     CHECK(std::abs(std::abs(z - Complex(300, 300)) - 100.75) <= 0.75);
   desk.settle();
   for (const int v : desk.workspace.map().prepared()->mesh->boundary)
     CHECK(std::abs(std::abs(desk.workspace.map().map().f[v] - Complex(300, 300)) - 100.75) <= 2);
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene().outline.empty());
+  CHECK(desk.deformation().outline.empty());
 }
 
 TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") {
   Desk desk(shapes::rectangle(200, 150));
   // With softness several steps are needed.
-  Scene soft = desk.scene();
+  Deformation soft = desk.deformation();
   soft.other_parameters["outline"] = {{"softness", 0.8}, {"smoothness", 1e-4}};
   desk.workspace.commit("Soft", soft);
-  desk.workspace.tool = ToolId::outline;
+  desk.workspace.tools.active = ToolId::outline;
   Points around;
   for (int i = 0; i < 60; ++i)
     around.push_back(Complex(300, 300) +
@@ -168,7 +168,7 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
   Playback& playback = desk.workspace.playback;
   CHECK(playback.playing);
   const auto pose = [&] {
-    desk.workspace.map().finish(desk.scene(), {false, false, playback.iteration});
+    desk.workspace.map().finish(desk.deformation(), {false, false, playback.iteration});
     return desk.workspace.map().map().f;
   };
   const VectorXc first = pose();
@@ -217,18 +217,18 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   CHECK_FALSE(desk.workspace.map().injectivity().folds());
   CHECK_FALSE(desk.workspace.map().injectivity().crossing);
   // Two corners change places.
-  Scene scene = desk.scene();
-  std::swap(scene.pose.segments[0], scene.pose.segments[1]);
-  desk.workspace.commit("Twist", scene);
+  Deformation deformation = desk.deformation();
+  std::swap(deformation.pose.segments[0], deformation.pose.segments[1]);
+  desk.workspace.commit("Twist", deformation);
   desk.settle();
   const Injectivity& found = desk.workspace.map().injectivity();
   CHECK(found.folds());
   CHECK_FALSE(found.folds_at.empty());
   CHECK(found.crossing);
-  CHECK(found.boundary_turns == Approx(2).margin(0.01));  // around a zero of f'
+  CHECK(found.turning_number == Approx(2).margin(0.01));  // around a zero of f'
   run(action_named("map.fold_free"), desk.workspace);
-  CHECK(desk.scene().method == "bounded");
-  CHECK(choice(method_named("bounded"), desk.scene().parameters, "reference") == "cage");
+  CHECK(desk.deformation().method == "bounded");
+  CHECK(choice(method_named("bounded"), desk.deformation().parameters, "reference") == "cage");
   desk.settle();
   CHECK_FALSE(desk.workspace.map().injectivity().folds());
 }
@@ -238,12 +238,12 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
   Points round;
   for (int i = 0; i < 90; ++i)
     round.push_back(Complex(300, 300) + std::polar(100.0, 2 * kPi * i / 90));
-  desk.workspace.commit("Outline", with_outline(desk.scene(), round));
-  desk.workspace.tool = ToolId::outline;
+  desk.workspace.commit("Outline", with_outline(desk.deformation(), round));
+  desk.workspace.tools.active = ToolId::outline;
   const size_t steps = desk.steps();
   desk.drag({400, 300}, {430, 300});
   CHECK(desk.steps() == steps + 1);
-  const Points bent = desk.scene().outline;
+  const Points bent = desk.deformation().outline;
   CHECK(std::abs(bent[0] - Complex(430, 300)) < 1e-9);
   CHECK(bent[1].real() > round[1].real() + 25);
   CHECK(bent[89].real() > round[89].real() + 25);
@@ -253,11 +253,11 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
   desk.move({180, 320});
   desk.release({180, 320});
   for (size_t i = 0; i < bent.size(); ++i)
-    CHECK(std::abs(desk.scene().outline[i] - bent[i] - Complex(-20, 20)) < 1e-9);
+    CHECK(std::abs(desk.deformation().outline[i] - bent[i] - Complex(-20, 20)) < 1e-9);
   // Bent through itself it is refused.
   desk.drag({410, 320}, {-100, 320});
-  CHECK_FALSE(desk.workspace.toasts.empty());
-  CHECK(std::abs(desk.scene().outline[45] - bent[45] - Complex(-20, 20)) < 1e-9);
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());
+  CHECK(std::abs(desk.deformation().outline[45] - bent[45] - Complex(-20, 20)) < 1e-9);
   CHECK(desk.steps() == steps + 2);
 }
 
@@ -272,29 +272,29 @@ TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") 
   Desk strokes(shapes::rectangle(200, 150));
   Points bent;
   for (int i = 0; i <= 20; ++i) bent.push_back({20.0 + 8 * i, 75 + 30 * std::sin(0.15 * i)});
-  Scene scene = with_stroke(strokes.scene(), {{20, 75}, {180, 75}}, bent);
-  scene.parameters["rigidity"] = 0.2;
-  strokes.workspace.commit("Stroke", scene);
+  Deformation deformation = with_stroke(strokes.deformation(), {{20, 75}, {180, 75}}, bent);
+  deformation.parameters["rigidity"] = 0.2;
+  strokes.workspace.commit("Stroke", deformation);
   strokes.settle();
   CHECK(followed(strokes) < 3);
-  CHECK(strokes.scene().other_parameters.at("strokes").at("rigidity") == 0.2);
+  CHECK(strokes.deformation().other_parameters.at("strokes").at("rigidity") == 0.2);
   // Another stroke stays with the method that follows strokes.
-  CHECK(with_stroke(strokes.scene(), {{20, 20}, {80, 20}}, {{20, 20}, {80, 20}}).method ==
+  CHECK(with_stroke(strokes.deformation(), {{20, 20}, {80, 20}}, {{20, 20}, {80, 20}}).method ==
         "bounded");
 
   Desk outline(shapes::rectangle(200, 150));
   Points oval;
   for (int i = 0; i < 80; ++i)
     oval.push_back(Complex(100 + 130 * std::cos(kPi * i / 40), 75 + 90 * std::sin(kPi * i / 40)));
-  outline.workspace.commit("Outline", with_outline(outline.scene(), oval));
+  outline.workspace.commit("Outline", with_outline(outline.deformation(), oval));
   outline.settle();
   CHECK(followed(outline) < 12);  // but for the corners, where the derivative vanishes
 }
 
 TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::outline;
-  const Scene before = desk.scene();
+  desk.workspace.tools.active = ToolId::outline;
+  const Deformation before = desk.deformation();
   desk.press({300, 300});
   desk.move({400, 300});
   CHECK(desk.tool().key(Key::escape, desk.workspace));
@@ -304,32 +304,32 @@ TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") 
   desk.press({300, 300});
   for (const Complex z : {Complex(400, 300), Complex(300, 400), Complex(400, 400)}) desk.move(z);
   desk.release({400, 400});
-  CHECK(desk.scene() == before);
-  CHECK(!desk.workspace.toasts.empty());
+  CHECK(desk.deformation() == before);
+  CHECK(!desk.workspace.messages.toasts.empty());
 }
 
 TEST_CASE(
     "Outline: clicks set its points, a drag makes one smooth, Enter and the first point close") {
   Desk desk(shapes::rectangle(200, 150));
-  desk.workspace.tool = ToolId::outline;
+  desk.workspace.tools.active = ToolId::outline;
   const size_t steps = desk.steps();
   desk.click({10, 10});
   CHECK(desk.tool().busy());
   desk.click({300, 10});
   CHECK(desk.tool().key(Key::enter, desk.workspace));  // too few: said, and nothing is lost
   CHECK(desk.tool().busy());
-  CHECK_FALSE(desk.workspace.toasts.empty());
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());
   desk.click({300, 200});
   desk.click({150, 280});
   CHECK(desk.tool().key(Key::backspace, desk.workspace));
   desk.drag({10, 200}, {-20, 160});  // smooth
   CHECK(desk.tool().overlay().line_points.size() == 4);
-  CHECK(desk.scene().outline.empty());
+  CHECK(desk.deformation().outline.empty());
   desk.click({10, 10});
   CHECK_FALSE(desk.tool().busy());
   CHECK(desk.steps() == steps + 1);
-  CHECK(desk.scene().method == "outline");
-  const Points outline = desk.scene().outline;
+  CHECK(desk.deformation().method == "outline");
+  const Points outline = desk.deformation().outline;
   CHECK(outline.size() > 8);  // two sides are curves
   desk.press({600, 600});     // the next path does not begin where this one ended
   desk.release({600, 600});
@@ -344,11 +344,11 @@ TEST_CASE(
   CHECK(desk.tool().key(Key::enter, desk.workspace));
   CHECK(desk.tool().busy());
   CHECK(desk.steps() == steps + 1);
-  CHECK(desk.workspace.toasts.back().problem);
+  CHECK(desk.workspace.messages.toasts.back().problem);
   CHECK(desk.tool().key(Key::backspace, desk.workspace));
   CHECK(desk.tool().key(Key::enter, desk.workspace));
   CHECK(desk.steps() == steps + 2);
-  CHECK(desk.scene().outline.size() == 3);
+  CHECK(desk.deformation().outline.size() == 3);
   desk.click({400, 400});
   CHECK(desk.tool().key(Key::escape, desk.workspace));
   CHECK_FALSE(desk.tool().busy());

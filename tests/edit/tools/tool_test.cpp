@@ -32,26 +32,26 @@ TEST_CASE(
 TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis") {
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
-  CHECK(desk.scene().pose.vertex(2) == Complex(230, 90));
-  CHECK(desk.scene().rest.vertex(2) == Complex(200, 100));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
+  CHECK(desk.deformation().rest.vertex(2) == Complex(200, 100));
   CHECK(desk.steps() == 3);
   desk.drag({230, 90}, {260, 95}, kShift);
-  CHECK(desk.scene().pose.vertex(2) == Complex(260, 90));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(260, 90));
   desk.press({260, 90});
   desk.move({262, 90});  // below the threshold
   desk.release({262, 90});
   CHECK(desk.steps() == 4);
   run(action_named("edit.undo"), desk.workspace);
-  CHECK(desk.scene().pose.vertex(2) == Complex(230, 90));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
 }
 
 TEST_CASE("Select: Escape gives a drag up and leaves the scene") {
   Desk desk(shapes::l_shape());
   desk.press({0, 0});
   desk.move({50, 50});
-  CHECK(desk.scene().pose.vertex(0) == Complex(50, 50));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(50, 50));
   CHECK(desk.tool().key(Key::escape, desk.workspace));
-  CHECK(desk.scene().pose.vertex(0) == Complex(0, 0));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(0, 0));
   CHECK(desk.steps() == 2);
 }
 
@@ -62,9 +62,9 @@ TEST_CASE("Select: marquee and Shift pick, dragging one moves all") {
   desk.click({0, 0}, kShift);
   CHECK(desk.workspace.selection.size() == 3);
   desk.drag({200, 0}, {210, 5});
-  CHECK(desk.scene().pose.vertex(0) == Complex(10, 5));
-  CHECK(desk.scene().pose.vertex(2) == Complex(210, 105));
-  CHECK(desk.scene().pose.vertex(3) == Complex(100, 100));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(10, 5));
+  CHECK(desk.deformation().pose.vertex(2) == Complex(210, 105));
+  CHECK(desk.deformation().pose.vertex(3) == Complex(100, 100));
 }
 
 TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay") {
@@ -72,58 +72,58 @@ TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay
   desk.drag({200, 0}, {200, -40});
   desk.press({100, -20}, {}, true);
   desk.release({100, -20});
-  REQUIRE(desk.scene().rest.size() == 7);
-  CHECK(std::abs(desk.scene().pose.vertex(1) - Complex(100, -20)) < 1e-9);
-  CHECK(std::abs(desk.scene().rest.vertex(1) - Complex(100, 0)) < 5);
-  CHECK(desk.scene().rest.vertex(1).imag() == Approx(0).margin(1e-12));
+  REQUIRE(desk.deformation().rest.size() == 7);
+  CHECK(std::abs(desk.deformation().pose.vertex(1) - Complex(100, -20)) < 1e-9);
+  CHECK(std::abs(desk.deformation().rest.vertex(1) - Complex(100, 0)) < 5);
+  CHECK(desk.deformation().rest.vertex(1).imag() == Approx(0).margin(1e-12));
   desk.click({100, -20}, kAlt);
-  CHECK(desk.scene().rest.size() == 6);
+  CHECK(desk.deformation().rest.size() == 6);
   run(action_named("edit.select_all"), desk.workspace);
   run(action_named("edit.delete"), desk.workspace);
-  CHECK(desk.scene().rest.size() == 6);
-  CHECK(desk.workspace.toasts.size() == 1);
+  CHECK(desk.deformation().rest.size() == 6);
+  CHECK(desk.workspace.messages.toasts.size() == 1);
 }
 
 TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its place") {
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 120});
   run(action_named("cage.rest"), desk.workspace);
-  const Cage pose = desk.scene().pose;
+  const Cage pose = desk.deformation().pose;
   desk.drag({200, 100}, {210, 90});
-  CHECK(desk.scene().rest.vertex(2) == Complex(210, 90));
-  CHECK(desk.scene().pose == pose);
+  CHECK(desk.deformation().rest.vertex(2) == Complex(210, 90));
+  CHECK(desk.deformation().pose == pose);
   const size_t before = desk.steps();
   desk.drag({210, 90}, {-80, 50});
   CHECK(desk.steps() == before);
-  CHECK(desk.scene().rest.vertex(2) == Complex(210, 90));
-  REQUIRE(desk.workspace.toasts.size() == 1);
-  CHECK(desk.workspace.toasts[0].where);
+  CHECK(desk.deformation().rest.vertex(2) == Complex(210, 90));
+  REQUIRE(desk.workspace.messages.toasts.size() == 1);
+  CHECK(desk.workspace.messages.toasts[0].where);
 }
 
 TEST_CASE("Pen: draw, take back, close by the first point, by Enter and by double-click") {
   for (const int way : {0, 1, 2}) {
     Desk desk;
-    desk.workspace.tool = ToolId::pen;
+    desk.workspace.tools.active = ToolId::pen;
     for (const Complex z : shapes::rectangle(200, 150)) desk.click(z);
     desk.click({-50, 60});
     CHECK(desk.tool().key(Key::backspace, desk.workspace));
     if (way == 0) desk.click({0, 0});
     if (way == 1) CHECK(desk.tool().key(Key::enter, desk.workspace));
     if (way == 2) desk.press({0, 150}, {}, true);
-    REQUIRE(desk.scene().rest.size() == 4);
-    CHECK(desk.scene().pose == desk.scene().rest);
-    CHECK(desk.workspace.tool == ToolId::select);
+    REQUIRE(desk.deformation().rest.size() == 4);
+    CHECK(desk.deformation().pose == desk.deformation().rest);
+    CHECK(desk.workspace.tools.active == ToolId::select);
   }
 }
 
 TEST_CASE("Each method keeps its parameters, and none takes another's") {
-  Scene scene = with_cage(Scene{}, shapes::rectangle(200, 150));
-  scene = with_method(scene, "pins");
-  scene.parameters["pin_weight"] = 0.01;
-  const Scene outline = with_method(scene, "outline");
+  Deformation deformation = with_cage(Deformation{}, shapes::rectangle(200, 150));
+  deformation = with_method(deformation, "pins");
+  deformation.parameters["pin_weight"] = 0.01;
+  const Deformation outline = with_method(deformation, "outline");
   CHECK(outline.parameters.empty());
-  CHECK(with_method(outline, "pins") == scene);
-  Scene soft = outline;
+  CHECK(with_method(outline, "pins") == deformation);
+  Deformation soft = outline;
   soft.parameters["softness"] = 0.5;
   CHECK(with_method(with_method(soft, "bounded"), "outline").parameters == soft.parameters);
 }
@@ -131,28 +131,28 @@ TEST_CASE("Each method keeps its parameters, and none takes another's") {
 TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing stays to be mended") {
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
-  const Scene before = desk.scene();
-  desk.workspace.tool = ToolId::pen;
+  const Deformation before = desk.deformation();
+  desk.workspace.tools.active = ToolId::pen;
   desk.click({-300, -300});
   desk.click({-200, -300});
-  CHECK(desk.workspace.posture == Posture::rest);
+  CHECK(desk.workspace.mode == EditMode::rest);
   CHECK(desk.tool().key(Key::escape, desk.workspace));
-  CHECK(desk.scene() == before);
+  CHECK(desk.deformation() == before);
   for (const Complex z :
        {Complex(-300, -300), Complex(-200, -200), Complex(-200, -300), Complex(-300, -200)})
     desk.click(z);
   CHECK(desk.tool().key(Key::enter, desk.workspace));
-  CHECK(desk.scene() == before);
+  CHECK(desk.deformation() == before);
   CHECK(desk.tool().busy());
 }
 
 TEST_CASE("Pen: a click on an edge inserts there") {
   Desk desk(shapes::l_shape());
-  desk.workspace.tool = ToolId::pen;
+  desk.workspace.tools.active = ToolId::pen;
   desk.hover({60, 3});
   CHECK(desk.tool().overlay().insertion);
   desk.click({60, 3});
-  CHECK(desk.scene().rest.size() == 7);
+  CHECK(desk.deformation().rest.size() == 7);
 }
 
 TEST_CASE(
@@ -163,75 +163,78 @@ TEST_CASE(
   const VectorXc before = desk.workspace.map().map().f;
   const Complex image = before[before.size() / 2],
                 rest = desk.workspace.map().prepared()->mesh->vertices[before.size() / 2];
-  desk.workspace.tool = ToolId::pin;
+  desk.workspace.tools.active = ToolId::pin;
   desk.click(image);
-  REQUIRE(desk.scene().pins.size() == 1);
-  CHECK(desk.scene().method == "pins");
-  CHECK(std::abs(desk.scene().pins[0].rest - rest) < 0.5);
-  CHECK(desk.scene().pins[0].pose == image);
+  REQUIRE(desk.deformation().pins.size() == 1);
+  CHECK(desk.deformation().method == "pins");
+  CHECK(std::abs(desk.deformation().pins[0].rest - rest) < 0.5);
+  CHECK(desk.deformation().pins[0].pose == image);
   desk.settle();
   CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 0.2);
   desk.drag(image, image + Complex(20, 10));
   desk.settle();
-  CHECK(desk.scene().pins[0].pose == image + Complex(20, 10));
+  CHECK(desk.deformation().pins[0].pose == image + Complex(20, 10));
   desk.click({-300, -300});
-  CHECK(desk.scene().pins.size() == 1);  // outside the picture nothing is set
+  CHECK(desk.deformation().pins.size() == 1);  // outside the picture nothing is set
   desk.click(image + Complex(20, 10), kAlt);
-  CHECK(desk.scene().pins.empty());
+  CHECK(desk.deformation().pins.empty());
 }
 
 TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
   Desk desk(shapes::l_shape());
-  desk.workspace.tool = ToolId::pin;
+  desk.workspace.tools.active = ToolId::pin;
   desk.click({50, 50});
   desk.settle();
-  desk.workspace.tool = ToolId::select;
-  const double radius = kRingRadius * desk.workspace.handle_px;
+  desk.workspace.tools.active = ToolId::select;
+  const double radius = kRingRadius * desk.workspace.display.handle_px;
   const auto on_ring = [&](double angle) { return Complex(50, 50) + std::polar(radius, angle); };
   desk.press(on_ring(0));
   for (double angle = 0.2; angle < 7.01; angle += 0.2) desk.move(on_ring(angle));
   desk.release(on_ring(7.0));
-  REQUIRE(desk.scene().pins[0].angle);
-  CHECK(*desk.scene().pins[0].angle == Approx(7.0).margin(0.05));
-  CHECK(desk.scene().pins[0].pose == Complex(50, 50));
+  REQUIRE(desk.deformation().pins[0].angle);
+  CHECK(*desk.deformation().pins[0].angle == Approx(7.0).margin(0.05));
+  CHECK(desk.deformation().pins[0].pose == Complex(50, 50));
   const size_t steps = desk.steps();
   for (int i = 0; i < 5; ++i) {
     Input input = desk.at(on_ring(1.0));
     input.wheel = 2;
     CHECK(desk.tool().scroll(input, desk.workspace));
   }
-  CHECK(desk.scene().pins[0].scale == Approx(std::pow(1.05, 10)));
+  CHECK(desk.deformation().pins[0].scale == Approx(std::pow(1.05, 10)));
   CHECK(desk.steps() == steps + 1);  // one step however often the wheel clicks
   Input aside = desk.at({120, 50});
   aside.wheel = 2;
   CHECK_FALSE(desk.tool().scroll(aside, desk.workspace));
   run(action_named("edit.free_angle"), desk.workspace);
-  CHECK_FALSE(desk.scene().pins[0].angle);
+  CHECK_FALSE(desk.deformation().pins[0].angle);
 }
 
 TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents") {
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
-  scene.pose.segments[1] = {{200, 0}, {230, 30}, {230, 70}};
-  scene.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
+  deformation.pose.segments[1] = {{200, 0}, {230, 30}, {230, 70}};
+  deformation.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
   const Handle vertex{Handle::Kind::cage, 2, 0};
-  const Scene refitted = erased(scene, {vertex}), kept = erased(scene, {vertex}, Refit::tangents);
-  CHECK(refitted.pose.size() == scene.pose.size() - 1);
+  const Deformation refitted = erased(deformation, {vertex}),
+                    kept = erased(deformation, {vertex}, Refit::tangents);
+  CHECK(refitted.pose.size() == deformation.pose.size() - 1);
   CHECK(refitted.rest == kept.rest);
   CHECK(refitted.pose.degree(1) == 3);
-  CHECK(kept.pose.controls(1) == Points{{200, 0}, {230, 30}, {130, 130}, scene.pose.vertex(3)});
+  CHECK(kept.pose.controls(1) ==
+        Points{{200, 0}, {230, 30}, {130, 130}, deformation.pose.vertex(3)});
   CHECK(refitted.pose != kept.pose);
 }
 
 TEST_CASE("Resetting every handle of a curved pose gives the rest") {
   Desk desk(shapes::l_shape());
-  Scene scene = desk.scene();
-  scene.rest.segments[2] = scene.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
-  scene.pose.segments[1] = {{210, 5}, {230, 30}, {230, 70}};
-  scene.pose.segments[2][1] += 9.0;
-  desk.workspace.commit("Curves", scene);
+  Deformation deformation = desk.deformation();
+  deformation.rest.segments[2] =
+      deformation.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
+  deformation.pose.segments[1] = {{210, 5}, {230, 30}, {230, 70}};
+  deformation.pose.segments[2][1] += 9.0;
+  desk.workspace.commit("Curves", deformation);
   run(action_named("edit.select_all"), desk.workspace);
   run(action_named("edit.reset"), desk.workspace);
-  const Scene& after = desk.scene();
+  const Deformation& after = desk.deformation();
   CHECK(after.pose.segments[2] == after.rest.segments[2]);
   for (Index e = 0; e < after.rest.size(); ++e) {
     const Points rest = elevated(after.rest.controls(e), after.pose.degree(e)),
@@ -242,13 +245,13 @@ TEST_CASE("Resetting every handle of a curved pose gives the rest") {
 
 TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
   Desk desk(shapes::l_shape());
-  desk.workspace.tool = ToolId::pin;
+  desk.workspace.tools.active = ToolId::pin;
   desk.drag({50, 50}, {70, 60});
   CHECK(desk.steps() == 3);  // setting a pin and dragging it on is one step
   desk.settle();
-  desk.workspace.tool = ToolId::pen;
+  desk.workspace.tools.active = ToolId::pen;
   desk.click({400, 400});
-  CHECK(desk.workspace.posture == Posture::rest);
+  CHECK(desk.workspace.mode == EditMode::rest);
 }
 
 TEST_CASE("Nudges merge while they go on, and never into another's step") {
@@ -264,40 +267,40 @@ TEST_CASE("Nudges merge while they go on, and never into another's step") {
   w.go_to(2);
   run(action_named("edit.nudge_up"), w);
   CHECK(desk.steps() == 4);  // a step of its own, after the first nudges
-  CHECK(desk.scene().pose.vertex(0) == Complex(3, 1));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(3, 1));
   run(action_named("edit.undo"), w);
-  CHECK(desk.scene().pose.vertex(0) == Complex(3, 0));
+  CHECK(desk.deformation().pose.vertex(0) == Complex(3, 0));
 }
 
 TEST_CASE("A selection never means another point after undo, or a pin that the method hides") {
   Desk desk(shapes::l_shape());
   Workspace& w = desk.workspace;
-  w.tool = ToolId::pen;
+  w.tools.active = ToolId::pen;
   desk.click({100, 0});
   CHECK(w.selection.size() == 1);
   run(action_named("edit.undo"), w);
   CHECK(w.selection.empty());
-  w.tool = ToolId::pin;
+  w.tools.active = ToolId::pin;
   desk.settle();
   desk.click({50, 50});
   CHECK(w.selection.size() == 1);
-  w.commit("Method", with_method(desk.scene(), "cage"));
+  w.commit("Method", with_method(desk.deformation(), "cage"));
   CHECK(w.selection.empty());
 }
 
 TEST_CASE("Hidden handles cannot be grabbed") {
   Desk desk(shapes::l_shape());
-  desk.workspace.show_cage = false;
-  CHECK_FALSE(handle_at(desk.workspace, desk.workspace.viewport.px_at_plane({0, 0})));
-  desk.workspace.show_cage = true;
-  CHECK(handle_at(desk.workspace, desk.workspace.viewport.px_at_plane({0, 0})));
+  desk.workspace.display.show_cage = false;
+  CHECK_FALSE(handle_at(desk.workspace, desk.workspace.display.viewport.px_at_plane({0, 0})));
+  desk.workspace.display.show_cage = true;
+  CHECK(handle_at(desk.workspace, desk.workspace.display.viewport.px_at_plane({0, 0})));
 }
 
 TEST_CASE("Several handles move together around their middle") {
-  const Scene scene = with_cage(Scene{}, shapes::l_shape());
+  const Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 2, 0}};
-  CHECK(center_of(scene, two, Posture::pose) == Complex(100, 50));
-  CHECK(center_of(moved(scene, two, {5, -3}, Posture::pose), two, Posture::pose) ==
+  CHECK(center_of(deformation, two, EditMode::pose) == Complex(100, 50));
+  CHECK(center_of(moved(deformation, two, {5, -3}, EditMode::pose), two, EditMode::pose) ==
         Complex(105, 47));
 }
 
@@ -306,12 +309,12 @@ TEST_CASE("Nudging, resetting and methods act on the scene as named") {
   desk.click({0, 0});
   for (const char* id : {"edit.nudge_right", "edit.nudge_up_10", "edit.nudge_left_fine"})
     run(action_named(id), desk.workspace);
-  CHECK(std::abs(desk.scene().pose.vertex(0) - Complex(0.9, 10)) < 1e-12);
+  CHECK(std::abs(desk.deformation().pose.vertex(0) - Complex(0.9, 10)) < 1e-12);
   run(action_named("edit.reset"), desk.workspace);
-  CHECK(desk.scene().pose == desk.scene().rest);
-  Scene scene = with_method(desk.scene(), "pins");
-  scene.parameters["smoothness"] = 1e-4;
-  CHECK(with_method(scene, "cage").parameters.empty());
+  CHECK(desk.deformation().pose == desk.deformation().rest);
+  Deformation deformation = with_method(desk.deformation(), "pins");
+  deformation.parameters["smoothness"] = 1e-4;
+  CHECK(with_method(deformation, "cage").parameters.empty());
 }
 
 TEST_CASE("The action table: ids and keys are unique, icons and labels are there") {

@@ -86,39 +86,42 @@ void check_equal(const Cage& a, const Cage& b) {
 }  // namespace
 
 TEST_CASE("A cage goes through SVG and back to 1e-9, at rest and posed, with and without picture") {
-  Scene scene = with_cage(Scene{}, shapes::curved_star(9, 3, 0.3, 4));
-  scene.pose = shapes::curved_star(9, 2, 0.2, 7);
-  scene.pose.segments[3].resize(1);
+  Deformation deformation = with_cage(Deformation{}, shapes::curved_star(9, 3, 0.3, 4));
+  deformation.pose = shapes::curved_star(9, 2, 0.2, 7);
+  deformation.pose.segments[3].resize(1);
   for (const int picture : {0, 400}) {
-    if (picture) scene.image = ImageReference{"x.png", "", picture, picture, "", ""};
-    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::pose), scene.pose);
-    check_equal(cage_of_svg(svg_of(scene), "p.svg", picture, PathUse::rest), scene.rest);
+    std::optional<ImageReference> image;
+    if (picture) image = ImageReference{"x.png", "", picture, picture, "", ""};
+    check_equal(cage_of_svg(svg_of(deformation, image), "p.svg", picture, PathUse::pose),
+                deformation.pose);
+    check_equal(cage_of_svg(svg_of(deformation, image), "p.svg", picture, PathUse::rest),
+                deformation.rest);
   }
 }
 
 TEST_CASE("A pose whose points coincide keeps all its segments through SVG") {
-  Scene scene = with_cage(Scene{}, shapes::l_shape());
-  for (const Index v : {1, 2, 5}) scene.pose.segments[v][0] = scene.pose.segments[0][0];
-  check_equal(cage_of_svg(svg_of(scene), "p.svg", 0, PathUse::pose), scene.pose);
+  Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
+  for (const Index v : {1, 2, 5}) deformation.pose.segments[v][0] = deformation.pose.segments[0][0];
+  check_equal(cage_of_svg(svg_of(deformation, {}), "p.svg", 0, PathUse::pose), deformation.pose);
 }
 
 TEST_CASE("Curves of high degree leave as cubics that follow them, rest and pose in equal pieces") {
-  Scene scene = with_cage(Scene{}, polygon_cage(shapes::l_shape()));
-  scene.pose.segments[0] = {{0, 0}, {0, -60}, {50, -90}, {130, -60}};
+  Deformation deformation = with_cage(Deformation{}, polygon_cage(shapes::l_shape()));
+  deformation.pose.segments[0] = {{0, 0}, {0, -60}, {50, -90}, {130, -60}};
   // Equal to its cubic at a quarter, a half and three quarters, and far from it between.
   Points bent;
   for (int m = 0; m < 7; ++m) bent.push_back({200.0, 100.0 * m / 7});
   const double off[] = {0, 0, -89.285714, 232.142857, -232.142857, 89.285714, 0};
   for (int m = 0; m < 7; ++m) bent[static_cast<size_t>(m)] += off[m];
-  scene.pose.segments[1] = bent;
-  const std::string svg = svg_of(scene);
+  deformation.pose.segments[1] = bent;
+  const std::string svg = svg_of(deformation, {});
   const Cage rest = cage_of_svg(svg, "p.svg", 0, PathUse::rest),
              pose = cage_of_svg(svg, "p.svg", 0, PathUse::pose);
   REQUIRE(rest.size() == pose.size());
-  CHECK(vertices_of(rest).front() == vertices_of(scene.rest).front());
+  CHECK(vertices_of(rest).front() == vertices_of(deformation.rest).front());
   const Points fine = outline_of(pose, 256);
   constexpr double kChord = 1e-3;  // of the fine outline
-  const double allowed = 1e-4 * box_of(controls_of(scene.pose)).diagonal() + kChord;
-  for (const Complex& z : outline_of(scene.pose, 500))
+  const double allowed = 1e-4 * box_of(controls_of(deformation.pose)).diagonal() + kChord;
+  for (const Complex& z : outline_of(deformation.pose, 500))
     CHECK(nearest_on_polygon(fine, z).distance < allowed);
 }

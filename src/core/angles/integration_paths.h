@@ -11,11 +11,11 @@ namespace holomorph {
 /// Nodes joined by steps; where on them the function is wanted, and with which weights. A step's
 /// integral is a Gauss rule whose order grows as the cage's vertices come nearer; into a vertex,
 /// panels that shrink and the integral of the power that is left.
-class AngleWays {
+class IntegrationPaths {
  public:
   /// The first nodes are the mesh's vertices. Mesh and cage must outlive the adding of steps.
   /// Precision::full takes nearly twice the places.
-  AngleWays(const Mesh& mesh, const Cage& cage, Precision precision);
+  IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision);
 
   /// Goes from a node that has been reached to another one.
   void add(int from, int to);
@@ -34,7 +34,7 @@ class AngleWays {
   void integrate(const VectorXc& values, const VectorXd& exponents, VectorXc& integral) const;
 
  private:
-  struct Step {
+  struct PathStep {
     int from, to;
     Index end;  ///< of its places; they start where those of the step before end
   };
@@ -64,7 +64,7 @@ class AngleWays {
   int more_nodes_, panels_;     ///< what Precision::full adds
   std::vector<int> vertex_at_;  ///< the cage's vertex at a node, or -1
   std::vector<char> on_boundary_;
-  std::vector<Step> steps_;
+  std::vector<PathStep> steps_;
   std::vector<Tail> tails_;
   std::vector<Complex> weights_;
 };

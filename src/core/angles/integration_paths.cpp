@@ -1,5 +1,5 @@
 // Gauss rules on straight ways.
-#include "core/angles/angle_ways.h"
+#include "core/angles/integration_paths.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,7 +22,7 @@ int nodes_for(double ratio) {
 
 }  // namespace
 
-AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
+IntegrationPaths::IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision)
     : mesh_(&mesh),
       cage_(&cage),
       corners_(vertices_of(cage)),
@@ -38,7 +38,7 @@ AngleWays::AngleWays(const Mesh& mesh, const Cage& cage, Precision precision)
   on_boundary_ = boundary_marks(mesh);
 }
 
-void AngleWays::add(int from, int to) {
+void IntegrationPaths::add(int from, int to) {
   const size_t start = static_cast<size_t>(from), end = static_cast<size_t>(to);
   const End a{nodes_[start], vertex_at_[start]}, b{nodes_[end], vertex_at_[end]};
   const bool may_leave = on_boundary_[start] && on_boundary_[end] && !is_straight(*cage_);
@@ -46,7 +46,7 @@ void AngleWays::add(int from, int to) {
   steps_.push_back({from, to, static_cast<Index>(places_.size())});
 }
 
-void AngleWays::add_leg(const End& a, const End& b) {
+void IntegrationPaths::add_leg(const End& a, const End& b) {
   if (a.vertex < 0 && b.vertex < 0) {
     const double ratio = std::abs(b.at - a.at) / distance_to_corner(a.at, b.at);
     plain(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
@@ -61,7 +61,7 @@ void AngleWays::add_leg(const End& a, const End& b) {
   }
 }
 
-int AngleWays::vertex_near(Complex z) const {
+int IntegrationPaths::vertex_near(Complex z) const {
   const auto distance = [&](int node) {
     return std::norm(mesh_->vertices[static_cast<size_t>(node)] - z);
   };
@@ -71,7 +71,7 @@ int AngleWays::vertex_near(Complex z) const {
   return *std::ranges::min_element(mesh_->boundary, {}, distance);
 }
 
-int AngleWays::add_node(Complex z) {
+int IntegrationPaths::add_node(Complex z) {
   const int nearest = vertex_near(z);
   if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
   nodes_.push_back(z);
@@ -81,7 +81,7 @@ int AngleWays::add_node(Complex z) {
   return nodes() - 1;
 }
 
-void AngleWays::plain(Complex a, Complex b, int count, double sign) {
+void IntegrationPaths::plain(Complex a, Complex b, int count, double sign) {
   const GaussRule& rule = gauss_rule(count);
   for (size_t g = 0; g < static_cast<size_t>(count); ++g) {
     places_.push_back(a + rule.nodes[g] * (b - a));
@@ -89,7 +89,7 @@ void AngleWays::plain(Complex a, Complex b, int count, double sign) {
   }
 }
 
-void AngleWays::graded(Complex a, int vertex, double sign) {
+void IntegrationPaths::graded(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
   // Where the power is all that is left, or rounding takes over.
   const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
@@ -109,7 +109,7 @@ void AngleWays::graded(Complex a, int vertex, double sign) {
 }
 
 /// Along a chain of legs, unless one of their places is outside.
-bool AngleWays::add_inside(std::initializer_list<End> chain) {
+bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   const size_t places = places_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
   const auto is_inside = [&](Complex z) { return contains(*cage_, z); };
@@ -123,7 +123,7 @@ bool AngleWays::add_inside(std::initializer_list<End> chain) {
 
 // Chords of curves that bend inwards run outside the cage, where the coordinates are different
 // functions. Inside, all paths between two nodes give the same integral.
-bool AngleWays::add_detour(const End& a, const End& b) {
+bool IntegrationPaths::add_detour(const End& a, const End& b) {
   const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
   for (const double aside : {0.05, 0.15, 0.4, 0.8})
     for (const double sign : {1, -1})
@@ -131,15 +131,15 @@ bool AngleWays::add_detour(const End& a, const End& b) {
   return false;
 }
 
-double AngleWays::distance_to_corner(Complex a, Complex b) const {
+double IntegrationPaths::distance_to_corner(Complex a, Complex b) const {
   double least = INFINITY;
   for (const Complex& corner : corners_)
     least = std::min(least, nearest_on_segment(a, b, corner).distance);
   return least;
 }
 
-void AngleWays::integrate(const VectorXc& values, const VectorXd& exponents,
-                          VectorXc& integral) const {
+void IntegrationPaths::integrate(const VectorXc& values, const VectorXd& exponents,
+                                 VectorXc& integral) const {
   Index place = 0;
   size_t tail = 0;
   for (size_t s = 0; s < steps_.size(); ++s) {

@@ -1,0 +1,86 @@
+// The two halves that maps are made of: what rests and what moves.
+#include "scene/deformation.h"
+
+#include "core/error.h"
+
+namespace holomorph {
+
+Rest rest_of(const Deformation& deformation, Precision precision) {
+  if (!deformation.has_cage())
+    throw Error(ErrorKind::bad_input,
+                "the scene has no cage yet; draw one, or make one with 'holomorph new'");
+  Rest rest;
+  rest.cage = elevated_to(deformation.rest, deformation.pose);
+  for (const Keyframe& key : deformation.keyframes)
+    if (fits(deformation, key.pose)) rest.cage = elevated_to(rest.cage, key.pose.cage);
+  for (const Pin& pin : deformation.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
+  for (const Stroke& stroke : deformation.strokes) rest.strokes.push_back(stroke.rest);
+  for (const Corner& corner : deformation.corners) rest.corners.push_back(corner.vertex);
+  rest.outline = deformation.outline;
+  rest.stiffness = deformation.stiffness;
+  rest.parameters = deformation.parameters;
+  rest.other_parameters = deformation.other_parameters;
+  rest.precision = precision;
+  return used_by(method_named(deformation.method), std::move(rest));
+}
+
+Pose whole_pose_of(const Deformation& deformation) {
+  Pose pose{deformation.pose, {}};
+  for (const Pin& pin : deformation.pins)
+    pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
+  for (const Stroke& stroke : deformation.strokes) pose.strokes.push_back(stroke.pose);
+  for (const Corner& corner : deformation.corners) pose.corners.push_back(corner.pose);
+  return pose;
+}
+
+Pose pose_of(const Deformation& deformation) {
+  return used_by(method_named(deformation.method), whole_pose_of(deformation));
+}
+
+// A pose without corners is one from before they were listed: none of them had turned.
+bool fits(const Deformation& deformation, const Pose& pose) {
+  return pose.cage.size() == deformation.rest.size() &&
+         pose.pins.size() == deformation.pins.size() &&
+         pose.strokes.size() == deformation.strokes.size() &&
+         (pose.corners.empty() || pose.corners.size() == deformation.corners.size());
+}
+
+Deformation posed_as(Deformation deformation, const Pose& pose) {
+  check(fits(deformation, pose), "posed_as: the pose fits");
+  deformation.pose = pose.cage;
+  for (size_t i = 0; i < deformation.pins.size(); ++i) {
+    Pin& pin = deformation.pins[i];
+    pin.pose = pose.pins[i].position;
+    if (pin.angle) pin.angle = pose.pins[i].angle;
+    pin.scale = pose.pins[i].scale;
+  }
+  for (size_t i = 0; i < deformation.strokes.size(); ++i)
+    deformation.strokes[i].pose = pose.strokes[i];
+  for (size_t i = 0; i < deformation.corners.size(); ++i)
+    deformation.corners[i].pose = pose.corners.empty() ? PoseCorner{} : pose.corners[i];
+  return deformation;
+}
+
+Deformation at_rest(Deformation deformation) {
+  deformation.pose = deformation.rest;
+  for (Pin& pin : deformation.pins) {
+    pin.pose = pin.rest;
+    if (pin.angle) pin.angle = 0.0;
+    pin.scale = 1;
+  }
+  for (Stroke& stroke : deformation.strokes) stroke.pose = stroke.rest;
+  for (Corner& corner : deformation.corners) corner.pose = {};
+  return deformation;
+}
+
+Deformation with_cage(Deformation deformation, Cage cage) {
+  deformation.rest = std::move(cage);
+  deformation.corners.clear();  // other vertices
+  return at_rest(std::move(deformation));
+}
+
+Deformation with_cage(Deformation deformation, const Points& polygon) {
+  return with_cage(std::move(deformation), polygon_cage(polygon));
+}
+
+}  // namespace holomorph

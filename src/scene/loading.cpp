@@ -1,0 +1,273 @@
+// Paths are the subtle part: a scene names its files relative to itself, and in memory they are
+// absolute.
+#include "scene/loading.h"
+
+#include "core/error.h"
+#include "core/mesh/mesher.h"
+#include "scene/budget.h"
+#include "scene/formats/ora_image.h"
+#include "scene/formats/scene_json.h"
+#include "scene/laid_surface.h"
+#include "scene/preferences.h"
+#include "scene/prepared_map.h"
+#include "scene/recovery.h"
+
+namespace holomorph {
+namespace fs = std::filesystem;
+namespace {
+
+/// The absolute path of what a scene file names.
+Path beside(const Path& scene, const Path& file) {
+  return absolute_path(file.is_absolute() ? file : scene.parent_path() / file);
+}
+
+/// The other way: relative to an absolute folder, as it is when that is empty.
+std::string relative_to(const Path& folder, const Path& file) {
+  const Path relative = folder.empty() ? Path() : file.lexically_relative(folder);
+  return relative.empty() ? file.string() : relative.generic_string();
+}
+
+/// Every file that the layers of a scene name.
+template <class Use>
+void for_each_file(std::vector<Layer>& layers, Use use) {
+  for (Layer& layer : layers) {
+    if (layer.image) use(layer.image->file);
+    if (layer.deformation.surface) use(layer.deformation.surface->file);
+  }
+}
+
+/// Lets a reference name the picture's namesake beside the scene when that is the picture.
+void look_beside(const Path& scene, ImageReference& reference, const Reach& reach,
+                 PictureFiles& files) {
+  const Path name = Path(reference.file).filename();
+  if (name.empty()) return;
+  const Path moved = beside(scene, name);
+  if (!reach.covers(moved, scene.parent_path())) return;
+  try {
+    if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
+  } catch (const Error&) {
+    // There is none either.
+  }
+}
+
+/// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
+/// it may be.
+std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
+                         const std::string& pointer, const LoadOptions& options) {
+  if (!layer.image) return "";
+  ImageReference& reference = *layer.image;
+  if (pictures.withheld().contains(reference.file))
+    return "/image/file: " + reference.file + " is not in the scene's folder.";
+  if (!is_there(reference.file)) look_beside(scene, reference, options.reach, files);
+  try {
+    if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
+  } catch (const Error& error) {
+    const std::string what = pointer + "/image/file: " + error.what();
+    if (!options.pictures_may_be_missing) throw Error(error.kind(), what);
+    return what;
+  }
+  const Picture& picture = *pictures.find(reference);
+  const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
+  reference = described(std::move(reference), picture);
+  return other ? "The picture " + Path(reference.file).filename().string() +
+                     " has changed since the scene was saved."
+               : "";
+}
+
+}  // namespace
+
+std::string read_scene_file(const Path& path) {
+  std::error_code missing;
+  const auto size = fs::file_size(path, missing);
+  if (!missing)
+    check_budget(&Budget::scene, static_cast<double>(size), path.string() + ": the scene has");
+  return read_file(path);
+}
+
+LoadedScene load_scene(const Path& path, const LoadOptions& options) {
+  return scene_of_text(read_scene_file(path), path, options);
+}
+
+namespace {
+
+/// Withholds what is out of a scene's reach, before anything is looked at; throws Error where it
+/// must be there. A picture that lies beside the scene, too, is taken from there.
+void keep_in_reach(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
+                   PictureFiles& files, Pictures& pictures) {
+  const Path folder = scene.parent_path();
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string pointer =
+        scene.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
+    const auto withhold = [&](const std::string& file, const char* what) {
+      if (!options.pictures_may_be_missing)
+        throw Error(ErrorKind::bad_input,
+                    pointer + what + ": " + file +
+                        " is not in the scene's folder; use --allow-outside to "
+                        "read it");
+      pictures.withhold(file);
+    };
+    if (auto& image = layers[i].image; image && !options.reach.covers(image->file, folder)) {
+      look_beside(scene, *image, options.reach, files);
+      if (!options.reach.covers(image->file, folder)) withhold(image->file, "/image/file");
+    }
+    if (const auto& surface = layers[i].deformation.surface;
+        surface && !options.reach.covers(surface->file, folder))
+      withhold(surface->file, "/surface/file");
+  }
+}
+
+}  // namespace
+
+LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadOptions& options) {
+  LoadedScene loaded;
+  loaded.sha256 = sha256_hex(text);
+  loaded.scene = scene_from_json(text, path.string());
+  PictureFiles files(options.open_pixels);
+  std::vector<Layer> layers = layers_of(loaded.scene);
+  try {
+    check_affordable(layers);
+  } catch (const Error& error) {
+    throw about(path, error);
+  }
+  for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
+  keep_in_reach(layers, path, options, files, loaded.pictures);
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string pointer =
+        path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
+    const std::string warning =
+        load_picture(layers[i], loaded.pictures, files, path, pointer, options);
+    if (loaded.warning.empty()) loaded.warning = warning;
+  }
+  loaded.scene.layers = shared(std::move(layers));
+  if (!options.recovers) loaded.scene = without_origin(std::move(loaded.scene));
+  return loaded;
+}
+
+Sources sources_of(const Scene& scene, const Path& scene_path) {
+  Sources sources{scene_path, {}, {}};
+  for (const SharedLayer& layer : scene.layers) {
+    if (layer->image) sources.images.emplace_back(layer->image->file);
+    if (const auto& surface = layer->deformation.surface)
+      sources.surfaces.emplace_back(surface->file);
+  }
+  return sources;
+}
+
+void check_not_a_source(const Path& out, const Sources& sources) {
+  const auto refuse_if = [&](const Path& source, const char* what) {
+    std::error_code ignored;
+    if (!source.empty() && fs::equivalent(out, source, ignored))
+      throw Error(ErrorKind::bad_input,
+                  out.string() + ": this is the " + what + "; choose another name");
+  };
+  refuse_if(sources.scene, "scene itself");
+  for (const Path& image : sources.images) refuse_if(image, "picture that the scene bends");
+  for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene covers");
+}
+
+void check_may_write(const Path& out, const Sources& sources) {
+  check_not_a_source(out, sources);
+  check_not_read_only(out);
+}
+
+namespace {
+
+/// One layer with a picture of a file.
+Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles& files,
+                       Pictures& pictures) {
+  const ImageReference reference = reference_in(file, entry);
+  Picture picture = files.picture(reference);
+  Layer layer;
+  layer.image = described(reference, picture);
+  pictures.put(*layer.image, std::move(picture));
+  return layer;
+}
+
+}  // namespace
+
+LoadedScene scene_of_image(const Path& path, double open_pixels) {
+  LoadedScene loaded;
+  PictureFiles files(open_pixels);
+  if (lower_case(path.extension().string()) != ".ora") {
+    loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
+    return loaded;
+  }
+  std::vector<Layer> layers;
+  for (const OraLayer& each : ora_layers(read_file(path), path.string())) {
+    if (layers.size() == kMostLayers) {
+      loaded.warning += "Only the lowest 100 layers were opened.";
+      break;
+    }
+    Layer layer = layer_of_picture(path, each.entry, files, loaded.pictures);
+    layer.id = static_cast<int>(layers.size()) + 1;
+    layer.name = each.name;
+    layer.visible = each.visible;
+    if (each.blended) loaded.warning = "The blending modes of this file's layers are not kept. ";
+    layers.push_back(std::move(layer));
+  }
+  size_t edited = layers.size() - 1;
+  while (edited > 0 && !layers[edited].visible) --edited;
+  loaded.scene.layers = shared(std::move(layers));
+  loaded.scene.edited = edited;
+  return loaded;
+}
+
+LoadedScene scene_of_pasted(const std::string& png) {
+  decode_image(png, "the clipboard");
+  if (pasted_folder().empty())
+    throw Error(ErrorKind::failed,
+                "Pasted pictures cannot be kept: this user has no home folder. Save the picture "
+                "as a file and open that");
+  std::error_code ignored;
+  fs::create_directories(pasted_folder(), ignored);
+  const Path file = pasted_folder() / (sha256_hex(png).substr(0, 16) + ".png");
+  write_file(file, png);
+  LoadedScene pasted = scene_of_image(file);
+  Layer layer = pasted.scene.layer();
+  layer.name = "Pasted";
+  pasted.scene = scene_of(std::move(layer));
+  return pasted;
+}
+
+LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
+  const SurfaceFile file = surface_of_obj(read_file(obj), obj.string());
+  const auto in_reach = [&](const Path& named) {
+    if (reach.covers(named, obj.parent_path())) return named;
+    throw Error(ErrorKind::bad_input, obj.string() + ": it names " + named.string() +
+                                          ", which is not in its folder; put it there");
+  };
+  const auto texture = [&]() -> std::string {
+    if (file.materials.empty()) return "";
+    return texture_of_materials(read_file(in_reach(beside(obj, file.materials))));
+  }();
+  if (texture.empty())
+    throw Error(ErrorKind::bad_input,
+                obj.string() +
+                    ": this surface has no picture on it. Open a picture, give it a cage and drop "
+                    "the surface onto it");
+  LoadedScene loaded = scene_of_image(in_reach(beside(beside(obj, file.materials), texture)));
+  try {
+    const Image& texture_image = *loaded.image();
+    Deformation deformation =
+        with_cage({}, texture_boundary(file, texture_image.width, texture_image.height));
+    check_rest_cage(deformation.rest);
+    loaded.scene = with_deformation(std::move(loaded.scene), std::move(deformation));
+  } catch (const Error& error) {
+    throw about(obj, error);
+  }
+  return loaded;
+}
+
+bool is_scene_name(const Path& path) {
+  const std::string kind = lower_case(path.extension().string());
+  return kind == ".json" || kind == ".holomorph";
+}
+
+Scene portable(Scene scene, const Path& folder) {
+  std::vector<Layer> layers = layers_of(scene);
+  for_each_file(layers, [&](std::string& file) { file = relative_to(folder, file); });
+  scene.layers = shared(std::move(layers));
+  return scene;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,111 @@
+// The mesh and what a method precomputed are taken over from the last preparation where they can
+// be.
+#include "scene/prepared_map.h"
+
+#include <algorithm>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/maps/distortion.h"
+#include "scene/budget.h"
+
+namespace holomorph {
+namespace {
+
+/// Control points; those of curves take much longer to compute.
+double cost_of(const Cage& cage) {
+  double cost = 0;
+  for (Index i = 0; i < cage.size(); ++i) cost += cage.degree(i) > 1 ? 2.0 * cage.degree(i) : 1.0;
+  return cost;
+}
+
+/// Before they are computed.
+void check_coordinates(const Rest& rest, Index places) {
+  check_budget(&Budget::coordinates, cost_of(rest.cage) * static_cast<double>(places),
+               "the cage has " + std::to_string(rest.cage.control_count()) +
+                   " control points and its mesh " + std::to_string(places) + " vertices:");
+}
+
+/// The same place for every segment, whatever degrees straight ones are written with.
+bool is_same_curve(const Cage& a, const Cage& b) {
+  return a == b || (vertices_of(a) == vertices_of(b) && is_straight(a) && is_straight(b));
+}
+
+bool differ(const std::vector<Depth>& depths) {
+  return std::ranges::any_of(depths, [&](const Depth& d) { return d.depth != depths[0].depth; });
+}
+
+}  // namespace
+
+void check_affordable(std::span<const Layer> layers) {
+  const double vertices = MeshOptions{}.vertices;
+  double controls = 0, keys = 0;
+  for (const Layer& layer : layers) {
+    const Deformation& deformation = layer.deformation;
+    controls += cost_of(deformation.rest);
+    keys += deformation.has_cage() ? static_cast<double>(deformation.keyframes.size()) : 0;
+  }
+  check_budget(&Budget::coordinates, controls * vertices,
+               "the cages have " + std::to_string(static_cast<long>(controls)) +
+                   " control points and their meshes some " +
+                   std::to_string(static_cast<long>(vertices)) + " vertices:");
+  check_budget(&Budget::operators, keys * vertices * sizeof(Complex),
+               "the maps at " + std::to_string(static_cast<long>(keys)) + " keyframes need");
+}
+
+std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared) {
+  std::shared_ptr<const Inbetween> between = prepared.between.load();
+  if (between) return between;
+  between = std::make_shared<const Inbetween>(prepared.mesh);
+  prepared.between.store(between);
+  return between;
+}
+
+std::vector<Depth> depths_of(const Deformation& deformation) {
+  std::vector<Depth> depths;
+  if (!method_named(deformation.method).uses_pins) return depths;
+  for (const Pin& pin : deformation.pins) depths.push_back({pin.rest, pin.depth});
+  return depths;
+}
+
+std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
+                                       const std::vector<Depth>& depths) {
+  if (!differ(depths)) return mesh;
+  auto drawn = std::make_shared<Mesh>(*mesh);
+  drawn->triangles = draw_order(*mesh, depths);
+  return drawn;
+}
+
+bool same_rest(const Deformation& a, const Deformation& b) {
+  if (a.method != b.method || a.has_cage() != b.has_cage()) return false;
+  return !a.has_cage() || rest_of(a, Precision::single) == rest_of(b, Precision::single);
+}
+
+std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precision precision,
+                                          const MeshOptions& options, const PreparedMap* previous) {
+  const double start = now_ms();
+  auto prepared = std::make_unique<PreparedMap>();
+  prepared->rest = rest_of(deformation, precision);
+  prepared->method = deformation.method;
+  const bool same_cage =
+      previous && previous->mesh && is_same_curve(previous->rest.cage, prepared->rest.cage);
+  check_coordinates(prepared->rest, options.vertices);
+  prepared->mesh = same_cage ? previous->mesh
+                             : std::make_shared<const Mesh>(domain_mesh(deformation.rest, options));
+  check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
+  prepared->rest.samples = prepared->mesh->vertices;
+  prepared->rest.mesh = prepared->mesh;
+  if (same_cage) prepared->between.store(previous->between.load());
+  prepared->rest.derivative_samples =
+      same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
+  const bool same_method = previous && previous->method == deformation.method;
+  prepared->deformer =
+      method_named(deformation.method)
+          .prepare(prepared->rest, same_method ? previous->deformer.get() : nullptr);
+  for (const RestPin& pin : prepared->rest.pins)
+    prepared->pins.push_back(locate(*prepared->mesh, prepared->mesh->vertices, pin.position));
+  prepared->milliseconds = now_ms() - start;
+  return prepared;
+}
+
+}  // namespace holomorph
