@@ -51,12 +51,9 @@ class AngleTool final : public Tool {
     shown_.reset();
   }
   bool busy() const override { return dragging_ || marquee_; }
+  bool selects() const override { return true; }
   bool key(Key key, Workspace& workspace) override {
-    if (key == Key::escape) {
-      if (!busy()) workspace.selection.clear();
-      cancel(workspace);
-      return true;
-    }
+    if (key == Key::escape) return escape(workspace);
     if (key != Key::del || workspace.mode == EditMode::rest || !shown_corner(workspace))
       return false;
     remove(corners_of(workspace), workspace);

@@ -36,11 +36,6 @@ class BrushTool final : public Tool {
   }
 
   void cancel(Workspace&) override { painting_ = false; }
-  bool key(Key key, Workspace& workspace) override {
-    if (key != Key::escape || !painting_) return false;
-    cancel(workspace);
-    return true;
-  }
   bool busy() const override { return painting_; }
   ToolOverlay overlay() const override {
     ToolOverlay overlay;

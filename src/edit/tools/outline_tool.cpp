@@ -51,10 +51,7 @@ class OutlineTool final : public Tool {
     if (answer == PenPath::Answer::close) close(workspace);
     if (answer == PenPath::Answer::too_few)
       workspace.messages.say("An outline needs three points at least.");
-    if (answer != PenPath::Answer::ignored) return true;
-    if (key != Key::escape || !busy()) return false;
-    cancel(workspace);
-    return true;
+    return answer != PenPath::Answer::ignored || Tool::key(key, workspace);
   }
   bool busy() const override { return path_.active() || drawing_.active() || pull_.has_value(); }
   ToolOverlay overlay() const override {

@@ -1,16 +1,17 @@
 // P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
 #include "edit/actions/actions.h"
+#include "edit/tools/handle_tool.h"
 #include "edit/tools/pen_path.h"
 
 namespace holomorph {
 namespace {
 
-class PenTool final : public Tool {
+class PenTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::pen; }
 
   void input(const Input& input, Workspace& workspace) override {
-    if (drag_.active()) return void(drag_.follow(input, workspace));
+    if (follow(input, workspace)) return;
     if (path_.active()) {
       if (path_.follow(input, workspace.display.viewport, workspace.display.handle_px))
         close(workspace);
@@ -22,11 +23,7 @@ class PenTool final : public Tool {
   }
 
   bool key(Key key, Workspace& workspace) override {
-    if (!path_.active() && key == Key::escape) {
-      cancel(workspace);
-      workspace.selection.clear();
-      return true;
-    }
+    if (!path_.active()) return HandleTool::key(key, workspace);
     const PenPath::Answer answer = path_.key(key);
     if (answer == PenPath::Answer::close) close(workspace);
     if (answer == PenPath::Answer::too_few)
@@ -35,18 +32,15 @@ class PenTool final : public Tool {
   }
 
   void cancel(Workspace& workspace) override {
-    drag_.cancel(workspace);
+    HandleTool::cancel(workspace);
     path_.cancel();
-    hover_.reset();
     insertion_.reset();
   }
-  bool busy() const override { return path_.active() || drag_.active(); }
+  bool busy() const override { return HandleTool::busy() || path_.active(); }
 
   ToolOverlay overlay() const override {
-    ToolOverlay overlay;
-    overlay.guides = drag_.guides();
+    ToolOverlay overlay = HandleTool::overlay();
     path_.show(overlay);
-    overlay.hover = hover_;
     overlay.insertion = insertion_;
     return overlay;
   }
@@ -68,12 +62,9 @@ class PenTool final : public Tool {
   void idle(const Input& input, Workspace& workspace) {
     const Deformation& deformation = workspace.shown.deformation();
     if (deformation.has_cage()) {
-      hover_ = handle_at(workspace, input.px);
+      find(input, workspace);
       if (hover_) {
-        if (!input.pressed) return;
-        if (erases(input, *hover_, workspace)) return hover_.reset();
-        workspace.selection = {*hover_};
-        drag_.start(input, *hover_, workspace.selection, deformation);
+        if (input.pressed) press(input, workspace);
         return;
       }
       if (const auto hit = edge_at(workspace, input.px)) {
@@ -108,8 +99,6 @@ class PenTool final : public Tool {
 
   PenPath path_;
   std::optional<Complex> insertion_;
-  std::optional<Handle> hover_;
-  HandleDrag drag_;
 };
 
 }  // namespace

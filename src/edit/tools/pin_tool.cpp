@@ -1,30 +1,19 @@
 // N: a click on the picture sets a pin and goes on dragging it; a click on a pin picks it.
 #include "edit/actions/actions.h"
-#include "edit/tools/tool.h"
+#include "edit/tools/handle_tool.h"
 
 namespace holomorph {
 namespace {
 
-class PinTool final : public Tool {
+class PinTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::pin; }
 
   void input(const Input& input, Workspace& workspace) override {
-    if (drag_.active()) return void(drag_.follow(input, workspace));
-    if (ring_.active()) return ring_.follow(input, workspace);
-    hover_.reset();
+    if (follow(input, workspace)) return;
+    find(input, workspace);
     ring_.hover(input, workspace);
-    if (!input.inside) return;
-    hover_ = handle_at(workspace, input.px);
-    if (!input.pressed) return;
-    if (ring_.hovered() && !hover_) return ring_.start(input, workspace);
-    if (hover_ && erases(input, *hover_, workspace)) return hover_.reset();
-    if (hover_) {
-      if (!input.mods.shift && !workspace.selection.contains(*hover_)) workspace.selection.clear();
-      workspace.selection.insert(*hover_);
-      drag_.start(input, *hover_, workspace.selection, workspace.shown.deformation());
-      return;
-    }
+    if (!input.inside || !input.pressed || press(input, workspace)) return;
     if (!workspace.shown.deformation().has_cage()) {
       workspace.messages.say(needs_a_cage("Pins act inside a cage"));
       return;
@@ -49,29 +38,6 @@ class PinTool final : public Tool {
     drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
   }
 
-  void cancel(Workspace& workspace) override {
-    drag_.cancel(workspace);
-    ring_.cancel(workspace);
-    hover_.reset();
-  }
-  bool scroll(const Input& input, Workspace& workspace) override {
-    return ring_.scroll(input, workspace);
-  }
-  bool key(Key key, Workspace& workspace) override {
-    if (key != Key::escape) return false;
-    if (!busy()) workspace.selection.clear();
-    cancel(workspace);
-    return true;
-  }
-  bool busy() const override { return drag_.active() || ring_.active(); }
-  ToolOverlay overlay() const override {
-    ToolOverlay overlay;
-    overlay.guides = drag_.guides();
-    overlay.hover = hover_;
-    overlay.ring = ring_.pin();
-    overlay.ring_hovered = ring_.hovered() || ring_.active();
-    return overlay;
-  }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage()) return needs_a_cage("Pins act inside a cage");
     if (ring_.hovered() && !hover_)
@@ -79,11 +45,6 @@ class PinTool final : public Tool {
     return hover_ ? "Drag to move; Alt-click deletes"
                   : "Click on the picture to set a pin, and drag it";
   }
-
- private:
-  HandleDrag drag_;
-  PinRing ring_;
-  std::optional<Handle> hover_;
 };
 
 }  // namespace

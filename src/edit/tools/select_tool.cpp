@@ -1,32 +1,25 @@
 // V: pick, move, box-select, turn pins, insert by double-click, delete by Alt-click.
 #include "edit/actions/actions.h"
-#include "edit/tools/tool.h"
+#include "edit/tools/handle_tool.h"
 
 namespace holomorph {
 namespace {
 
-class SelectTool final : public Tool {
+class SelectTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::select; }
 
   void input(const Input& input, Workspace& workspace) override {
-    if (ring_.active()) return ring_.follow(input, workspace);
+    if (follow(input, workspace)) return;
     if (box_.active()) return box_.follow(input, workspace);
-    if (drag_.active()) return void(drag_.follow(input, workspace));
     if (marquee_start_) return follow_marquee(input, workspace);
-    hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
+    find(input, workspace);
     ring_.hover(input, workspace);
     box_.hover(input, workspace);
     if (!input.inside || !input.pressed) return;
-    if (ring_.hovered() && !hover_) {
-      ring_.start(input, workspace);
-    } else if (box_.hovered() && !hover_) {
-      box_.start(input, workspace);
-    } else if (hover_ && erases(input, *hover_, workspace)) {
-      hover_.reset();
-    } else if (hover_) {
-      pick(input, workspace);
-    } else if (input.double_clicked) {
+    if (box_.hovered() && !hover_ && !ring_.hovered()) return box_.start(input, workspace);
+    if (press(input, workspace)) return;
+    if (input.double_clicked) {
       if (const auto hit = edge_at(workspace, input.px)) insert_at(workspace, *hit);
     } else if (box_.inside() && !input.mods.shift) {
       box_.start(input, workspace);
@@ -37,32 +30,15 @@ class SelectTool final : public Tool {
   }
 
   void cancel(Workspace& workspace) override {
-    drag_.cancel(workspace);
-    ring_.cancel(workspace);
+    HandleTool::cancel(workspace);
     box_.cancel(workspace);
     marquee_start_.reset();
-    hover_.reset();
   }
   bool busy() const override {
-    return drag_.active() || ring_.active() || box_.active() || marquee_start_.has_value();
+    return HandleTool::busy() || box_.active() || marquee_start_.has_value();
   }
-  bool scroll(const Input& input, Workspace& workspace) override {
-    return ring_.scroll(input, workspace);
-  }
-  bool key(Key key, Workspace& workspace) override {
-    if (key != Key::escape) return false;
-    const bool was_busy = busy();
-    cancel(workspace);
-    if (!was_busy) workspace.selection.clear();
-    return true;
-  }
-
   ToolOverlay overlay() const override {
-    ToolOverlay overlay;
-    overlay.guides = drag_.guides();
-    overlay.hover = hover_;
-    overlay.ring = ring_.pin();
-    overlay.ring_hovered = ring_.hovered() || ring_.active();
+    ToolOverlay overlay = HandleTool::overlay();
     if (!drag_.active()) overlay.box = box_.mark();
     if (marquee_start_ && std::abs(marquee_end_ - *marquee_start_) >= kDragThresholdPx) {
       Box box;
@@ -95,17 +71,6 @@ class SelectTool final : public Tool {
   }
 
  private:
-  void pick(const Input& input, Workspace& workspace) {
-    Selection& selection = workspace.selection;
-    if (input.mods.shift && selection.contains(*hover_)) {
-      selection.erase(*hover_);
-      return;
-    }
-    if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
-    selection.insert(*hover_);
-    drag_.start(input, *hover_, selection, workspace.shown.deformation());
-  }
-
   void follow_marquee(const Input& input, Workspace& workspace) {
     marquee_end_ = input.px;
     if (input.down && !input.released) return;
@@ -123,11 +88,8 @@ class SelectTool final : public Tool {
         workspace.selection.insert(handle);
   }
 
-  HandleDrag drag_;
-  std::optional<Handle> hover_;
   std::optional<Complex> marquee_start_;
   Complex marquee_end_;
-  PinRing ring_;
   TransformBox box_;
 };
 

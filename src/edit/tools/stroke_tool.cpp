@@ -5,7 +5,7 @@
 #include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
 #include "edit/tools/freehand.h"
-#include "edit/tools/tool.h"
+#include "edit/tools/handle_tool.h"
 
 namespace holomorph {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kStepPx = 6, kShortestPx = 12;
 constexpr double kReach = 0.25, kEndReach = 1;  ///< of a pull, in lengths of the stroke
 
-class StrokeTool final : public Tool {
+class StrokeTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::stroke; }
 
@@ -22,42 +22,29 @@ class StrokeTool final : public Tool {
       if (drawing_.follow(input)) finish(workspace);
       return;
     }
-    if (drag_.active()) return void(drag_.follow(input, workspace));
+    if (follow(input, workspace)) return;
     if (pull_) return follow_pull(input, workspace);
-    hover_ = input.inside ? handle_at(workspace, input.px) : std::nullopt;
+    find(input, workspace);
     if (!input.inside || !input.pressed) return;
     const bool redraws = input.mods.shift && selected_stroke(workspace);
     if (!hover_ || redraws) return start_drawing(input, workspace);
-    if (erases(input, *hover_, workspace)) return hover_.reset();
-    Selection& selection = workspace.selection;
-    if (input.mods.shift && selection.contains(*hover_)) return void(selection.erase(*hover_));
-    if (!input.mods.shift && !selection.contains(*hover_)) selection.clear();
-    selection.insert(*hover_);
-    if (hover_->kind == Handle::Kind::stroke && start_pull(input, workspace)) return;
-    drag_.start(input, *hover_, selection, workspace.shown.deformation());
+    press(input, workspace);
   }
 
   void cancel(Workspace& workspace) override {
-    drag_.cancel(workspace);
+    HandleTool::cancel(workspace);
     if (pull_) workspace.shown.preview.reset();
     pull_.reset();
     drawing_.cancel();
     redrawn_.reset();
-    hover_.reset();
   }
-  bool key(Key key, Workspace& workspace) override {
-    if (key != Key::escape) return false;
-    if (!busy()) workspace.selection.clear();
-    cancel(workspace);
-    return true;
+  bool busy() const override {
+    return HandleTool::busy() || drawing_.active() || pull_.has_value();
   }
-  bool busy() const override { return drawing_.active() || drag_.active() || pull_.has_value(); }
 
   ToolOverlay overlay() const override {
-    ToolOverlay overlay;
-    overlay.guides = drag_.guides();
+    ToolOverlay overlay = HandleTool::overlay();
     overlay.line = drawing_.line();
-    overlay.hover = hover_;
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
@@ -134,7 +121,8 @@ class StrokeTool final : public Tool {
   }
 
   /// At an end, or anywhere with Ctrl, a stroke is bent instead of moved.
-  bool start_pull(const Input& input, Workspace& workspace) {
+  bool start_gesture(const Input& input, Workspace& workspace) override {
+    if (hover_->kind != Handle::Kind::stroke) return false;
     const Points& curve = curve_of(workspace.shown.deformation(), hover_->index, workspace.mode);
     const auto off = [&](Complex z) {
       return std::abs(workspace.display.viewport.px_at_plane(z) - input.px);
@@ -164,9 +152,7 @@ class StrokeTool final : public Tool {
 
   Freehand drawing_;
   std::optional<Index> redrawn_;  ///< the stroke that the line being drawn replaces
-  HandleDrag drag_;
   std::optional<Pull> pull_;
-  std::optional<Handle> hover_;
 };
 
 }  // namespace

@@ -8,6 +8,13 @@
 
 namespace holomorph {
 
+bool Tool::escape(Workspace& workspace) {
+  if (!busy() && !selects()) return false;
+  if (!busy()) workspace.selection.clear();
+  cancel(workspace);
+  return true;
+}
+
 bool HandleDrag::follow(const Input& input, Workspace& workspace) {
   if (!moving_ && std::abs(input.px - start_px_) >= kDragThresholdPx) {
     moving_ = true;

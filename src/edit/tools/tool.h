@@ -42,7 +42,13 @@ class Tool {
   virtual ToolId id() const = 0;
   virtual void input(const Input& input, Workspace& workspace) = 0;
   /// A key that the tool uses itself (Enter, Backspace, Escape); false leaves it to the actions.
-  virtual bool key(Key, Workspace&) { return false; }
+  virtual bool key(Key key, Workspace& workspace) {
+    return key == Key::escape && escape(workspace);
+  }
+  /// Drops an unfinished gesture; without one, tools that select clear the selection. Returns
+  /// whether there was anything to do for Escape.
+  bool escape(Workspace& workspace);
+  virtual bool selects() const { return false; }
   /// Drops an unfinished gesture.
   virtual void cancel(Workspace& workspace) = 0;
   virtual bool busy() const = 0;
