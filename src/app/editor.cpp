@@ -19,6 +19,7 @@
 #include "app/state_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "edit/key_focus.h"
 
 namespace holomorph {
 namespace {
@@ -34,10 +35,10 @@ class Editor {
             workspace_, preferences_, [this] { document_replaced(); }, [this] { window_.wake(); },
             options.allow_outside),
         keys_(workspace_, files_.chooser(), [this] {
-          preferences_.keys = changed_keys();
+          preferences_.keys = workspace_.actions.changed_keys();
           files_.keep_preferences();
         }) {
-    use_keys(preferences_.keys);
+    workspace_.actions.use_keys(preferences_.keys);
     files_.chooser().use_native(preferences_.native_dialogs);
     tools_.push_back(select_tool());
     tools_.push_back(pen_tool());
@@ -88,7 +89,7 @@ class Editor {
       window_.set_style(preferences_.ui_scale, preferences_.theme);
       fit_ = true;
     }
-    window_.begin_frame(navigates());
+    window_.begin_frame(navigates_items(window_focus()));
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
     take_events();
@@ -170,27 +171,20 @@ class Editor {
       for (const Path& path : window_.take_drops()) files_.drop(path);
       if (window_.take_close()) workspace_.request = Request::quit;
     }
-    // A number that is being dragged in the inspector takes the keys, too.
-    const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
-    if (workspace_.shown.preview && !current_tool().busy() && !ImGui::IsAnyItemActive() &&
-        !was_active_)
+    // What a panel previewed goes when nothing in it is being dragged any longer.
+    const bool active = ImGui::IsAnyItemActive();
+    if (workspace_.shown.preview && !current_tool().busy() && !active && !was_active_)
       workspace_.shown.preview.reset();
-    was_active_ = ImGui::IsAnyItemActive();
-    // A key that closes a menu has closed it by now.
-    const bool popup = has_popup(), had_popup = std::exchange(had_popup_, popup);
-    const bool modal = files_.asking() || palette_.open() || keys_.open() || popup || had_popup;
+    was_active_ = active;
     panel_focus_.look();
+    const KeyFocus focus = key_focus(window_focus());
+    menu_was_open_ = has_popup();
     for (const auto& [key, repeats] : window_.take_keys()) {
-      if (keys_.waits_for_key()) {
-        if (!repeats) keys_.take(key);  // one that is held was meant once
-      } else if (typing || modal)
-        continue;
-      else if (panel_focus_.held())
-        take_panel_key(key);
-      else
-        take_key(key);
+      if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key is meant once
+      if (focus == KeyFocus::panel) take_panel_key(key);
+      if (focus == KeyFocus::canvas) take_key(key);
     }
-    const bool holds = !typing && !panel_focus_.held();
+    const bool holds = focus == KeyFocus::canvas;
     workspace_.display.hide_overlays = holds && is_held("hold.overlays");
     workspace_.display.show_original = holds && is_held("hold.original");
     window_.stand_in_for_alt(holds && is_held("hold.alt"));
@@ -200,29 +194,29 @@ class Editor {
     return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   }
 
-  /// Whether the keys that go through items belong to a dialog, a menu or a panel. The palette has
-  /// its own.
-  bool navigates() const {
-    if (keys_.waits_for_key() || palette_.open()) return false;
-    return files_.asking() || keys_.open() || panel_focus_.held() || has_popup();
+  WindowFocus window_focus() const {
+    WindowFocus focus;
+    focus.assigns_key = keys_.waits_for_key();
+    focus.edits_field = ImGui::GetIO().WantTextInput || ImGui::IsAnyItemActive();
+    focus.palette = palette_.open();
+    focus.dialog = files_.asking() || keys_.open();
+    focus.menu = has_popup();
+    focus.menu_was_open = menu_was_open_;
+    focus.panel = panel_focus_.held();
+    return focus;
   }
 
-  /// While a panel has the keys, those that go through it and write into it are not actions'.
   void take_panel_key(const Shortcut& key) {
     if (key == Shortcut(Key::escape)) return panel_focus_.leave();
-    const Action* action = action_for(key, workspace_);
-    if (!action) return;
-    const bool leads_on = action->id == "view.next_panel" || action->id == "view.menu",
-               named = key.key >= static_cast<int>(Key::tab) && key.key < static_cast<int>(Key::f1),
-               other = key.key >= static_cast<int>(Key::f1) || key.mods.ctrl;
-    if (leads_on || (other && !named)) holomorph::run(*action, workspace_);
+    const Action* action = workspace_.actions.for_key(key, workspace_);
+    if (action && acts_from_panel(key, *action)) holomorph::run(*action, workspace_);
   }
 
   /// Whether a key is down that does something while it is held.
   bool is_held(const char* id) const {
     const ImGuiIO& io = ImGui::GetIO();
     const Modifiers held{io.KeyCtrl, io.KeyShift, io.KeyAlt && !window_.stands_in_for_alt()};
-    return std::ranges::any_of(action_named(id).keys, [&](const Shortcut& key) {
+    return std::ranges::any_of(workspace_.actions.named(id).keys, [&](const Shortcut& key) {
       return window_.is_down(key) && key.mods == held;
     });
   }
@@ -234,17 +228,16 @@ class Editor {
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
     if (current_tool().busy()) return take_key_in_gesture(key);
-    if (const Action* action = action_for(key, workspace_)) holomorph::run(*action, workspace_);
+    if (const Action* action = workspace_.actions.for_key(key, workspace_))
+      holomorph::run(*action, workspace_);
   }
 
   /// A gesture is finished first; only the view may change meanwhile, and undo takes a part back.
   void take_key_in_gesture(const Shortcut& key) {
-    const Action* action = owner_of(key);
+    const Action* action = workspace_.actions.owner_of(key);
     if (!action) return;
     if (action->id == "edit.undo") current_tool().key(Key::backspace, workspace_);
-    for (const char* id : {"view.frame", "view.fit", "view.actual", "view.zoom_in", "view.zoom_out",
-                           "view.overlays"})
-      if (action->id == id) holomorph::run(*action, workspace_);
+    if (action->during_gesture) holomorph::run(*action, workspace_);
   }
 
   Input take_input() {
@@ -294,10 +287,10 @@ class Editor {
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.display.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
     if (space && !std::exchange(space_, true))
-      space_pans_ = navigates() || palette_.open() || keys_.open();
+      space_pans_ = key_focus(window_focus()) != KeyFocus::canvas;
     space_pans_ = space_pans_ || panning_;
     if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
-      if (const Action* action = action_for(Key::space, workspace_))
+      if (const Action* action = workspace_.actions.for_key(Key::space, workspace_))
         holomorph::run(*action, workspace_);
     if (input.wheel != 0)
       workspace_.display.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
@@ -392,8 +385,8 @@ class Editor {
                          std::exchange(goes_to_menu_, false) ? &panel_focus_ : nullptr));
     StatusLine status;
     if (workspace_.document.empty()) {
-      status.hint = "Open or drop a picture, or click a sample. " + key_of("help.keys") +
-                    " shows keys and mouse.";
+      status.hint = "Open or drop a picture, or click a sample. " +
+                    workspace_.actions.key_of("help.keys") + " shows keys and mouse.";
       answer(draw_welcome(workspace_, preferences_, samples_.shown(), files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
@@ -418,7 +411,7 @@ class Editor {
       if (panel_focus_.held())
         status.hint =
             "Esc leads back to the canvas; arrows, Tab and Enter go through this panel; " +
-            key_of("view.next_panel") + " to the next one";
+            workspace_.actions.key_of("view.next_panel") + " to the next one";
       if (workspace_.shown.timeline.recording)
         status.hint = recording_hint(workspace_.shown.timeline);
       if (input.inside) status.cursor = input.position;
@@ -448,7 +441,7 @@ class Editor {
   std::optional<StateFile> state_file_;
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
-       was_active_ = false, restyle_ = false, had_popup_ = false, goes_to_menu_ = false;
+       was_active_ = false, restyle_ = false, menu_was_open_ = false, goes_to_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
   bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
   ComparisonPanel comparison_;

@@ -52,8 +52,8 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
         (added.scene.layers.size() > 1
              ? std::to_string(added.scene.layers.size()) + " layers were"
              : title_of_layer(document.scene(), document.scene().edited) + " was") +
-        " added above the layer that was edited. " + key_of("layer.above") + " and " +
-        key_of("layer.below") + " choose layers.");
+        " added above the layer that was edited. " + workspace_.actions.key_of("layer.above") +
+        " and " + workspace_.actions.key_of("layer.below") + " choose layers.");
   return true;
 }
 

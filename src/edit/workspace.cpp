@@ -4,16 +4,15 @@
 #include <algorithm>
 
 #include "core/geometry/polyline.h"
-#include "edit/actions/actions.h"
 #include "scene/formats/scene_json.h"
 
 namespace holomorph {
 namespace {
 
-std::string left_text() {
-  return "The pose has no key: it stays the scene's own, and " + key_of("edit.undo") +
-         " leads back. " + key_of("time.key") + " sets a key, and with " + key_of("time.auto_key") +
-         " every edit does.";
+std::string left_text(const ActionTable& actions) {
+  return "The pose has no key: it stays the scene's own, and " + actions.key_of("edit.undo") +
+         " leads back. " + actions.key_of("time.key") + " sets a key, and with " +
+         actions.key_of("time.auto_key") + " every edit does.";
 }
 
 }  // namespace
@@ -86,8 +85,9 @@ bool Workspace::commit_layers(const std::string& label, Scene scene) {
 bool Workspace::require_open_layer() {
   const Layer& layer = document.scene().layer();
   if (layer.locked || !layer.visible)
-    messages.say(layer.locked ? "The layer is locked: " + key_of("layer.lock") + " unlocks it."
-                              : "The layer is hidden: " + key_of("layer.visible") + " shows it.");
+    messages.say(layer.locked
+                     ? "The layer is locked: " + actions.key_of("layer.lock") + " unlocks it."
+                     : "The layer is hidden: " + actions.key_of("layer.visible") + " shows it.");
   return !layer.locked && layer.visible;
 }
 
@@ -174,7 +174,7 @@ void Workspace::go_to_time(double seconds) {
   shown.preview.reset();
   const Timeline& timeline = shown.timeline;
   if (!timeline.shows && seconds != timeline.time && shown.leaves_a_pose())
-    messages.say(left_text());
+    messages.say(left_text(actions));
   shown.go_to_time(seconds);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/maps/heat.h"
+#include "edit/actions/actions.h"
 #include "edit/edits/displacement.h"
 #include "edit/messages.h"
 #include "edit/shown.h"
@@ -96,6 +97,7 @@ struct Workspace {
   DisplayOptions display;
   ToolSettings tools;
   Messages messages;
+  ActionTable actions;
   Playback playback;
   std::optional<Pose> copied;  ///< a pose
   Request request = Request::none;

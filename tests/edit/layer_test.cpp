@@ -13,7 +13,7 @@ const Points kSquare{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
 /// Two layers with the same cage; the upper one is edited.
 struct TwoLayers : Desk {
   TwoLayers() : Desk(kSquare) {
-    run(action_named("layer.double"), workspace);
+    run("layer.double", workspace);
     settle();
   }
   Complex corner(size_t layer) const {
@@ -29,17 +29,17 @@ TEST_CASE("Edits move the edited layer alone, and undo leads back through both")
   CHECK(desk.corner(1) == Complex(-20, 0));
   CHECK(desk.corner(0) == Complex(0, 0));
   desk.workspace.selection = {{Handle::Kind::cage, 0, 0}};
-  run(action_named("layer.below"), desk.workspace);
+  run("layer.below", desk.workspace);
   CHECK(desk.workspace.selection.empty());
   desk.settle();
   desk.drag({0, 0}, {0, -30});
   CHECK(desk.corner(0) == Complex(0, -30));
   CHECK(desk.corner(1) == Complex(-20, 0));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.corner(0) == Complex(0, 0));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.workspace.document.scene().edited == 1);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.corner(1) == Complex(0, 0));
 }
 
@@ -47,35 +47,35 @@ TEST_CASE("Looking through layers is one step of the history") {
   TwoLayers desk;
   const size_t steps = desk.steps();
   for (int i = 0; i < 3; ++i) {
-    run(action_named("layer.below"), desk.workspace);
-    run(action_named("layer.above"), desk.workspace);
+    run("layer.below", desk.workspace);
+    run("layer.above", desk.workspace);
   }
-  run(action_named("layer.below"), desk.workspace);
+  run("layer.below", desk.workspace);
   CHECK(desk.steps() == steps + 1);
   CHECK(desk.workspace.document.scene().edited == 0);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.workspace.document.scene().edited == 1);
-  CHECK_FALSE(action_named("layer.above").enabled(desk.workspace));
+  CHECK_FALSE(desk.workspace.actions.named("layer.above").enabled(desk.workspace));
 }
 
 TEST_CASE("A locked layer refuses edits and says so; the others do not") {
   TwoLayers desk;
-  run(action_named("layer.lock"), desk.workspace);
+  run("layer.lock", desk.workspace);
   const Scene before = desk.workspace.document.scene();
   desk.drag({0, 0}, {-20, 0});
   CHECK(desk.workspace.document.scene() == before);
   REQUIRE_FALSE(desk.workspace.messages.toasts.empty());
   CHECK(desk.workspace.messages.toasts.back().text.find("locked") != std::string::npos);
-  run(action_named("layer.delete"), desk.workspace);
+  run("layer.delete", desk.workspace);
   CHECK(desk.workspace.document.scene().layers.size() == 2);
-  run(action_named("layer.down"), desk.workspace);  // its place is not its content
+  run("layer.down", desk.workspace);  // its place is not its content
   CHECK(desk.workspace.document.scene().edited == 0);
-  run(action_named("layer.above"), desk.workspace);
+  run("layer.above", desk.workspace);
   desk.settle();
   desk.drag({200, 200}, {220, 200});
   CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(220, 200));
-  run(action_named("layer.below"), desk.workspace);
-  run(action_named("layer.lock"), desk.workspace);
+  run("layer.below", desk.workspace);
+  run("layer.lock", desk.workspace);
   desk.settle();
   desk.drag({0, 0}, {-20, 0});
   CHECK(desk.workspace.shown.own().pose.vertex(0) == Complex(-20, 0));
@@ -87,13 +87,13 @@ TEST_CASE("Layers are hidden, ordered and deleted by actions, and each undoes") 
   for (const char* id : {"layer.visible", "layer.lock", "layer.down", "layer.delete",
                          "background.original", "background.color"}) {
     INFO(id);
-    run(action_named(id), desk.workspace);
+    run(id, desk.workspace);
     CHECK(desk.workspace.document.scene() != before);
-    run(action_named("edit.undo"), desk.workspace);
+    run("edit.undo", desk.workspace);
     CHECK(desk.workspace.document.scene() == before);
   }
-  run(action_named("layer.delete"), desk.workspace);
-  CHECK_FALSE(action_named("layer.delete").enabled(desk.workspace));
+  run("layer.delete", desk.workspace);
+  CHECK_FALSE(desk.workspace.actions.named("layer.delete").enabled(desk.workspace));
 }
 
 TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
@@ -106,7 +106,7 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
   w.update_map({});
   desk.drag({0, 0}, {-40, 0});
   w.set_key();
-  run(action_named("layer.below"), w);
+  run("layer.below", w);
   CHECK(w.shown.own().keyframes.empty());
   w.go_to_time(1);
   CHECK_FALSE(w.shown.time());
@@ -120,14 +120,14 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
   REQUIRE(upper.timed());
   CHECK(upper.timed()->pose.vertex(0).real() == Approx(-20).margin(3));
   CHECK(w.shown.deformation().pose.vertex(0) == Complex(0, 0));
-  CHECK(action_named("time.play").enabled(w));
+  CHECK(desk.workspace.actions.named("time.play").enabled(w));
 }
 
 TEST_CASE("Folds are walked from the worst one on, and around") {
   // Two corners of the square cross to the other side, one of them farther.
   Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
   Workspace& w = desk.workspace;
-  run(action_named("view.fold"), w);
+  run("view.fold", w);
   CHECK(w.messages.toasts.back().text == "Nothing folds.");
   Deformation deformation = desk.deformation();
   deformation.method = "harmonic";
@@ -140,7 +140,7 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
   const Points folds = w.map().injectivity().folds_at;
   REQUIRE_FALSE(folds.empty());
   for (size_t i = 0; i <= folds.size(); ++i) {
-    run(action_named("view.fold"), w);
+    run("view.fold", w);
     CHECK(w.display.viewport.center == folds[i % folds.size()]);
     CHECK(w.messages.toasts.back().problem);
   }
@@ -160,7 +160,7 @@ TEST_CASE("A box around a picture moves all of it, and the view is of where it i
     return std::pair(Complex(box.left, box.bottom), Complex(box.right, box.top));
   };
   CHECK(corners() == std::pair(Complex(0, 0), Complex(100, 80)));
-  run(action_named("cage.box"), desk.workspace);
+  run("cage.box", desk.workspace);
   CHECK(desk.workspace.selection.size() == 4);
   CHECK(desk.deformation().rest.vertex(2) == Complex(100, 80));
   desk.settle();

@@ -14,7 +14,7 @@ namespace {
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
 void act(Desk& desk, const char* id) {
-  run(action_named(id), desk.workspace);
+  run(id, desk.workspace);
   desk.workspace.update_map({});
 }
 
@@ -101,14 +101,14 @@ TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
   Desk desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
-  CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
+  CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
   desk.workspace.shown.timeline.chosen = true;  // as the panel does
   act(desk, "edit.delete");
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
   CHECK(desk.workspace.shown.own().rest.size() == 4);
   act(desk, "edit.undo");
   go_to(desk, 0.5);  // another time: nothing is chosen
-  CHECK_FALSE(action_named("edit.delete").enabled(desk.workspace));
+  CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
 }
 
 TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {

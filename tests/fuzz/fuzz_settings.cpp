@@ -1,6 +1,6 @@
 // Any bytes as preferences, and as keys to import.
 #include "core/error.h"
-#include "edit/actions/keymap.h"
+#include "edit/actions/actions.h"
 #include "scene/preferences.h"
 
 using namespace holomorph;
@@ -11,11 +11,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   check(preferences.ui_scale == 0 || (preferences.ui_scale >= 0.75 && preferences.ui_scale <= 4),
         "a scale can be shown");
   for (const Path& path : preferences.recent) check(path.is_absolute(), "recent files have names");
-  use_keys(preferences.keys);
-  use_keys({});
+  ActionTable actions;
+  actions.use_keys(preferences.keys);
+  actions.use_keys({});
   try {
-    use_keys(keys_of_json(text, "fuzz"));
-    use_keys({});
+    actions.use_keys(keys_of_json(text, "fuzz"));
+    actions.use_keys({});
   } catch (const Error&) {
   }
   return 0;

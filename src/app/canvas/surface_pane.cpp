@@ -146,7 +146,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   }
   ImGui::SameLine(right);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
-  if (ImGui::Button("\uf00d", {button, 0})) run(action_named("view.surface"), workspace);
+  if (ImGui::Button("\uf00d", {button, 0})) run("view.surface", workspace);
   ImGui::PopStyleVar();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);

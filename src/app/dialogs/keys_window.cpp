@@ -21,7 +21,7 @@ void wrapped_cell(const std::string& text) {
 }  // namespace
 
 void KeysWindow::assign(const std::vector<Shortcut>& keys) {
-  say_lost(set_keys(waiting_, keys));
+  say_lost(workspace_.actions.set_keys(waiting_, keys));
   stop_waiting();
 }
 
@@ -39,13 +39,13 @@ void KeysWindow::say_lost(const std::vector<std::string>& labels) {
 void KeysWindow::take(const Shortcut& key) {
   if (key == Shortcut(Key::escape)) return stop_waiting();
   if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
-  const Action* owner = owner_of(key);
+  const Action* owner = workspace_.actions.owner_of(key);
   if (owner && owner->id != waiting_ && asked_ != key) {
     asked_ = key;
     return;
   }
   std::vector<Shortcut> keys;
-  if (adds_) keys = action_named(waiting_).keys;
+  if (adds_) keys = workspace_.actions.named(waiting_).keys;
   keys.push_back(key);
   assign(keys);
 }
@@ -62,8 +62,8 @@ void KeysWindow::export_keys() {
                  try {
                    check_not_read_only(path);
                    write_file(path, lower_case(path.extension().string()) == ".md"
-                                        ? keys_markdown()
-                                        : json_of_keys(all_keys()));
+                                        ? keys_markdown(workspace_.actions)
+                                        : json_of_keys(workspace_.actions.all_keys()));
                    workspace_.messages.say("Exported " + path.filename().string() + ".");
                  } catch (const Error& error) {
                    return error.what();
@@ -76,7 +76,8 @@ void KeysWindow::import_keys() {
   stop_waiting();
   chooser_.ask_open("Import keys", "Open", {".json"}, [this](const Path& path) -> std::string {
     try {
-      const auto unknown = use_keys(keys_of_json(read_file(path), path.filename().string()));
+      const auto unknown =
+          workspace_.actions.use_keys(keys_of_json(read_file(path), path.filename().string()));
       if (!unknown.empty())
         workspace_.messages.say(
             "Not known here and left out: " + unknown[0] +
@@ -102,17 +103,17 @@ void KeysWindow::draw_row(const Action& action, float s) {
     if (!waits) waiting_ = action.id;
     adds_ = ImGui::GetIO().KeyShift;
   }
-  if (has_own_keys(action)) {
+  if (workspace_.actions.has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
     if (ImGui::Button("\uf0e2", {30 * s, 0})) {
       stop_waiting();
-      say_lost(reset_keys(action.id));
+      say_lost(workspace_.actions.reset_keys(action.id));
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  const Action* owner = waits && asked_ ? owner_of(*asked_) : nullptr;
+  const Action* owner = waits && asked_ ? workspace_.actions.owner_of(*asked_) : nullptr;
   wrapped_text(owner ? "'" + owner->label + "' has this key" : action.label);
   ImGui::PopID();
 }
@@ -121,11 +122,11 @@ bool KeysWindow::draw_keys(float s) {
   const auto is_found = [&](const Action& action) {
     return has_words(action.label + " " + keys_text(action), search_);
   };
-  if (std::ranges::none_of(actions(), is_found)) return false;
+  if (std::ranges::none_of(workspace_.actions.rows(), is_found)) return false;
   if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return true;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
-  for (const Action& action : actions())
+  for (const Action& action : workspace_.actions.rows())
     if (is_found(action)) draw_row(action, s);
   ImGui::EndTable();
   return true;
@@ -172,10 +173,10 @@ void KeysWindow::draw(double scale) {
   ImGui::SameLine();
   if (ImGui::Button("Import...", {100 * s, 0})) import_keys();
   ImGui::SameLine();
-  ImGui::BeginDisabled(changed_keys().empty());
+  ImGui::BeginDisabled(workspace_.actions.changed_keys().empty());
   if (ImGui::Button("Reset all", {-1, 0})) {
     stop_waiting();
-    use_keys({});
+    workspace_.actions.use_keys({});
     changed_();
   }
   ImGui::EndDisabled();

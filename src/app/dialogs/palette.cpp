@@ -56,12 +56,12 @@ void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
 
 std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAnswer& answer) {
   std::vector<Row> rows;
-  for (const Action& action : actions())
+  for (const Action& action : workspace.actions.rows())
     if (action.run)
       rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
                       action.id + " " + action.menu, action.enabled(workspace),
                       action.checked && action.checked(workspace),
-                      [&, id = action.id] { run(action_named(id), workspace); }});
+                      [&, id = action.id] { run(id, workspace); }});
   add_method_rows(workspace, rows);
   for (const Look& look : looks(preferences))
     rows.push_back(

@@ -27,7 +27,7 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
     if (ImGui::Button("Show it...")) workspace.request = Request::show_withheld;
     ImGui::SameLine();
   }
-  if (ImGui::Button("Find it...")) run(action_named("file.find_picture"), workspace);
+  if (ImGui::Button("Find it...")) run("file.find_picture", workspace);
   end_card();
 }
 
@@ -43,8 +43,8 @@ float draw_cage_offer(Workspace& workspace, double scale) {
   // Beside each other where there is room.
   const bool row = view.width > 600 * scale;
   const auto button = [&](const char* face, const char* id) {
-    if (ImGui::Button(face, {190 * s, 0})) run(action_named(id), workspace);
-    tooltip_of(id);
+    if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);
+    tooltip_of(workspace, id);
     if (row) ImGui::SameLine();
   };
   button("\uf0d0  Make from picture", "cage.from_picture");

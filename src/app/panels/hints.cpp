@@ -23,12 +23,13 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
   };
   const Hint steps[] = {
       {caged, "Put a cage around the picture",
-       "Make it from the picture, or draw it with " + key_of("tool.pen")},
+       "Make it from the picture, or draw it with " + workspace.actions.key_of("tool.pen")},
       {bent, "Bend it",
-       "Drag the cage's points with " + key_of("tool.select") + "; " + key_of("tool.pin") +
-           " sets pins to drag"},
+       "Drag the cage's points with " + workspace.actions.key_of("tool.select") + "; " +
+           workspace.actions.key_of("tool.pin") + " sets pins to drag"},
       {bent && kept, "Keep it",
-       key_of("file.save") + " saves the scene, " + key_of("file.export") + " exports a picture"}};
+       workspace.actions.key_of("file.save") + " saves the scene, " +
+           workspace.actions.key_of("file.export") + " exports a picture"}};
   const float s = static_cast<float>(scale);
   const Viewport& view = workspace.display.viewport;
   begin_card("First steps",
@@ -42,8 +43,9 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
                 static_cast<int>(std::size(steps)), next->what);
     ImGui::TextDisabled("%s", next->how.c_str());
   } else {
-    const std::string done = "\uf00c  That is all. " + key_of("help.keys") + " shows all keys, " +
-                             key_of("help.palette") + " finds everything.";
+    const std::string done = "\uf00c  That is all. " + workspace.actions.key_of("help.keys") +
+                             " shows all keys, " + workspace.actions.key_of("help.palette") +
+                             " finds everything.";
     ImGui::TextWrapped("%s", done.c_str());
   }
   ImGui::PopTextWrapPos();

@@ -169,8 +169,7 @@ void one_handle(Workspace& workspace, Handle handle) {
     ImGui::Text("Segment of degree %d", cage_of(deformation, mode).degree(handle.index));
     for (const char* id : {"cage.raise", "cage.lower"}) {
       ImGui::SameLine();
-      if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-"))
-        run(action_named(id), workspace);
+      if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-")) run(id, workspace);
     }
     if (handle.control == 0) corner_angles(workspace, handle.index);
     return;
@@ -280,9 +279,9 @@ void selection_section(Workspace& workspace) {
   if (workspace.selection.size() > 1 || workspace.selection.begin()->kind == Handle::Kind::stroke)
     turn_and_scale(workspace);
   for (const char* id : {"edit.reset", "edit.delete"}) {
-    const Action& action = action_named(id);
+    const Action& action = workspace.actions.named(id);
     if (ImGui::Button(action.label.c_str())) run(action, workspace);
-    tooltip_of(id);
+    tooltip_of(workspace, id);
     ImGui::SameLine();
   }
   ImGui::NewLine();
@@ -311,7 +310,7 @@ void cage_section(Workspace& workspace) {
                          ImGuiSliderFlags_AlwaysClamp))
     workspace.tools.auto_cage.margin = margin < 0 ? -1 : margin;
   ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
-  const Action& action = action_named("cage.from_picture");
+  const Action& action = workspace.actions.named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);
   ImGui::EndDisabled();
@@ -324,10 +323,11 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
   static constexpr const char* kIds[] = {"view.image", "view.angle", "view.area", "view.stretch",
                                          "view.checker"};
   ImGui::SetNextItemWidth(-1);
-  if (begin_combo("##view",
-                  action_named(kIds[static_cast<int>(workspace.display.view)]).label.c_str())) {
+  if (begin_combo(
+          "##view",
+          workspace.actions.named(kIds[static_cast<int>(workspace.display.view)]).label.c_str())) {
     for (const char* id : kIds) {
-      const Action& action = action_named(id);
+      const Action& action = workspace.actions.named(id);
       ImGui::BeginDisabled(!action.enabled(workspace));
       if (ImGui::Selectable(action.label.c_str(), action.checked(workspace)))
         run(action, workspace);

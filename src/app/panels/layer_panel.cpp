@@ -34,7 +34,7 @@ void background_row(Workspace& workspace) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (begin_combo("background", kNames[static_cast<int>(scene.background.fill)])) {
     for (int i = 0; i < 3; ++i)
-      if (const Action& action = action_named(kIds[i]);
+      if (const Action& action = workspace.actions.named(kIds[i]);
           ImGui::Selectable(kNames[i], action.checked(workspace)))
         run(action, workspace);
     ImGui::EndCombo();
@@ -124,12 +124,12 @@ void LayerPanel::draw(Workspace& workspace, double scale) {
   ImGui::EndChild();
   ImGui::PopStyleVar();
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {
-    const Action& action = action_named(id);
+    const Action& action = workspace.actions.named(id);
     ImGui::BeginDisabled(!action.enabled(workspace));
     if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
       run(action, workspace);
     ImGui::EndDisabled();
-    tooltip_of(id);
+    tooltip_of(workspace, id);
     ImGui::SameLine(0, 4 * s);
   }
   ImGui::NewLine();

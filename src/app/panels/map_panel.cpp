@@ -12,7 +12,7 @@ namespace holomorph {
 namespace {
 
 void action_button(const char* id, const char* text, Workspace& workspace) {
-  const Action& action = action_named(id);
+  const Action& action = workspace.actions.named(id);
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button(text)) run(action, workspace);
   ImGui::EndDisabled();
@@ -95,9 +95,9 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     ImGui::TextColored(warning, turns < 0 ? "\uf071 Lies on its back" : "\uf071 Folds");
     if (!found.folds_at.empty()) {
       ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) run(action_named("view.fold"), workspace);
+      if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
       if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", label_with_keys(action_named("view.fold")).c_str());
+        ImGui::SetTooltip("%s", label_with_keys(workspace.actions.named("view.fold")).c_str());
       if (found.folds_at.size() > 1)
         ImGui::TextColored(warning, "in %d places", static_cast<int>(found.folds_at.size()));
     }
@@ -121,7 +121,7 @@ void injectivity_section(Workspace& workspace, Theme theme) {
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
     ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(marked.size()),
                         marked.size() == 1 ? "place" : "places");
-  const Action& fold_free = action_named("map.fold_free");
+  const Action& fold_free = workspace.actions.named("map.fold_free");
   if (found.folds() && fold_free.enabled(workspace))
     action_button("map.fold_free", fold_free.label.c_str(), workspace);
 }

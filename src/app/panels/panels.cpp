@@ -32,9 +32,9 @@ std::vector<Look> looks(const Preferences& now) {
   return all;
 }
 
-void tooltip_of(const char* id) {
+void tooltip_of(const Workspace& workspace, const char* id) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", label_with_keys(action_named(id)).c_str());
+    ImGui::SetTooltip("%s", label_with_keys(workspace.actions.named(id)).c_str());
 }
 
 void begin_card(const char* name, ImVec2 at, ImVec2 pivot, double scale) {
@@ -89,7 +89,7 @@ void look_menu(const char* group, Preferences& preferences, PanelAnswer& answer)
 }
 
 void menu_of(const char* name, Workspace& workspace) {
-  for (const Action& action : actions())
+  for (const Action& action : workspace.actions.rows())
     if (std::string_view(action.menu) == name) action_item(action, workspace);
 }
 
@@ -202,7 +202,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
       ImGui::Dummy({0, 2 * s});
       continue;
     }
-    const Action& action = action_named(id);
+    const Action& action = workspace.actions.named(id);
     const bool on = action.checked && action.checked(workspace),
                enabled = action.enabled(workspace);
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
@@ -213,7 +213,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
     if (ImGui::Button(face.c_str(), button)) run(action, workspace);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor();
-    tooltip_of(id);
+    tooltip_of(workspace, id);
   }
   ImGui::End();
   ImGui::PopStyleVar(3);
@@ -230,7 +230,7 @@ void draw_context_menu(Workspace& workspace) {
   for (const char* id : {"edit.delete", "edit.reset", "edit.pin_up", "edit.pin_down",
                          "edit.free_angle", "cage.corner", "cage.raise", "cage.lower",
                          "edit.select_all", "view.frame", "view.fit", "cage.rest"})
-    if (const Action& action = action_named(id); action.enabled(workspace))
+    if (const Action& action = workspace.actions.named(id); action.enabled(workspace))
       action_item(action, workspace);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

@@ -48,7 +48,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     } else if (!map.injectivity().folds_at.empty()) {
       ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 The picture folds over itself");
       ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) run(action_named("view.fold"), workspace);
+      if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
       ImGui::SameLine();
     }
   }

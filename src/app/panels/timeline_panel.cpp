@@ -28,7 +28,7 @@ double tick_of(double least) {
 }
 
 void tool_button(const char* id, Workspace& workspace, float size) {
-  const Action& action = action_named(id);
+  const Action& action = workspace.actions.named(id);
   const bool on = action.checked && action.checked(workspace), enabled = action.enabled(workspace);
   const bool playing = std::string_view(id) == "time.play" && on;
   if (on && !playing)
@@ -152,7 +152,7 @@ void draw_key_menu(Workspace& workspace) {
       workspace.commit_or_amend("Whole turns", after, EditBase::document);
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Delete key", "Del")) run(action_named("time.delete_key"), workspace);
+    if (ImGui::MenuItem("Delete key", "Del")) run("time.delete_key", workspace);
   }
   ImGui::EndPopup();
 }

@@ -22,7 +22,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   ImGui::TextDisabled("Bend a picture: give it a cage, then drag cage points and pins.");
   ImGui::Dummy({0, 8 * s});
   if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s}))
-    run(action_named("file.open"), workspace);
+    run("file.open", workspace);
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (40 * s - ImGui::GetTextLineHeight()) / 2 - 5 * s);
   ImGui::TextDisabled("or drop a file on this window");

@@ -1,41 +1,111 @@
-// The table is made of one file for each menu, in `actions/`. Each row is a sentence: what it is
-// called, when it can be done, what it does.
+// The rows come from one file for each menu. Each row is a sentence: what it is called, when it is
+// enabled, what it does.
 #include "edit/actions/actions.h"
+
+#include <algorithm>
 
 #include "core/error.h"
 #include "edit/actions/groups.h"
 
 namespace holomorph {
+namespace {
 
-std::vector<Action> actions_as_built() {
-  std::vector<Action> rows;
+std::vector<std::string> names_of(const std::vector<Shortcut>& keys) {
+  std::vector<std::string> names;
+  for (const Shortcut& key : keys) names.push_back(text_of(key));
+  return names;
+}
+
+}  // namespace
+
+ActionTable::ActionTable() {
   for (const auto group : {file_actions, edit_actions, cage_actions, layer_actions, time_actions,
                            view_actions, held_actions})
-    for (Action& action : group()) rows.push_back(std::move(action));
-  return rows;
+    for (Action& action : group()) rows_.push_back(std::move(action));
+  as_built_ = rows_;
 }
 
-std::vector<Action>& mutable_actions() {
-  static std::vector<Action> all = actions_as_built();
-  return all;
+const Action& ActionTable::named(const std::string& id) const {
+  const auto found = std::ranges::find(rows_, id, &Action::id);
+  check(found != rows_.end(), "the table of actions has the id that is asked for");
+  return *found;
 }
 
-const std::vector<Action>& actions() {
-  return mutable_actions();
-}
-
-const Action& action_named(const std::string& id) {
-  for (const Action& action : actions())
-    if (action.id == id) return action;
-  check(false, "an action is asked for that the table does not have");
-  return actions()[0];
-}
-
-const Action* action_for(const Shortcut& shortcut, const Workspace& workspace) {
-  for (const Action& action : actions())
-    for (const Shortcut& key : action.keys)
-      if (key == shortcut && action.run && action.enabled(workspace)) return &action;
+const Action* ActionTable::for_key(const Shortcut& key, const Workspace& workspace) const {
+  for (const Action& action : rows_)
+    if (std::ranges::find(action.keys, key) != action.keys.end() && action.run &&
+        action.enabled(workspace))
+      return &action;
   return nullptr;
+}
+
+const Action* ActionTable::owner_of(const Shortcut& key) const {
+  for (const Action& action : rows_)
+    if (std::ranges::find(action.keys, key) != action.keys.end()) return &action;
+  return nullptr;
+}
+
+std::string ActionTable::key_of(const std::string& id) const {
+  const Action& action = named(id);
+  return action.keys.empty() ? "'" + action.label + "'" : text_of(action.keys[0]);
+}
+
+const std::vector<Shortcut>& ActionTable::built_in(const std::string& id) const {
+  return std::ranges::find(as_built_, id, &Action::id)->keys;
+}
+
+std::vector<std::string> ActionTable::use_keys(const KeyNames& changes) {
+  std::vector<std::string> unknown;
+  std::vector<std::pair<std::string, std::vector<Shortcut>>> known;
+  rows_ = as_built_;
+  for (const auto& [id, names] : changes) {
+    if (std::ranges::find(rows_, id, &Action::id) == rows_.end()) {
+      unknown.push_back(id);
+      continue;
+    }
+    std::vector<Shortcut> keys;
+    for (const std::string& name : names)
+      if (const auto key = shortcut_named(name))
+        keys.push_back(*key);
+      else
+        unknown.push_back(name);
+    known.push_back({id, std::move(keys)});
+  }
+  // A change is deliberate: a key that the table gives to another action is removed there.
+  for (const auto& [id, keys] : known)
+    if (named(id).keys != keys) set_keys(id, keys);
+  return unknown;
+}
+
+KeyNames ActionTable::changed_keys() const {
+  KeyNames changes;
+  for (const Action& action : rows_)
+    if (has_own_keys(action)) changes[action.id] = names_of(action.keys);
+  return changes;
+}
+
+KeyNames ActionTable::all_keys() const {
+  KeyNames keys;
+  for (const Action& action : rows_) keys[action.id] = names_of(action.keys);
+  return keys;
+}
+
+std::vector<std::string> ActionTable::set_keys(const std::string& id,
+                                               const std::vector<Shortcut>& keys) {
+  std::vector<std::string> unbound;
+  for (Action& action : rows_) {
+    if (action.id == id) continue;
+    const size_t removed = std::erase_if(action.keys, [&](const Shortcut& key) {
+      return std::ranges::find(keys, key) != keys.end();
+    });
+    if (removed > 0) unbound.push_back(action.label);
+  }
+  std::ranges::find(rows_, id, &Action::id)->keys = keys;
+  return unbound;
+}
+
+std::vector<std::string> ActionTable::reset_keys(const std::string& id) {
+  return set_keys(id, built_in(id));
 }
 
 void run(const Action& action, Workspace& workspace) {
@@ -47,14 +117,13 @@ void run(const Action& action, Workspace& workspace) {
   }
 }
 
+void run(const std::string& id, Workspace& workspace) {
+  run(workspace.actions.named(id), workspace);
+}
+
 std::string label_with_keys(const Action& action) {
   if (action.keys.empty()) return action.label;
   return action.label + " (" + text_of(action.keys[0]) + ")";
-}
-
-std::string key_of(const std::string& id) {
-  const Action& action = action_named(id);
-  return action.keys.empty() ? "'" + action.label + "'" : text_of(action.keys[0]);
 }
 
 }  // namespace holomorph

@@ -62,105 +62,124 @@ constexpr const char *kMagic = "\uf0d0", *kMove = "\uf047";
 
 std::vector<Action> cage_actions() {
   return {
-      {"cage.from_picture", "Make from picture", kMagic, "Cage", {}, has_image, make_cage},
-      {"cage.box",
-       "Box around the picture, to move and scale it",
-       kMove,
-       "Cage",
-       {},
-       has_image,
-       make_box},
-      {"cage.rest",
-       "Show and edit the rest shape",
-       "",
-       "Cage",
-       {Key::tab},
-       has_cage,
-       switch_posture,
-       [](const Workspace& w) { return w.mode == EditMode::rest; }},
-      {"cage.corner",
-       "Smooth point or corner",
-       "",
-       "Cage",
-       {'C'},
-       has_cage_selection,
-       toggle_corners},
-      {"cage.all_corners",
-       "All points are corners with angles",
-       "",
-       "Cage",
-       {},
-       [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
-       [](Workspace& w) { w.commit("All corners", with_all_corners(w.shown.deformation())); }},
-      {"cage.bake",
-       "Pose the cage as the pins do",
-       "",
-       "Cage",
-       {},
-       [](const Workspace& w) {
-         return w.shown.deformation().has_cage() &&
-                method_named(w.shown.deformation().method).uses_pins &&
-                !w.shown.deformation().pins.empty();
-       },
-       [](Workspace& w) { w.commit("Pose by pins", baked(w.shown.deformation())); }},
-      {"cage.raise",
-       "Raise the curves' degree",
-       "",
-       "Cage",
-       {},
-       has_cage,
-       [](Workspace& w) {
-         w.commit("Raise degree", raised(w.shown.deformation(), w.selection, w.mode));
-       }},
-      {"cage.lower",
-       "Lower the curves' degree",
-       "",
-       "Cage",
-       {},
-       has_cage,
-       [](Workspace& w) {
-         w.commit("Lower degree", lowered(w.shown.deformation(), w.selection, w.mode));
-       }},
-      {"map.fold_free",
-       "Make it fold-free",
-       "",
-       "Cage",
-       {},
-       [](const Workspace& w) {
-         return w.shown.own().has_cage() && w.shown.deformation().method != "bounded";
-       },
-       [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); }},
-      {"map.play",
-       "Watch the map converge",
-       "",
-       "Cage",
-       {},
-       converges,
-       [](Workspace& w) {
-         Playback& p = w.playback;
-         p.playing = !p.playing;
-         if (p.playing && !p.iteration) p.iteration = 0;
-       },
-       [](const Workspace& w) { return w.playback.playing; }},
-      {"map.step",
-       "One iteration more",
-       "",
-       "Cage",
-       {},
-       [](const Workspace& w) { return converges(w) && w.playback.iteration; },
-       [](Workspace& w) {
-         const int last = static_cast<int>(w.map().map().energies.size()) - 1,
-                   next = w.playback.iteration.value_or(-1) + 1;
-         w.playback = {};
-         if (next < last) w.playback.iteration = next;
-       }},
-      {"map.restart",
-       "Back to the first iteration",
-       "",
-       "Cage",
-       {},
-       converges,
-       [](Workspace& w) { w.playback = {0}; }},
+      {
+          .id = "cage.from_picture",
+          .label = "Make from picture",
+          .icon = kMagic,
+          .menu = "Cage",
+          .enabled = has_image,
+          .run = make_cage,
+      },
+      {
+          .id = "cage.box",
+          .label = "Box around the picture, to move and scale it",
+          .icon = kMove,
+          .menu = "Cage",
+          .enabled = has_image,
+          .run = make_box,
+      },
+      {
+          .id = "cage.rest",
+          .label = "Show and edit the rest shape",
+          .menu = "Cage",
+          .keys = {Key::tab},
+          .enabled = has_cage,
+          .run = switch_posture,
+          .checked = [](const Workspace& w) { return w.mode == EditMode::rest; },
+      },
+      {
+          .id = "cage.corner",
+          .label = "Smooth point or corner",
+          .menu = "Cage",
+          .keys = {'C'},
+          .enabled = has_cage_selection,
+          .run = toggle_corners,
+      },
+      {
+          .id = "cage.all_corners",
+          .label = "All points are corners with angles",
+          .menu = "Cage",
+          .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
+          .run =
+              [](Workspace& w) {
+                w.commit("All corners", with_all_corners(w.shown.deformation()));
+              },
+      },
+      {
+          .id = "cage.bake",
+          .label = "Pose the cage as the pins do",
+          .menu = "Cage",
+          .enabled =
+              [](const Workspace& w) {
+                return w.shown.deformation().has_cage() &&
+                       method_named(w.shown.deformation().method).uses_pins &&
+                       !w.shown.deformation().pins.empty();
+              },
+          .run = [](Workspace& w) { w.commit("Pose by pins", baked(w.shown.deformation())); },
+      },
+      {
+          .id = "cage.raise",
+          .label = "Raise the curves' degree",
+          .menu = "Cage",
+          .enabled = has_cage,
+          .run =
+              [](Workspace& w) {
+                w.commit("Raise degree", raised(w.shown.deformation(), w.selection, w.mode));
+              },
+      },
+      {
+          .id = "cage.lower",
+          .label = "Lower the curves' degree",
+          .menu = "Cage",
+          .enabled = has_cage,
+          .run =
+              [](Workspace& w) {
+                w.commit("Lower degree", lowered(w.shown.deformation(), w.selection, w.mode));
+              },
+      },
+      {
+          .id = "map.fold_free",
+          .label = "Make it fold-free",
+          .menu = "Cage",
+          .enabled =
+              [](const Workspace& w) {
+                return w.shown.own().has_cage() && w.shown.deformation().method != "bounded";
+              },
+          .run = [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); },
+      },
+      {
+          .id = "map.play",
+          .label = "Watch the map converge",
+          .menu = "Cage",
+          .enabled = converges,
+          .run =
+              [](Workspace& w) {
+                Playback& p = w.playback;
+                p.playing = !p.playing;
+                if (p.playing && !p.iteration) p.iteration = 0;
+              },
+          .checked = [](const Workspace& w) { return w.playback.playing; },
+      },
+      {
+          .id = "map.step",
+          .label = "One iteration more",
+          .menu = "Cage",
+          .enabled = [](const Workspace& w) { return converges(w) && w.playback.iteration; },
+          .run =
+              [](Workspace& w) {
+                const int last = static_cast<int>(w.map().map().energies.size()) - 1,
+                          next = w.playback.iteration.value_or(-1) + 1;
+                w.playback = {};
+                if (next < last) w.playback.iteration = next;
+              },
+      },
+      {
+          .id = "map.restart",
+          .label = "Back to the first iteration",
+          .menu = "Cage",
+          .enabled = converges,
+          .run = [](Workspace& w) { w.playback = {0}; },
+      },
   };
 }
 

@@ -50,7 +50,7 @@ void erase_selection(Workspace& w) {
   if (has_selection(w))
     w.erase(Selection(w.selection), refit);
   else
-    run(action_named("time.delete_key"), w);
+    run("time.delete_key", w);
 }
 
 void reset_selection(Workspace& w) {

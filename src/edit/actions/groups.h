@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edit/actions/actions.h"
+#include "edit/workspace.h"
 
 namespace holomorph {
 

@@ -1,88 +1,9 @@
-// The table in use is the one of actions(); the one that the program was built with is kept beside
-// it.
+// What the keys window and its export say.
 #include "edit/actions/keymap.h"
 
 #include <algorithm>
 
 namespace holomorph {
-namespace {
-
-const std::vector<Shortcut>& own_keys(const std::string& id) {
-  static const std::vector<Action> table = actions_as_built();
-  return std::ranges::find(table, id, &Action::id)->keys;
-}
-
-std::vector<std::string> names_of(const std::vector<Shortcut>& keys) {
-  std::vector<std::string> names;
-  for (const Shortcut& key : keys) names.push_back(text_of(key));
-  return names;
-}
-
-}  // namespace
-
-std::vector<std::string> use_keys(const KeyNames& changes) {
-  std::vector<std::string> unknown;
-  std::vector<std::pair<std::string, std::vector<Shortcut>>> wanted;
-  for (Action& action : mutable_actions()) action.keys = own_keys(action.id);
-  for (const auto& [id, names] : changes) {
-    const auto action = std::ranges::find(mutable_actions(), id, &Action::id);
-    if (action == mutable_actions().end()) {
-      unknown.push_back(id);
-      continue;
-    }
-    std::vector<Shortcut> keys;
-    for (const std::string& name : names)
-      if (const auto key = shortcut_named(name))
-        keys.push_back(*key);
-      else
-        unknown.push_back(name);
-    wanted.push_back({id, std::move(keys)});
-  }
-  // What is changed is meant: a key that the table gives to another action is lost there.
-  for (const auto& [id, keys] : wanted)
-    if (action_named(id).keys != keys) set_keys(id, keys);
-  return unknown;
-}
-
-KeyNames changed_keys() {
-  KeyNames changes;
-  for (const Action& action : actions())
-    if (has_own_keys(action)) changes[action.id] = names_of(action.keys);
-  return changes;
-}
-
-KeyNames all_keys() {
-  KeyNames keys;
-  for (const Action& action : actions()) keys[action.id] = names_of(action.keys);
-  return keys;
-}
-
-std::vector<std::string> set_keys(const std::string& id, const std::vector<Shortcut>& keys) {
-  std::vector<std::string> robbed;
-  for (Action& action : mutable_actions()) {
-    if (action.id == id) continue;
-    const size_t taken = std::erase_if(action.keys, [&](const Shortcut& key) {
-      return std::ranges::find(keys, key) != keys.end();
-    });
-    if (taken > 0) robbed.push_back(action.label);
-  }
-  std::ranges::find(mutable_actions(), id, &Action::id)->keys = keys;
-  return robbed;
-}
-
-std::vector<std::string> reset_keys(const std::string& id) {
-  return set_keys(id, own_keys(id));
-}
-
-bool has_own_keys(const Action& action) {
-  return action.keys != own_keys(action.id);
-}
-
-const Action* owner_of(const Shortcut& key) {
-  for (const Action& action : actions())
-    if (std::ranges::find(action.keys, key) != action.keys.end()) return &action;
-  return nullptr;
-}
 
 std::string keys_text(const Action& action) {
   std::string text;
@@ -135,12 +56,12 @@ std::string table_cell(const std::string& text) {
 
 }  // namespace
 
-std::string keys_markdown() {
+std::string keys_markdown(const ActionTable& actions) {
   std::string text = "| Mouse | |\n|---|---|\n";
   for (const Gesture& gesture : gestures())
     text += std::string("| ") + gesture.what + " | " + gesture.does + " |\n";
   text += "\n| Keys | |\n|---|---|\n";
-  for (const Action& action : actions())
+  for (const Action& action : actions.rows())
     if (!action.keys.empty())
       text += "| " + table_cell(keys_text(action)) + " | " + action.label + " |\n";
   return text;

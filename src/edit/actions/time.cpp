@@ -36,101 +36,148 @@ constexpr const char *kPlay = "\uf04b", *kBack = "\uf048", *kForward = "\uf051",
 
 std::vector<Action> time_actions() {
   return {
-      {"time.play",
-       "Play",
-       kPlay,
-       "Time",
-       {Key::space},
-       plays,
-       [](Workspace& w) {
-         w.shown.preview.reset();
-         w.shown.timeline.playing = !w.shown.timeline.playing;
-         w.shown.timeline.clock_ms.reset();
-         if (w.shown.timeline.time >= length_of(w.document.scene()) - 1e-6)
-           w.shown.timeline.time = 0;
-       },
-       [](const Workspace& w) { return w.shown.timeline.playing; }},
-      {"time.back", "One frame back", kBack, "Time", {','}, has_keys, step_frame<-1>},
-      {"time.forward", "One frame on", kForward, "Time", {'.'}, has_keys, step_frame<1>},
-      {"time.previous_key",
-       "Previous key",
-       kFirst,
-       "Time",
-       {{',', kShift}, {'<', kShift}},
-       has_keys,
-       step_key<false>},
-      {"time.next_key",
-       "Next key",
-       kLast,
-       "Time",
-       {{'.', kShift}, {'>', kShift}},
-       has_keys,
-       step_key<true>},
-      {"time.key", "Set a key", kKey, "Time", {'I'}, has_cage, [](Workspace& w) { w.set_key(); }},
-      {"time.delete_key",
-       "Delete the key at this time",
-       "",
-       "Time",
-       {},
-       [](const Workspace& w) { return key_here(w).has_value(); },
-       [](Workspace& w) {
-         w.commit("Delete key", without_key(w.shown.own(), *key_here(w)), EditBase::document);
-       }},
-      {"time.auto_key",
-       "Auto-key: edits of the pose set keys",
-       kRecord,
-       "Time",
-       {'K'},
-       has_cage,
-       [](Workspace& w) {
-         w.shown.timeline.auto_key = !w.shown.timeline.auto_key;
-         w.shown.timeline.visible = w.shown.timeline.visible || w.shown.timeline.auto_key;
-       },
-       [](const Workspace& w) { return w.shown.timeline.auto_key; }},
-      {"time.loop",
-       "Loop",
-       kLoop,
-       "Time",
-       {},
-       has_cage,
-       [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
-       [](const Workspace& w) { return w.shown.timeline.loop; }},
-      {"time.onion",
-       "Onion skin: the keys before and after",
-       kOnion,
-       "Time",
-       {},
-       has_cage,
-       [](Workspace& w) { w.shown.timeline.onion = !w.shown.timeline.onion; },
-       [](const Workspace& w) { return w.shown.timeline.onion; }},
-      {"time.copy",
-       "Copy pose",
-       "",
-       "Time",
-       {{'C', kCtrl}},
-       has_cage,
-       [](Workspace& w) {
-         if (!w.require_pose()) return;
-         w.copied = whole_pose_of(w.shown.deformation());
-         w.messages.say("The pose is copied.");
-       }},
-      {"time.paste",
-       "Paste pose",
-       "",
-       "Time",
-       {{'V', kCtrl}},
-       has_copied,
-       [](Workspace& w) { w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied)); }},
-      {"time.paste_mirrored",
-       "Paste pose, mirrored",
-       "",
-       "Time",
-       {{'V', kCtrlShift}},
-       has_copied,
-       [](Workspace& w) {
-         w.commit("Paste mirrored pose",
-                  posed_as(w.shown.deformation(), mirrored(w.shown.deformation(), *w.copied)));
-       }},
+      {
+          .id = "time.play",
+          .label = "Play",
+          .icon = kPlay,
+          .menu = "Time",
+          .keys = {Key::space},
+          .enabled = plays,
+          .run =
+              [](Workspace& w) {
+                w.shown.preview.reset();
+                w.shown.timeline.playing = !w.shown.timeline.playing;
+                w.shown.timeline.clock_ms.reset();
+                if (w.shown.timeline.time >= length_of(w.document.scene()) - 1e-6)
+                  w.shown.timeline.time = 0;
+              },
+          .checked = [](const Workspace& w) { return w.shown.timeline.playing; },
+      },
+      {
+          .id = "time.back",
+          .label = "One frame back",
+          .icon = kBack,
+          .menu = "Time",
+          .keys = {','},
+          .enabled = has_keys,
+          .run = step_frame<-1>,
+      },
+      {
+          .id = "time.forward",
+          .label = "One frame on",
+          .icon = kForward,
+          .menu = "Time",
+          .keys = {'.'},
+          .enabled = has_keys,
+          .run = step_frame<1>,
+      },
+      {
+          .id = "time.previous_key",
+          .label = "Previous key",
+          .icon = kFirst,
+          .menu = "Time",
+          .keys = {{',', kShift}, {'<', kShift}},
+          .enabled = has_keys,
+          .run = step_key<false>,
+      },
+      {
+          .id = "time.next_key",
+          .label = "Next key",
+          .icon = kLast,
+          .menu = "Time",
+          .keys = {{'.', kShift}, {'>', kShift}},
+          .enabled = has_keys,
+          .run = step_key<true>,
+      },
+      {
+          .id = "time.key",
+          .label = "Set a key",
+          .icon = kKey,
+          .menu = "Time",
+          .keys = {'I'},
+          .enabled = has_cage,
+          .run = [](Workspace& w) { w.set_key(); },
+      },
+      {
+          .id = "time.delete_key",
+          .label = "Delete the key at this time",
+          .menu = "Time",
+          .enabled = [](const Workspace& w) { return key_here(w).has_value(); },
+          .run =
+              [](Workspace& w) {
+                w.commit("Delete key", without_key(w.shown.own(), *key_here(w)),
+                         EditBase::document);
+              },
+      },
+      {
+          .id = "time.auto_key",
+          .label = "Auto-key: edits of the pose set keys",
+          .icon = kRecord,
+          .menu = "Time",
+          .keys = {'K'},
+          .enabled = has_cage,
+          .run =
+              [](Workspace& w) {
+                w.shown.timeline.auto_key = !w.shown.timeline.auto_key;
+                w.shown.timeline.visible = w.shown.timeline.visible || w.shown.timeline.auto_key;
+              },
+          .checked = [](const Workspace& w) { return w.shown.timeline.auto_key; },
+      },
+      {
+          .id = "time.loop",
+          .label = "Loop",
+          .icon = kLoop,
+          .menu = "Time",
+          .enabled = has_cage,
+          .run = [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
+          .checked = [](const Workspace& w) { return w.shown.timeline.loop; },
+      },
+      {
+          .id = "time.onion",
+          .label = "Onion skin: the keys before and after",
+          .icon = kOnion,
+          .menu = "Time",
+          .enabled = has_cage,
+          .run = [](Workspace& w) { w.shown.timeline.onion = !w.shown.timeline.onion; },
+          .checked = [](const Workspace& w) { return w.shown.timeline.onion; },
+      },
+      {
+          .id = "time.copy",
+          .label = "Copy pose",
+          .menu = "Time",
+          .keys = {{'C', kCtrl}},
+          .enabled = has_cage,
+          .run =
+              [](Workspace& w) {
+                if (!w.require_pose()) return;
+                w.copied = whole_pose_of(w.shown.deformation());
+                w.messages.say("The pose is copied.");
+              },
+      },
+      {
+          .id = "time.paste",
+          .label = "Paste pose",
+          .menu = "Time",
+          .keys = {{'V', kCtrl}},
+          .enabled = has_copied,
+          .run =
+              [](Workspace& w) {
+                w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
+              },
+      },
+      {
+          .id = "time.paste_mirrored",
+          .label = "Paste pose, mirrored",
+          .menu = "Time",
+          .keys = {{'V', kCtrlShift}},
+          .enabled = has_copied,
+          .run =
+              [](Workspace& w) {
+                w.commit(
+                    "Paste mirrored pose",
+                    posed_as(w.shown.deformation(), mirrored(w.shown.deformation(), *w.copied)));
+              },
+      },
   };
 }
 

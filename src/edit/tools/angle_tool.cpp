@@ -75,9 +75,9 @@ class AngleTool final : public Tool {
 
   std::string hint(const Workspace& workspace) const override {
     const Deformation& deformation = workspace.shown.deformation();
-    if (!deformation.has_cage()) return needs_a_cage("Angles are those of a cage");
+    if (!deformation.has_cage()) return needs_a_cage(workspace, "Angles are those of a cage");
     if (workspace.mode == EditMode::rest)
-      return key_of("cage.rest") + " shows the pose, where corners turn";
+      return workspace.actions.key_of("cage.rest") + " shows the pose, where corners turn";
     if (dragging_ && edge_)
       return "Tension " +
              text_of_number(corner_at(deformation, corner_before(deformation, *edge_)).tension) +

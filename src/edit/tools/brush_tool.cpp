@@ -21,7 +21,7 @@ class BrushTool final : public Tool {
     radius_ = workspace.tools.brush_radius;
     if (input.inside && input.pressed) {
       if (!workspace.shown.deformation().has_cage())
-        return workspace.messages.say(needs_a_cage("Stiffness acts inside a cage"));
+        return workspace.messages.say(needs_a_cage(workspace, "Stiffness acts inside a cage"));
       painting_ = true;
       last_.reset();
       dabs_ = workspace.shown.deformation().stiffness;

@@ -80,7 +80,7 @@ class PenTool final : public HandleTool {
       if (workspace.mode == EditMode::pose)
         workspace.messages.say(
             "Drawing another cage on the picture at rest. Closing it replaces the cage; " +
-            key_of("edit.undo") + " brings it back.");
+            workspace.actions.key_of("edit.undo") + " brings it back.");
       workspace.mode = EditMode::rest;
     }
     workspace.selection.clear();

@@ -15,7 +15,7 @@ class PinTool final : public HandleTool {
     ring_.hover(input, workspace);
     if (!input.inside || !input.pressed || press(input, workspace)) return;
     if (!workspace.shown.deformation().has_cage()) {
-      workspace.messages.say(needs_a_cage("Pins act inside a cage"));
+      workspace.messages.say(needs_a_cage(workspace, "Pins act inside a cage"));
       return;
     }
     const auto rest = rest_at(workspace, input.position);
@@ -39,7 +39,7 @@ class PinTool final : public HandleTool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.shown.deformation().has_cage()) return needs_a_cage("Pins act inside a cage");
+    if (!workspace.shown.deformation().has_cage()) return needs_a_cage(workspace, "Pins act inside a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"

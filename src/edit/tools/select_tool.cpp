@@ -51,7 +51,7 @@ class SelectTool final : public HandleTool {
 
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
-      return needs_a_cage("What bends is inside a cage");
+      return needs_a_cage(workspace, "What bends is inside a cage");
     if (drag_.active()) return "Shift keeps the axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
     if (ring_.active()) return "Shift snaps to 15 degrees";
@@ -65,9 +65,9 @@ class SelectTool final : public HandleTool {
              "Ctrl-click: smooth or corner";
     return workspace.mode == EditMode::rest
                ? "Rest: drag points, the pose stays; double-click an edge inserts; " +
-                     key_of("cage.rest") + " returns to the pose"
+                     workspace.actions.key_of("cage.rest") + " returns to the pose"
                : "Drag points or pins; drag a box to select; double-click an edge inserts; " +
-                     key_of("cage.rest") + " shows the rest";
+                     workspace.actions.key_of("cage.rest") + " shows the rest";
   }
 
  private:

@@ -149,8 +149,8 @@ void PinRing::cancel(Workspace& workspace) {
   active_ = false;
 }
 
-std::string needs_a_cage(const std::string& what) {
-  return what + ": draw one with " + key_of("tool.pen") + ", or make one from the picture";
+std::string needs_a_cage(const Workspace& workspace, const std::string& what) {
+  return what + ": draw one with " + workspace.actions.key_of("tool.pen") + ", or make one from the picture";
 }
 
 }  // namespace holomorph

@@ -59,7 +59,7 @@ class Tool {
 };
 
 /// "Pins act inside a cage: draw one with P, or make one from the picture".
-std::string needs_a_cage(const std::string& what);
+std::string needs_a_cage(const Workspace& workspace, const std::string& what);
 
 std::unique_ptr<Tool> select_tool();
 std::unique_ptr<Tool> pen_tool();

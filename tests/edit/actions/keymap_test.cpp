@@ -4,23 +4,20 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
+#include "edit/key_focus.h"
 #include "support/desk.h"
 
 using namespace holomorph;
 
 namespace {
 
-/// Whatever a test does, the next one finds the table's own keys.
-struct OwnKeys {
-  ~OwnKeys() { use_keys({}); }
-};
-
 constexpr Modifiers kCtrl{true, false, false};
 
 }  // namespace
 
 TEST_CASE("Every key of the table has a name that is that key") {
-  for (const Action& action : actions())
+  const ActionTable actions;
+  for (const Action& action : actions.rows())
     for (const Shortcut& key : action.keys) {
       INFO(action.id << ": " << text_of(key));
       const auto again = shortcut_named(text_of(key));
@@ -34,50 +31,51 @@ TEST_CASE("Every key of the table has a name that is that key") {
 }
 
 TEST_CASE("A key that is given to an action is its own, and no other's") {
-  const OwnKeys own;
   Desk desk(shapes::rectangle(100, 100));
+  ActionTable& actions = desk.workspace.actions;
   desk.workspace.commit("Move", with_cage(Deformation{}, shapes::rectangle(200, 100)));
-  CHECK(set_keys("edit.undo", {'J'}).empty());
-  CHECK(action_for('J', desk.workspace)->id == "edit.undo");
-  CHECK_FALSE(action_for({'Z', kCtrl}, desk.workspace));
-  CHECK(label_with_keys(action_named("edit.undo")) == "Undo (J)");
-  const auto robbed = set_keys("view.image", {'J', '1'});
-  REQUIRE(robbed.size() == 1);
-  CHECK(robbed[0] == "Undo");
-  CHECK(action_for('J', desk.workspace)->id == "view.image");
-  CHECK(action_named("edit.undo").keys.empty());
-  CHECK(changed_keys() == KeyNames{{"edit.undo", {}}, {"view.image", {"J", "1"}}});
-  CHECK(keys_text(action_named("view.image")) == "J, 1");
-  const KeyNames changed = changed_keys();
-  use_keys({});
-  CHECK(changed_keys().empty());
-  CHECK(use_keys(changed).empty());
-  CHECK(changed_keys() == changed);
-  reset_keys("edit.undo");
-  CHECK(action_for({'Z', kCtrl}, desk.workspace)->id == "edit.undo");
-  CHECK_FALSE(has_own_keys(action_named("edit.undo")));
+  CHECK(actions.set_keys("edit.undo", {'J'}).empty());
+  CHECK(actions.for_key('J', desk.workspace)->id == "edit.undo");
+  CHECK_FALSE(actions.for_key({'Z', kCtrl}, desk.workspace));
+  CHECK(label_with_keys(actions.named("edit.undo")) == "Undo (J)");
+  const auto unbound = actions.set_keys("view.image", {'J', '1'});
+  REQUIRE(unbound.size() == 1);
+  CHECK(unbound[0] == "Undo");
+  CHECK(actions.for_key('J', desk.workspace)->id == "view.image");
+  CHECK(actions.named("edit.undo").keys.empty());
+  CHECK(actions.changed_keys() == KeyNames{{"edit.undo", {}}, {"view.image", {"J", "1"}}});
+  CHECK(keys_text(actions.named("view.image")) == "J, 1");
+  const KeyNames changed = actions.changed_keys();
+  actions.use_keys({});
+  CHECK(actions.changed_keys().empty());
+  CHECK(actions.use_keys(changed).empty());
+  CHECK(actions.changed_keys() == changed);
+  actions.reset_keys("edit.undo");
+  CHECK(actions.for_key({'Z', kCtrl}, desk.workspace)->id == "edit.undo");
+  CHECK_FALSE(actions.has_own_keys(actions.named("edit.undo")));
 }
 
 TEST_CASE("Keys survive a file, and what is not known there is left out and said") {
-  const OwnKeys own;
-  set_keys("tool.pen", {'J'});
-  const KeyNames keys = all_keys();
+  ActionTable actions;
+  actions.set_keys("tool.pen", {'J'});
+  const KeyNames keys = actions.all_keys();
   CHECK(keys_of_json(json_of_keys(keys), "keys.json") == keys);
-  use_keys({});
-  CHECK(use_keys(keys_of_json(json_of_keys(keys), "keys.json")).empty());
-  CHECK(changed_keys() == KeyNames{{"tool.pen", {"J"}}});
+  actions.use_keys({});
+  CHECK(actions.use_keys(keys_of_json(json_of_keys(keys), "keys.json")).empty());
+  CHECK(actions.changed_keys() == KeyNames{{"tool.pen", {"J"}}});
   // A key that another action has by the table goes over to the one that the file gives it.
-  use_keys({{"tool.pen", {"V"}}});
-  CHECK(action_named("tool.select").keys.empty());
-  CHECK(use_keys({{"tool.lasso", {"L"}}, {"tool.pen", {"Hyper+P"}}}) ==
+  actions.use_keys({{"tool.pen", {"V"}}});
+  CHECK(actions.named("tool.select").keys.empty());
+  CHECK(actions.use_keys({{"tool.lasso", {"L"}}, {"tool.pen", {"Hyper+P"}}}) ==
         std::vector<std::string>{"tool.lasso", "Hyper+P"});
   for (const char* text : {"", "[]", "{}", R"({"format": "holomorph-keys", "keys": {"a": 1}})"})
     CHECK_THROWS_AS(keys_of_json(text, "keys.json"), Error);
 }
 
 TEST_CASE("The list of keys names every key") {
-  const std::string list = keys_markdown();
-  for (const Action& action : actions()) {
+  const ActionTable actions;
+  const std::string list = keys_markdown(actions);
+  for (const Action& action : actions.rows()) {
     INFO(action.id);
     if (action.keys.empty()) continue;
     CHECK(list.find("| " + action.label + " |") != std::string::npos);
@@ -86,4 +84,54 @@ TEST_CASE("The list of keys names every key") {
       CHECK(list.find("`" + text + "`") != std::string::npos);
   }
   for (const Gesture& gesture : gestures()) CHECK(list.find(gesture.what) != std::string::npos);
+}
+
+TEST_CASE("One thing at a time gets the keys: what lies on top of the others") {
+  const std::vector<std::pair<bool WindowFocus::*, KeyFocus>> from_top{
+      {&WindowFocus::assigns_key, KeyFocus::assignment},
+      {&WindowFocus::edits_field, KeyFocus::field},
+      {&WindowFocus::palette, KeyFocus::palette},
+      {&WindowFocus::dialog, KeyFocus::dialog},
+      {&WindowFocus::menu, KeyFocus::menu},
+      {&WindowFocus::menu_was_open, KeyFocus::menu},
+      {&WindowFocus::panel, KeyFocus::panel}};
+  CHECK(key_focus({}) == KeyFocus::canvas);
+  // Every combination of what can be open.
+  for (unsigned set = 1; set < 1u << from_top.size(); ++set) {
+    WindowFocus window;
+    std::optional<KeyFocus> top;
+    for (size_t i = 0; i < from_top.size(); ++i) {
+      if (!(set >> i & 1)) continue;
+      window.*from_top[i].first = true;
+      if (!top) top = from_top[i].second;
+    }
+    INFO(set);
+    CHECK(key_focus(window) == top);
+    const bool items = window.dialog || window.menu || window.panel;
+    CHECK(navigates_items(window) == (items && !window.assigns_key && !window.palette));
+  }
+}
+
+TEST_CASE("A panel keeps the keys that move through it and type into it") {
+  const ActionTable actions;
+  const Action &undo = actions.named("edit.undo"), &next = actions.named("view.next_panel");
+  for (const Shortcut key : {Shortcut('Z'), Shortcut(Key::left), Shortcut(Key::enter),
+                             Shortcut(Key::space), Shortcut(Key::tab, kCtrl), Shortcut(Key::del)}) {
+    INFO(text_of(key));
+    CHECK_FALSE(acts_from_panel(key, undo));
+    CHECK(acts_from_panel(key, next));
+  }
+  for (const Shortcut key : {Shortcut('Z', kCtrl), Shortcut(Key::f1), Shortcut(Key::f12)})
+    CHECK(acts_from_panel(key, undo));
+}
+
+TEST_CASE("Actions that act during a gesture change the view alone") {
+  const ActionTable actions;
+  int count = 0;
+  for (const Action& action : actions.rows()) {
+    if (!action.during_gesture) continue;
+    ++count;
+    CHECK(action.id.starts_with("view."));
+  }
+  CHECK(count == 6);
 }

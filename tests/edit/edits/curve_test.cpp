@@ -93,7 +93,7 @@ TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle"
   CHECK_FALSE(is_smooth(desk.deformation(), 1, EditMode::pose));
   desk.click({200, 0});
   CHECK(desk.workspace.selection.size() == 1);
-  run(action_named("cage.corner"), desk.workspace);
+  run("cage.corner", desk.workspace);
   CHECK(is_smooth(desk.deformation(), 1, EditMode::pose));
   desk.settle();
   CHECK(desk.workspace.map().has_map());
@@ -126,14 +126,14 @@ TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curv
 
 TEST_CASE("Pins become a posed cage that shows the same picture and can be edited on") {
   Desk desk(shapes::rectangle(200, 200));
-  run(action_named("cage.raise"), desk.workspace);
-  run(action_named("cage.raise"), desk.workspace);
+  run("cage.raise", desk.workspace);
+  run("cage.raise", desk.workspace);
   desk.workspace.tools.active = ToolId::pin;
   for (const Complex z : {Complex(40, 40), Complex(160, 50), Complex(100, 160)}) {
     desk.settle();
     desk.drag(z, z + Complex(9, -6) * (z.real() / 100));
   }
-  run(action_named("cage.bake"), desk.workspace);
+  run("cage.bake", desk.workspace);
   CHECK(desk.deformation().method == "pins");  // refused, with the reason
   REQUIRE_FALSE(desk.workspace.messages.toasts.empty());
   Deformation deformation = desk.deformation();
@@ -141,7 +141,7 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
   desk.workspace.commit("Own points", deformation);
   desk.settle();
   const VectorXc before = desk.workspace.map().map().f;
-  run(action_named("cage.bake"), desk.workspace);
+  run("cage.bake", desk.workspace);
   CHECK(desk.deformation().method == "cage");
   desk.settle();
   CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 1e-2);  // single precision
@@ -149,7 +149,7 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
 
 TEST_CASE("Rest curves are edited like posed ones, and the pose stays") {
   Desk desk(shapes::rectangle(200, 200));
-  run(action_named("cage.rest"), desk.workspace);
+  run("cage.rest", desk.workspace);
   desk.click({200, 0}, {true, false, false});
   CHECK(is_smooth(desk.deformation(), 1, EditMode::rest));
   CHECK(desk.deformation().pose == polygon_cage(shapes::rectangle(200, 200)));

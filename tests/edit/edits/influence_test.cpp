@@ -19,7 +19,7 @@ Handle vertex(Index i) {
 
 TEST_CASE("Soft drags take less along the farther it is, and nothing beyond their reach") {
   Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
-  run(action_named("edit.soft"), desk.workspace);
+  run("edit.soft", desk.workspace);
   desk.workspace.tools.drag.reach = 200;
   desk.drag({0, 0}, {0, -60});
   CHECK(desk.deformation().pose.vertex(0) == Complex(0, -60));
@@ -28,13 +28,13 @@ TEST_CASE("Soft drags take less along the farther it is, and nothing beyond thei
   CHECK(desk.deformation().pose.vertex(2) == Complex(200, 0));
   CHECK(desk.deformation().pose.vertex(4) == Complex(0, 200));
   CHECK(desk.deformation().rest.vertex(1) == Complex(100, 0));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation().pose == desk.deformation().rest);  // one step
-  run(action_named("edit.soft_less"), desk.workspace);
+  run("edit.soft_less", desk.workspace);
   CHECK(desk.workspace.tools.drag.reach == Approx(160));
-  for (int i = 0; i < 100; ++i) run(action_named("edit.soft_less"), desk.workspace);
+  for (int i = 0; i < 100; ++i) run("edit.soft_less", desk.workspace);
   CHECK(desk.workspace.tools.drag.reach == kLeastReach);
-  run(action_named("edit.soft"), desk.workspace);
+  run("edit.soft", desk.workspace);
   desk.drag({0, 0}, {0, -60});
   CHECK(desk.deformation().pose.vertex(1) == Complex(100, 0));
 }
@@ -46,7 +46,7 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
   deformation.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
   desk.workspace.commit("Pins", deformation);
   desk.settle();
-  run(action_named("edit.symmetry"), desk.workspace);
+  run("edit.symmetry", desk.workspace);
   desk.drag({200, 0}, {230, -20});
   CHECK(desk.deformation().pose.vertex(1) == Complex(230, -20));
   CHECK(desk.deformation().pose.vertex(0) == Complex(-30, -20));
@@ -69,7 +69,7 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
 
 TEST_CASE("A drag without symmetry at rest moves one side") {
   Desk desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
-  run(action_named("edit.symmetry"), desk.workspace);
+  run("edit.symmetry", desk.workspace);
   desk.drag({230, 170}, {260, 200});
   CHECK(desk.deformation().pose.vertex(2) == Complex(260, 200));
   CHECK(desk.deformation().pose.vertex(3) == Complex(0, 200));
@@ -77,7 +77,7 @@ TEST_CASE("A drag without symmetry at rest moves one side") {
 
 TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   Desk desk({{0, 0}, {100, 0}, {203, 7}, {200, 200}, {0, 200}});
-  run(action_named("edit.snap"), desk.workspace);
+  run("edit.snap", desk.workspace);
   desk.press({100, 0});
   desk.move({197, -40});
   desk.move({197, 205});  // the fourth point's column and row, 3 and 5 px away
@@ -91,7 +91,7 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   desk.release({97, 60});
   CHECK(desk.deformation().pose.vertex(1) == Complex(100, 60));  // its own column at rest
   CHECK(desk.tool().overlay().guides.empty());
-  run(action_named("edit.snap"), desk.workspace);
+  run("edit.snap", desk.workspace);
   desk.drag({100, 60}, {197, 205});
   CHECK(desk.deformation().pose.vertex(1) == Complex(197, 205));
   // The picture's edges and middle.
@@ -119,7 +119,7 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
   CHECK(desk.deformation().pose.vertex(1).real() - desk.deformation().pose.vertex(0).real() ==
         Approx(400));
   CHECK(desk.deformation().pose.vertex(2).imag() == Approx(200));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation().pose == desk.deformation().rest);
   // A corner evenly, about the opposite one; freely with Shift; about the middle with Alt.
   const Complex corner = plane(4), half(100, 100);
@@ -128,13 +128,13 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
         Approx(100));
   CHECK(desk.deformation().pose.vertex(2).imag() - desk.deformation().pose.vertex(0).imag() ==
         Approx(100));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   desk.drag(corner, corner - Complex(half.real(), 0), kShift);
   CHECK(desk.deformation().pose.vertex(2).real() - desk.deformation().pose.vertex(0).real() ==
         Approx(100));
   CHECK(desk.deformation().pose.vertex(2).imag() - desk.deformation().pose.vertex(0).imag() ==
         Approx(200));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   desk.drag(corner, corner - 0.5 * half, kAlt);
   CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(150, 150)) < 1e-9);
   CHECK(std::abs(desk.deformation().pose.vertex(0) - Complex(50, 50)) < 1e-9);
@@ -149,10 +149,10 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
     CHECK(std::abs(desk.deformation().pose.vertex(i) - desk.deformation().rest.vertex(i) -
                    Complex(30, 40)) < 1e-9);
   CHECK(desk.workspace.selection == all);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   desk.drag({60, 70}, {90, 80}, kShift);
   CHECK(desk.deformation().pose.vertex(0) - desk.deformation().rest.vertex(0) == Complex(30, 0));
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift from the start it selects
   CHECK(desk.deformation().pose == desk.deformation().rest);
   CHECK(desk.workspace.selection == all);
@@ -182,7 +182,7 @@ TEST_CASE("The box' knob turns, pins that turn included, as far around as it is 
   CHECK(std::abs(desk.deformation().pins[1].pose - Complex(100, 50)) < 1e-6);
   CHECK(desk.deformation().pins[0].angle == Approx(0.25 + 1.5 * kPi));
   CHECK_FALSE(desk.deformation().pins[1].angle);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation() == deformation);
   // Escape drops it.
   desk.hover({100, 60});
@@ -218,7 +218,7 @@ TEST_CASE("The brush paints what is under it at rest, as one step, in the method
   Workspace& w = desk.workspace;
   desk.drag({200, 200}, {260, 200});
   desk.settle();
-  run(action_named("tool.brush"), w);
+  run("tool.brush", w);
   w.tools.brush_radius = 20;
   const size_t steps = desk.steps();
   desk.draw({{40, 100}, {60, 100}, {80, 100}, {100, 100}});
@@ -236,14 +236,14 @@ TEST_CASE("The brush paints what is under it at rest, as one step, in the method
   desk.settle();
   desk.draw({{20, 100}, {40, 100}, {60, 100}, {80, 100}, {100, 100}, {120, 100}}, kShift);
   CHECK(w.shown.deformation().stiffness.size() < painted.size());
-  run(action_named("edit.undo"), w);
-  run(action_named("edit.undo"), w);
+  run("edit.undo", w);
+  run("edit.undo", w);
   CHECK(w.shown.deformation().stiffness == painted);
   const double radius = w.tools.brush_radius;
-  run(action_named("edit.soft_more"), w);
+  run("edit.soft_more", w);
   CHECK(w.tools.brush_radius > radius);
   CHECK_FALSE(w.tools.drag.soft);
-  run(action_named("edit.remove_stiffness"), w);
+  run("edit.remove_stiffness", w);
   CHECK(w.shown.deformation().stiffness.empty());
   desk.press({60, 100});
   desk.tool().key(Key::escape, w);
@@ -259,10 +259,10 @@ TEST_CASE("Pins go up and down together") {
   desk.workspace.commit("Pins", deformation);
   desk.workspace.selection = {{Handle::Kind::pin, 0, 0}};
   const size_t steps = desk.steps();
-  for (int i = 0; i < 3; ++i) run(action_named("edit.pin_up"), desk.workspace);
+  for (int i = 0; i < 3; ++i) run("edit.pin_up", desk.workspace);
   CHECK(desk.deformation().pins[0].depth == 3);
   CHECK(desk.deformation().pins[1].depth == 0);
   CHECK(desk.steps() == steps + 1);
-  run(action_named("edit.pin_down"), desk.workspace);
+  run("edit.pin_down", desk.workspace);
   CHECK(desk.deformation().pins[0].depth == 2);
 }

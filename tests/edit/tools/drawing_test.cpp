@@ -48,7 +48,7 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   CHECK(desk.steps() == ++steps);
   CHECK(std::abs(desk.deformation().strokes[0].pose.front() - Complex(30, 40)) < 1e-9);
   CHECK(std::abs(desk.deformation().strokes[0].pose.back() - Complex(200, 40)) < 1e-9);
-  run(action_named("edit.reset"), desk.workspace);
+  run("edit.reset", desk.workspace);
   CHECK(desk.deformation().strokes[0].pose == rest);
   CHECK(desk.steps() == ++steps);
 
@@ -56,7 +56,7 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   desk.click({100, 75}, kAlt);
   CHECK(desk.deformation().strokes.empty());
   CHECK(desk.steps() == ++steps);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation().strokes.size() == 1);
 }
 
@@ -123,7 +123,7 @@ TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like o
   CHECK(desk.workspace.selection.empty());
   desk.drag({-20, 60}, {110, 100});
   CHECK(desk.workspace.selection == Selection{handle});
-  run(action_named("edit.delete"), desk.workspace);
+  run("edit.delete", desk.workspace);
   CHECK(desk.deformation().strokes.empty());
   CHECK(desk.workspace.document.history().entries().back().label == "Delete stroke");
 }
@@ -149,7 +149,7 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   desk.settle();
   for (const int v : desk.workspace.map().prepared()->mesh->boundary)
     CHECK(std::abs(std::abs(desk.workspace.map().map().f[v] - Complex(300, 300)) - 100.75) <= 2);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation().outline.empty());
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
     shown = map.map().iterations;
   }
   CHECK(now > 300);  // the first iteration is seen, too
-  CHECK_FALSE(action_named("map.step").enabled(desk.workspace));
+  CHECK_FALSE(desk.workspace.actions.named("map.step").enabled(desk.workspace));
   CHECK(now < 4000);
   const VectorXc end = pose();
   CHECK(map.map().iterations == last);
@@ -194,21 +194,21 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
     CHECK(map.map().energies[static_cast<size_t>(i) + 1] <=
           map.map().energies[static_cast<size_t>(i)]);
 
-  run(action_named("map.restart"), desk.workspace);
+  run("map.restart", desk.workspace);
   CHECK(pose() == first);
   CHECK_FALSE(playback.playing);
-  run(action_named("map.step"), desk.workspace);
+  run("map.step", desk.workspace);
   pose();
   CHECK(map.map().iterations == 1);
-  run(action_named("map.play"), desk.workspace);
+  run("map.play", desk.workspace);
   CHECK(playback.playing);
-  run(action_named("map.play"), desk.workspace);
+  run("map.play", desk.workspace);
   CHECK_FALSE(playback.playing);
-  for (int i = 1; i < last; ++i) run(action_named("map.step"), desk.workspace);
+  for (int i = 1; i < last; ++i) run("map.step", desk.workspace);
   CHECK(pose() == end);
   // What is edited is seen at its end.
-  run(action_named("map.restart"), desk.workspace);
-  run(action_named("edit.undo"), desk.workspace);
+  run("map.restart", desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK_FALSE(playback.iteration);
 }
 
@@ -226,7 +226,7 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   CHECK_FALSE(found.folds_at.empty());
   CHECK(found.crossing);
   CHECK(found.turning_number == Approx(2).margin(0.01));  // around a zero of f'
-  run(action_named("map.fold_free"), desk.workspace);
+  run("map.fold_free", desk.workspace);
   CHECK(desk.deformation().method == "bounded");
   CHECK(choice(method_named("bounded"), desk.deformation().parameters, "reference") == "cage");
   desk.settle();
@@ -264,7 +264,7 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
 TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") {
   const auto followed = [](Desk& desk) {
     const VectorXc before = desk.workspace.map().map().f;
-    run(action_named("map.fold_free"), desk.workspace);
+    run("map.fold_free", desk.workspace);
     desk.settle();
     REQUIRE(desk.workspace.map().map().status == SampledMap::Status::certified);
     return (desk.workspace.map().map().f - before).cwiseAbs().maxCoeff();

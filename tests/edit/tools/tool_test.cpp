@@ -41,7 +41,7 @@ TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis
   desk.move({262, 90});  // below the threshold
   desk.release({262, 90});
   CHECK(desk.steps() == 4);
-  run(action_named("edit.undo"), desk.workspace);
+  run("edit.undo", desk.workspace);
   CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
 }
 
@@ -78,8 +78,8 @@ TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay
   CHECK(desk.deformation().rest.vertex(1).imag() == Approx(0).margin(1e-12));
   desk.click({100, -20}, kAlt);
   CHECK(desk.deformation().rest.size() == 6);
-  run(action_named("edit.select_all"), desk.workspace);
-  run(action_named("edit.delete"), desk.workspace);
+  run("edit.select_all", desk.workspace);
+  run("edit.delete", desk.workspace);
   CHECK(desk.deformation().rest.size() == 6);
   CHECK(desk.workspace.messages.toasts.size() == 1);
 }
@@ -87,7 +87,7 @@ TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay
 TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its place") {
   Desk desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 120});
-  run(action_named("cage.rest"), desk.workspace);
+  run("cage.rest", desk.workspace);
   const Cage pose = desk.deformation().pose;
   desk.drag({200, 100}, {210, 90});
   CHECK(desk.deformation().rest.vertex(2) == Complex(210, 90));
@@ -205,7 +205,7 @@ TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
   Input aside = desk.at({120, 50});
   aside.wheel = 2;
   CHECK_FALSE(desk.tool().scroll(aside, desk.workspace));
-  run(action_named("edit.free_angle"), desk.workspace);
+  run("edit.free_angle", desk.workspace);
   CHECK_FALSE(desk.deformation().pins[0].angle);
 }
 
@@ -232,8 +232,8 @@ TEST_CASE("Resetting every handle of a curved pose gives the rest") {
   deformation.pose.segments[1] = {{210, 5}, {230, 30}, {230, 70}};
   deformation.pose.segments[2][1] += 9.0;
   desk.workspace.commit("Curves", deformation);
-  run(action_named("edit.select_all"), desk.workspace);
-  run(action_named("edit.reset"), desk.workspace);
+  run("edit.select_all", desk.workspace);
+  run("edit.reset", desk.workspace);
   const Deformation& after = desk.deformation();
   CHECK(after.pose.segments[2] == after.rest.segments[2]);
   for (Index e = 0; e < after.rest.size(); ++e) {
@@ -258,17 +258,17 @@ TEST_CASE("Nudges merge while they go on, and never into another's step") {
   Desk desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   desk.click({0, 0});
-  for (int i = 0; i < 3; ++i) run(action_named("edit.nudge_right"), w);
+  for (int i = 0; i < 3; ++i) run("edit.nudge_right", w);
   CHECK(desk.steps() == 3);
   desk.click({200, 0});
-  run(action_named("edit.nudge_right"), w);
+  run("edit.nudge_right", w);
   CHECK(desk.steps() == 4);
   desk.click({3, 0});
   w.go_to(2);
-  run(action_named("edit.nudge_up"), w);
+  run("edit.nudge_up", w);
   CHECK(desk.steps() == 4);  // a step of its own, after the first nudges
   CHECK(desk.deformation().pose.vertex(0) == Complex(3, 1));
-  run(action_named("edit.undo"), w);
+  run("edit.undo", w);
   CHECK(desk.deformation().pose.vertex(0) == Complex(3, 0));
 }
 
@@ -278,7 +278,7 @@ TEST_CASE("A selection never means another point after undo, or a pin that the m
   w.tools.active = ToolId::pen;
   desk.click({100, 0});
   CHECK(w.selection.size() == 1);
-  run(action_named("edit.undo"), w);
+  run("edit.undo", w);
   CHECK(w.selection.empty());
   w.tools.active = ToolId::pin;
   desk.settle();
@@ -308,9 +308,9 @@ TEST_CASE("Nudging, resetting and methods act on the scene as named") {
   Desk desk(shapes::l_shape());
   desk.click({0, 0});
   for (const char* id : {"edit.nudge_right", "edit.nudge_up_10", "edit.nudge_left_fine"})
-    run(action_named(id), desk.workspace);
+    run(id, desk.workspace);
   CHECK(std::abs(desk.deformation().pose.vertex(0) - Complex(0.9, 10)) < 1e-12);
-  run(action_named("edit.reset"), desk.workspace);
+  run("edit.reset", desk.workspace);
   CHECK(desk.deformation().pose == desk.deformation().rest);
   Deformation deformation = with_method(desk.deformation(), "pins");
   deformation.parameters["smoothness"] = 1e-4;
@@ -318,8 +318,9 @@ TEST_CASE("Nudging, resetting and methods act on the scene as named") {
 }
 
 TEST_CASE("The action table: ids and keys are unique, icons and labels are there") {
+  Desk desk(shapes::l_shape());
   std::set<std::string> ids, keys;
-  for (const Action& action : actions()) {
+  for (const Action& action : desk.workspace.actions.rows()) {
     CHECK(ids.insert(action.id).second);
     CHECK_FALSE(action.label.empty());
     for (const Shortcut& key : action.keys) {
@@ -327,10 +328,11 @@ TEST_CASE("The action table: ids and keys are unique, icons and labels are there
       CHECK(keys.insert(text_of(key) + (key.mods.shift ? "S" : "")).second);
     }
   }
-  Desk desk(shapes::l_shape());
-  CHECK(action_for(Shortcut('V'), desk.workspace) == &action_named("tool.select"));
-  CHECK(action_for(Shortcut('Z', {true, false, false}), desk.workspace) ==
-        &action_named("edit.undo"));
-  CHECK(action_for(Shortcut(Key::del), desk.workspace) == nullptr);  // nothing is selected
-  CHECK(label_with_keys(action_named("edit.undo")) == "Undo (Ctrl+Z)");
+  CHECK(desk.workspace.actions.for_key(Shortcut('V'), desk.workspace) ==
+        &desk.workspace.actions.named("tool.select"));
+  CHECK(desk.workspace.actions.for_key(Shortcut('Z', {true, false, false}), desk.workspace) ==
+        &desk.workspace.actions.named("edit.undo"));
+  CHECK(desk.workspace.actions.for_key(Shortcut(Key::del), desk.workspace) ==
+        nullptr);  // nothing is selected
+  CHECK(label_with_keys(desk.workspace.actions.named("edit.undo")) == "Undo (Ctrl+Z)");
 }
