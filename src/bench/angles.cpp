@@ -26,7 +26,7 @@ constexpr int kAsked = 8700;  ///< so that the mesh has about 10000 vertices
 Deformation star_scene() {
   Deformation deformation;
   deformation.rest = deformation.pose = polygon_cage(star());
-  deformation.method = "angles";
+  deformation.method = usual_method(MethodUse::corners).id;
   for (Index v = 0; v < deformation.rest.size(); ++v) deformation.corners.push_back({v, {}, {}});
   deformation.corners[3].pose = {0.2, 0.3, 1};
   return deformation;

@@ -181,7 +181,7 @@ Deformation pulled_bar() {
   for (int i = 0; i < 8; ++i) bar.push_back({100.0 * i, 0});
   for (int i = 7; i >= 0; --i) bar.push_back({100.0 * i, 160});
   Deformation deformation = scene_with(bar);
-  deformation.method = "bounded";
+  deformation.method = usual_method(MethodUse::bounds).id;
   for (const Complex z : {Complex(40, 80), Complex(350, 80), Complex(660, 80)})
     deformation.pins.push_back({z, z, {}, {}});
   return deformation;
@@ -254,7 +254,7 @@ double mesh_ms(int runs) {
 
 double add_pin_ms(int runs) {
   Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
-  deformation.method = "pins";
+  deformation.method = usual_method(MethodUse::pins).id;
   for (int i = 0; i < 10; ++i)
     deformation.pins.push_back(
         {Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
@@ -272,7 +272,7 @@ double export_ms(int runs, int threads) {
     SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
     RasterJob job;
     job.mesh = prepared->mesh.get();
-    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.positions = as_span(map.f);
     job.source = &image;
     job.threads = threads;
     rasterized(job);

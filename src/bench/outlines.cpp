@@ -101,7 +101,7 @@ double strokes_drag_ms(int runs) {
   const double length = perimeter(round) / (2 * kPi);  // L: 20 samples each, all inside
   for (int i = 0; i < 5; ++i)
     rest.strokes.push_back({{-0.5 * length, 60.0 * (i - 2)}, {0.5 * length, 60.0 * (i - 2)}});
-  const auto deformer = method_named("strokes").prepare(rest, nullptr);
+  const auto deformer = usual_method(MethodUse::strokes).prepare(rest, nullptr);
   SampledMap map;
   std::vector<double> times;
   Pose pose{rest.cage, {}};

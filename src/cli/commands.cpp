@@ -82,7 +82,7 @@ void run(const NewCommand& command) {
     deformation.outline =
         outline_of_file(*command.outline, height, box_of(outline_of(deformation.rest)), flattening);
     deformation.surface = surface_of_file(*command.outline, flattening);
-    deformation.method = "outline";
+    deformation.method = usual_method(MethodUse::outline).id;
   }
   const auto absolute = [](const Path& path) { return absolute_path(path); };
   const std::string text = json_of(

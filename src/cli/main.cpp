@@ -183,7 +183,7 @@ void CommandLine::add_new(CLI::App& app) {
   sub->add_option("IMAGE", fresh.image)->required();
   sub->add_option("--out", fresh.out, "Scene to write")->required();
   add_force(sub, fresh.force, "Replace an existing scene, and read-only files");
-  sub->add_option("--vertices", fresh.vertices, "EvalOptions number of cage vertices")
+  sub->add_option("--vertices", fresh.vertices, "Number of cage vertices")
       ->capture_default_str();
   sub->add_option("--margin", fresh.margin,
                   "Distance from the content in pixels; default 2 % of the longer side");

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <span>
 #include <vector>
 
 namespace holomorph {
@@ -34,6 +35,11 @@ inline bool is_finite(Complex z) {
 /// Whether coordinates are so small that products of four of them do not overflow.
 inline bool is_moderate(Complex z) {
   return std::abs(z.real()) <= 1e70 && std::abs(z.imag()) <= 1e70;
+}
+
+/// The entries of a vector.
+inline std::span<const Complex> as_span(const VectorXc& vector) {
+  return {vector.data(), static_cast<size_t>(vector.size())};
 }
 
 /// An axis-parallel box; empty until something is included.

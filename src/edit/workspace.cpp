@@ -340,9 +340,7 @@ std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
   if (!map.has_map()) return {};
   const Mesh& mesh = *map.drawn();
   const std::span<const Complex> positions =
-      workspace.at_rest()
-          ? std::span<const Complex>(mesh.vertices)
-          : std::span<const Complex>(map.map().f.data(), static_cast<size_t>(map.map().f.size()));
+      workspace.at_rest() ? std::span<const Complex>(mesh.vertices) : as_span(map.map().f);
   const auto found = locate(mesh, positions, z);
   if (!found) return {};
   return found->in(mesh, mesh.vertices);
@@ -353,7 +351,7 @@ Complex posed_at(const LiveMap& map, Complex rest) {
   const Mesh& mesh = *map.drawn();
   const VectorXc& f = map.map().f;
   const auto found = locate(mesh, mesh.vertices, rest);
-  return found ? found->in(mesh, {f.data(), static_cast<size_t>(f.size())}) : rest;
+  return found ? found->in(mesh, as_span(f)) : rest;
 }
 
 std::optional<Cage> solved_cage(const Workspace& workspace) {

@@ -3,10 +3,8 @@
 // of 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
 #include "raster/drawing.h"
 
-#include <atomic>
-#include <thread>
-
 #include "raster/sampler.h"
+#include "system/parallel.h"
 
 namespace holomorph {
 namespace {
@@ -84,18 +82,8 @@ class Drawing {
   }
 
   Image draw() {
-    std::atomic<int> next{0};
-    const auto work = [&] {
-      for (int band = next++; band < static_cast<int>(bands_.size()); band = next++)
-        draw_band(band);
-    };
-    const int count = job_.threads > 0
-                          ? job_.threads
-                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<std::thread> others;
-    for (int i = 1; i < count; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& thread : others) thread.join();
+    parallel_for(
+        static_cast<int>(bands_.size()), [&](int band) { draw_band(band); }, {}, job_.threads);
     return std::move(output_);
   }
 

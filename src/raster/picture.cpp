@@ -43,7 +43,7 @@ class PictureMaker::LayerMaker {
     }
     if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, depths_of(deformation_));
     job.mesh = drawn_.get();
-    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.positions = as_span(map.f);
     return rasterized(job);
   }
 

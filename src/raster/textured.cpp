@@ -35,7 +35,7 @@ TexturedSurface textured(const LaidSurface& surface, const Deformation& deformat
   SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
   RasterJob job;
   job.mesh = prepared->mesh.get();
-  job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+  job.positions = as_span(map.f);
   job.source = source;
   job.pixels_per_unit = scale;
   job.surroundings = false;

@@ -1,14 +1,13 @@
 // Unwarping is drawing with the two sides of the mesh exchanged.
 #include "raster/unwarp.h"
 
-#include <atomic>
 #include <limits>
-#include <thread>
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/inverse.h"
 #include "scene/timed_map.h"
+#include "system/parallel.h"
 
 namespace holomorph {
 namespace {
@@ -50,22 +49,10 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
             std::max(1, static_cast<int>(std::lround(height * scale))),
             {}};
   map.st.resize(2 * static_cast<size_t>(map.width) * map.height);
-  std::atomic<int> next{0};
-  const auto take_row = [&] {
-    const int row = next++;
-    if (row < map.height)
-      fill_row(scene.deformation().rest, inverse->inverse, scale, row, height, width, map);
-    return row < map.height;
+  const auto draw_row = [&](int row) {
+    fill_row(scene.deformation().rest, inverse->inverse, scale, row, height, width, map);
   };
-  {
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-      others.emplace_back([&](const std::stop_token& stop) {
-        while (!stop.stop_requested() && take_row()) {
-        }
-      });
-    while (take_row()) progress(std::min(next.load(), map.height), map.height);
-  }
+  parallel_for(map.height, draw_row, [&](int started) { progress(started, map.height); });
   return map;
 }
 

@@ -361,7 +361,7 @@ bool Renderer::set_operator(const PlanarMatrix<float>* matrix) {
 void Renderer::set_controls(const VectorXc& controls) {
   Objects& gl = *gl_;
   check(controls.size() == gl.columns, "a control for each column of the operator");
-  const std::vector<float> flat = pairs({controls.data(), static_cast<size_t>(controls.size())});
+  const std::vector<float> flat = pairs(as_span(controls));
   upload(gl.controls, GL_TEXTURE_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
   glActiveTexture(GL_TEXTURE0 + kControls);
   glBindTexture(GL_TEXTURE_BUFFER, gl.controls_texture);

@@ -81,7 +81,7 @@ struct Deformation {
   std::vector<BrushDab> stiffness = {};  ///< painted, for methods that use it
   /// By increasing time. Those whose structure differs from the handles' are kept, but do not play.
   std::vector<Keyframe> keyframes = {};
-  std::string method = "cage";
+  std::string method = usual_method(MethodUse::cage).id;
   Parameters parameters = {};
   std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id
   Extra cage_extra = {}, method_extra = {};

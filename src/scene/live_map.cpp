@@ -148,14 +148,14 @@ Points LiveMap::places_at(double time, std::span<const Complex> rest) {
   const VectorXc f = motion_.map_at(time);
   for (Complex& z : places)
     if (const auto at = locate(*shown_->mesh, shown_->mesh->vertices, z))
-      z = at->in(*shown_->mesh, {f.data(), static_cast<size_t>(f.size())});
+      z = at->in(*shown_->mesh, as_span(f));
   return places;
 }
 
 std::optional<Complex> LiveMap::pin_place(const Deformation& deformation, size_t i) const {
   if (!posed_ || !same_rest(*posed_, deformation)) return {};
   if (!has_map() || map_.ignores_pins || i >= shown_->pins.size() || !shown_->pins[i]) return {};
-  return shown_->pins[i]->in(*shown_->mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())});
+  return shown_->pins[i]->in(*shown_->mesh, as_span(map_.f));
 }
 
 /// What there is to say of a map that was just posed.
@@ -165,7 +165,7 @@ void LiveMap::describe() {
   zero_places_.clear();
   for (const Complex& zero : map_.zeros)
     if (const auto at = locate(mesh, mesh.vertices, zero))
-      zero_places_.push_back(at->in(mesh, {map_.f.data(), static_cast<size_t>(map_.f.size())}));
+      zero_places_.push_back(at->in(mesh, as_span(map_.f)));
 }
 
 void LiveMap::clear() {

@@ -270,8 +270,7 @@ Motion::Frame Motion::frame_at(Complex rest, const VectorXc& map) const {
   if (fresh) known->second = locate_near(mesh, rest);
   const Location& at = known->second;
   const Triangle& t = mesh.triangles[static_cast<size_t>(at.triangle)];
-  Frame frame{at.in(mesh, {map.data(), static_cast<size_t>(map.size())}),
-              derivatives_in(mesh, t, map).fz};
+  Frame frame{at.in(mesh, as_span(map)), derivatives_in(mesh, t, map).fz};
   if (std::abs(frame.fz) < 1e-9) frame.fz = 1e-9;
   return frame;
 }

@@ -19,7 +19,7 @@ class MeshPointMap final : public PointMap {
     const Location place = locate_near(*mesh_, z);
     const Triangle& t = mesh_->triangles[static_cast<size_t>(place.triangle)];
     const auto [fz, fzbar] = derivatives_in(*mesh_, t, f_);
-    return {place.in(*mesh_, {f_.data(), static_cast<size_t>(f_.size())}), fz, fzbar};
+    return {place.in(*mesh_, as_span(f_)), fz, fzbar};
   }
 
  private:

@@ -45,8 +45,7 @@ class TimedMap {
     InverseMap inverse;
 
     Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
-        : map(std::move(of)),
-          inverse(rest, mesh, {f.data(), static_cast<size_t>(f.size())}, *map) {}
+        : map(std::move(of)), inverse(rest, mesh, as_span(f), *map) {}
   };
   /// Null when the method knows its map at samples only. The TimedMap must outlive it.
   std::unique_ptr<Inverse> inverse(const TimedFrame& frame) const;

@@ -66,7 +66,7 @@ TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 
       worst = std::max(worst, std::abs(placed[i] - map.f[static_cast<Index>(i)]));
     INFO(method.id << ", worst " << worst << ", " << driver_name());
     CHECK(worst <= 1e-4);
-    renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
+    renderer.set_positions(as_span(map.f));
     const std::vector<Complex> given = renderer.placed_vertices(Placement::positions);
     CHECK(std::abs(given[7] - map.f[7]) <= 1e-4);
   }
@@ -88,7 +88,7 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
         prepared_map(loaded.scene.deformation(), Precision::single, MeshOptions{});
     SampledMap map = prepared->deformer->deform(pose_of(loaded.scene.deformation()), {});
     renderer.set_mesh(prepared->mesh.get());
-    renderer.set_positions({map.f.data(), static_cast<size_t>(map.f.size())});
+    renderer.set_positions(as_span(map.f));
     RenderFrame frame;
     frame.window_width = width;
     frame.window_height = height;
@@ -200,7 +200,7 @@ TEST_CASE("A heat map on the canvas has the colours of the exported one") {
     const HeatScale scale = heat_scale(view, values, false);
     RasterJob job;
     job.mesh = prepared->mesh.get();
-    job.positions = {map.f.data(), static_cast<size_t>(map.f.size())};
+    job.positions = as_span(map.f);
     job.view = view;
     job.heat = values;
     job.scale = scale;

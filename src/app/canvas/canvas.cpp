@@ -122,8 +122,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     if (layer == &edited) {
       drawing.wireframe = workspace.display.show_mesh;
       for (const OnionSkin& skin : skins)
-        drawing.ghosts.push_back(
-            {{skin.f.data(), static_cast<size_t>(skin.f.size())}, onion_color(skin.later)});
+        drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
     }
     draw(*layer, std::move(drawing));
   }

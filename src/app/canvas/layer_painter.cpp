@@ -74,7 +74,7 @@ void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range)
   }
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
-  renderer_.set_positions({map.map().f.data(), static_cast<size_t>(map.map().f.size())});
+  renderer_.set_positions(as_span(map.map().f));
   if (heat_values_.size() != map.map().f.size()) return;
   Eigen::VectorXf shades(heat_values_.size());
   for (Index i = 0; i < shades.size(); ++i)

@@ -83,7 +83,7 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
                                      : "Click a row to see its map over the picture.");
   bool again = false;
   if (workspace.shown.deformation() != *deformation_) {
-    ImGui::BeginDisabled(workspace.shown.deformation().method != "bounded");
+    ImGui::BeginDisabled(!method_named(workspace.shown.deformation().method).follows_others);
     again = ImGui::Button("Compare again");
     ImGui::EndDisabled();
     ImGui::SameLine();

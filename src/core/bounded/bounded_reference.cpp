@@ -14,7 +14,7 @@ constexpr size_t kFitStride = 2;
 }  // namespace
 
 Bounds bounds_of(const Parameters& values) {
-  const Method& method = method_named("bounded");
+  const Method& method = usual_method(MethodUse::bounds);
   return {parameter(method, values, "k"), parameter(method, values, "sigma"),
           parameter(method, values, "Sigma")};
 }

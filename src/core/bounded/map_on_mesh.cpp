@@ -51,8 +51,7 @@ MatrixXc MapOnMesh::psi_rows(std::span<const Location> places, const MatrixXc& c
   for (Index j = 0; j < coefficients.cols(); ++j) {
     const VectorXc psi = antiderivative(coefficients.col(j));
     for (size_t i = 0; i < places.size(); ++i)
-      rows(static_cast<Index>(i), j) =
-          places[i].in(mesh_, {psi.data(), static_cast<size_t>(psi.size())});
+      rows(static_cast<Index>(i), j) = places[i].in(mesh_, as_span(psi));
   }
   return rows;
 }

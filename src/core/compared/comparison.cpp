@@ -31,7 +31,7 @@ void measure(const VectorXd& elements, ComparedMap& row) {
 class Comparison {
  public:
   Comparison(const Rest& rest, const Pose& pose, std::stop_token stop)
-      : rest_(rest), pose_(pose), mesh_(mesh_of(rest)), method_(method_named("bounded")) {
+      : rest_(rest), pose_(pose), mesh_(mesh_of(rest)), method_(usual_method(MethodUse::bounds)) {
     settings_ = {bounds_of(rest.parameters), std::move(stop)};
     settings_.bounds.check_usable();
     rest_.samples = mesh_.vertices;

@@ -189,6 +189,13 @@ const std::vector<Method>& methods();
 /// The row with this id; throws Error naming the ids that exist.
 const Method& method_named(const std::string& id);
 
+/// What an edit or a tool needs a method for.
+enum class MethodUse { cage, pins, strokes, outline, corners, stiffness, bounds };
+/// The method that they choose unless the present one serves.
+const Method& usual_method(MethodUse use);
+/// The method whose map is meant: the one that a method follows, or itself.
+const Method& followed_method(const Method& method, const Parameters& values);
+
 /// Without the handles that the method has no use for.
 Rest used_by(const Method& method, Rest rest);
 Pose used_by(const Method& method, Pose pose);

@@ -135,9 +135,7 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.real() = laplacian_->solve(right.real().eval());
   f.imag() = laplacian_->solve(right.imag().eval());
   const Location still = stillest(a.f, b.f);
-  const auto at = [&](const VectorXc& map) {
-    return still.in(*mesh_, {map.data(), static_cast<size_t>(map.size())});
-  };
+  const auto at = [&](const VectorXc& map) { return still.in(*mesh_, as_span(map)); };
   f.array() += (1 - share) * at(a.f) + share * at(b.f) - at(f);
 }
 

@@ -7,7 +7,7 @@ namespace holomorph {
 
 /// How fine a domain mesh is.
 struct MeshOptions {
-  /// EvalOptions number of vertices; what comes out is within about a third of it for ordinary
+  /// Intended number of vertices; what comes out is within about a third of it for ordinary
   /// cages.
   int vertices = 8000;
 };

@@ -27,6 +27,30 @@ const Method& method_named(const std::string& id) {
               "method '" + id + "' is not available in this version; choose one of: " + known);
 }
 
+const Method& usual_method(MethodUse use) {
+  switch (use) {
+    case MethodUse::pins:
+      return method_named("pins");
+    case MethodUse::strokes:
+      return method_named("strokes");
+    case MethodUse::outline:
+      return method_named("outline");
+    case MethodUse::corners:
+      return method_named("angles");
+    case MethodUse::stiffness:
+      return method_named("arap");
+    case MethodUse::bounds:
+      return method_named("bounded");
+    case MethodUse::cage:
+      break;
+  }
+  return method_named("cage");
+}
+
+const Method& followed_method(const Method& method, const Parameters& values) {
+  return method.follows_others ? method_named(choice(method, values, "reference")) : method;
+}
+
 std::unique_ptr<Deformer> Method::prepare(const Rest& rest, const Deformer* previous) const {
   check_rest(*this, rest);
   return make(rest, previous);

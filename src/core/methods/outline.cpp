@@ -22,7 +22,7 @@ class OutlineDeformer final : public Deformer {
     if (rest.outline.empty()) {
       Rest free = rest;
       free.parameters.clear();
-      free_ = method_named("pins").prepare(free, nullptr);
+      free_ = usual_method(MethodUse::pins).prepare(free, nullptr);
       return;
     }
     fit_ = new_fit();
@@ -154,8 +154,8 @@ class OutlineDeformer final : public Deformer {
     const bool reached = match.hausdorff <= kOutlineMet * size,
                met = match.pins_missed <= kOutlineMet * size;
     if (match.pins_held > 0)
-      note += match.pins_held == 1 ? "; a pin is options outside of it and held inside"
-                                   : "; pins are options outside of it and held inside";
+      note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
+                                   : "; pins are wanted outside of it and held inside";
     if (!met) note += "; a pin is missed by " + percent(match.pins_missed);
     // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
     if (pins_.used.size() > 1 && !(reached && met))

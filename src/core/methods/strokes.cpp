@@ -1,6 +1,6 @@
 // Method `strokes`: curves drawn inside go onto curves drawn elsewhere, their points free to slide
 // along them (Segall, Ben-Chen 2016, E_s2s); between them the map is as smooth (E_s), as rigid
-// (E_r) and as conformal as options.
+// (E_r) and as conformal as asked.
 //
 // f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
 // minimized by alternating least squares. Without strokes it is method `pins`.
@@ -218,11 +218,11 @@ class StrokesDeformer final : public Deformer {
     rest.parameters.clear();
     rest.strokes.clear();
     if (strokes_.empty()) {
-      free_ = method_named("pins").prepare(rest, nullptr);
+      free_ = usual_method(MethodUse::pins).prepare(rest, nullptr);
       return;
     }
     rest.pins.clear();
-    cage_ = method_named("cage").prepare(rest, nullptr);
+    cage_ = usual_method(MethodUse::cage).prepare(rest, nullptr);
   }
 
   void prepare(double unit) {

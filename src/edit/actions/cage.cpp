@@ -141,10 +141,7 @@ std::vector<Action> cage_actions() {
           .id = "map.fold_free",
           .label = "Make it fold-free",
           .menu = "Cage",
-          .enabled =
-              [](const Workspace& w) {
-                return w.shown.own().has_cage() && w.shown.deformation().method != "bounded";
-              },
+          .enabled = [](const Workspace& w) { return has_cage(w) && !is_bounded(w); },
           .run = [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); },
       },
       {

@@ -217,8 +217,8 @@ std::vector<Action> edit_actions() {
          Deformation deformation = w.shown.own();
          deformation.outline.clear();
          deformation.surface.reset();
-         if (deformation.method == "outline")
-           deformation = with_method(std::move(deformation), "pins");
+         if (deformation.method == usual_method(MethodUse::outline).id)
+           deformation = with_method_for(std::move(deformation), MethodUse::pins);
          w.commit("Remove outline", std::move(deformation), EditBase::document);
        }},
       {"edit.pin_up",

@@ -24,6 +24,9 @@ inline bool always(const Workspace&) {
 inline bool has_cage(const Workspace& w) {
   return w.shown.deformation().has_cage();
 }
+inline bool is_bounded(const Workspace& w) {
+  return method_named(w.shown.deformation().method).follows_others;
+}
 inline bool has_surface(const Workspace& w) {
   return w.shown.deformation().surface.has_value();
 }

@@ -101,10 +101,7 @@ std::vector<Action> view_actions() {
           .id = "view.compare",
           .label = "Compare with other projections",
           .menu = "View",
-          .enabled =
-              [](const Workspace& w) {
-                return w.shown.own().has_cage() && w.shown.deformation().method == "bounded";
-              },
+          .enabled = [](const Workspace& w) { return has_cage(w) && is_bounded(w); },
           .run = ask<Request::compare>,
       },
       {

@@ -15,7 +15,8 @@ auto found(const Deformation& deformation, Index vertex) {
 
 /// A deformation whose method sets angles, with the corners listed and this one among them.
 PoseCorner& corner(Deformation& deformation, Index vertex) {
-  if (!follows(deformation, "angles")) deformation = with_method(std::move(deformation), "angles");
+  if (!serves(deformation, MethodUse::corners))
+    deformation = with_method_for(std::move(deformation), MethodUse::corners);
   deformation = deformation.corners.empty() ? with_all_corners(std::move(deformation))
                                             : with_corner(std::move(deformation), vertex);
   return std::ranges::find(deformation.corners, vertex, &Corner::vertex)->pose;

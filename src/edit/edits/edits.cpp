@@ -159,7 +159,7 @@ Deformation erased(Deformation deformation, const Selection& selection, Refit re
 Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
                      const std::vector<Points>& in_keyframes) {
   if (!method_named(deformation.method).uses_pins)
-    deformation = with_method(std::move(deformation), "pins");
+    deformation = with_method_for(std::move(deformation), MethodUse::pins);
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i].front() : pose});
@@ -167,16 +167,19 @@ Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
   return deformation;
 }
 
-bool follows(const Deformation& deformation, const std::string& id) {
-  return deformation.method == id ||
-         (deformation.method == "bounded" &&
-          choice(method_named("bounded"), deformation.parameters, "reference") == id);
+bool serves(const Deformation& deformation, MethodUse use) {
+  const Method& method = method_named(deformation.method);
+  return followed_method(method, deformation.parameters).id == usual_method(use).id;
+}
+
+Deformation with_method_for(Deformation deformation, MethodUse use) {
+  return with_method(std::move(deformation), usual_method(use).id);
 }
 
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes) {
-  if (!follows(deformation, "strokes"))
-    deformation = with_method(std::move(deformation), "strokes");
+  if (!serves(deformation, MethodUse::strokes))
+    deformation = with_method_for(std::move(deformation), MethodUse::strokes);
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.strokes.push_back(i < in_keyframes.size() ? in_keyframes[i] : pose);
@@ -224,8 +227,9 @@ Deformation with_outline(Deformation deformation, Points outline,
                          std::optional<SurfaceReference> surface) {
   deformation.outline = std::move(outline);
   deformation.surface = std::move(surface);
-  return follows(deformation, "outline") ? deformation
-                                         : with_method(std::move(deformation), "outline");
+  return serves(deformation, MethodUse::outline)
+             ? deformation
+             : with_method_for(std::move(deformation), MethodUse::outline);
 }
 
 Deformation turned(Deformation deformation, Index pin, double angle) {
@@ -288,7 +292,7 @@ Deformation baked(Deformation deformation) {
         ErrorKind::bad_input,
         "the pins move a finer boundary than the cage's points; switch \"Cage's own points\" on");
   deformation.pose = *solved;
-  return with_method(std::move(deformation), "cage");
+  return with_method_for(std::move(deformation), MethodUse::cage);
 }
 
 Deformation with_method(Deformation deformation, const std::string& id) {
@@ -313,11 +317,13 @@ Deformation with_preset(Deformation deformation, const Preset& preset) {
 }
 
 Deformation fold_free(Deformation deformation) {
-  const ParameterSpec& reference = method_named("bounded").parameters[0];
+  const Method& bounded = usual_method(MethodUse::bounds);
+  const ParameterSpec& reference =
+      *std::ranges::find(bounded.parameters, "reference", &ParameterSpec::key);
   const auto followed =
       std::ranges::find(reference.options, deformation.method, &ParameterSpec::Option::id);
   check(followed != reference.options.end(), "fold_free: a method that can be followed");
-  deformation = with_method(std::move(deformation), "bounded");
+  deformation = with_method(std::move(deformation), bounded.id);
   deformation.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
   return deformation;
 }

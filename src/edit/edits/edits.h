@@ -57,8 +57,10 @@ Deformation inserted(Deformation deformation, Index segment, double t);
 /// otherwise.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
-/// Whether a deformation's map is this method's, or the one of `bounded` that follows it.
-bool follows(const Deformation& deformation, const std::string& id);
+/// Whether a deformation's method, or the one that it follows, is the usual one for this use.
+bool serves(const Deformation& deformation, MethodUse use);
+/// With the usual method for a use.
+Deformation with_method_for(Deformation deformation, MethodUse use);
 
 /// With a pin more; the method becomes one that uses pins. In keyframes it is where these take its
 /// place at rest, by number, or at its pose.

@@ -167,7 +167,7 @@ class AngleTool final : public Tool {
     turned_ = 0;
     deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
-    switches_ = !follows(deformation_, "angles");
+    switches_ = !serves(deformation_, MethodUse::corners);
   }
 
   /// The angle that was dragged around the mark's centre, counter-clockwise and unwrapped.

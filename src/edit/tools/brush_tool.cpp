@@ -70,7 +70,7 @@ class BrushTool final : public Tool {
     if (deformation.stiffness == dabs_) return;
     deformation.stiffness = std::move(dabs_);
     const bool switches = !method_named(deformation.method).uses_stiffness;
-    if (switches) deformation = with_method(std::move(deformation), "arap");
+    if (switches) deformation = with_method_for(std::move(deformation), MethodUse::stiffness);
     if (!workspace.commit(erases_      ? "Erase stiffness"
                           : level_ > 0 ? "Stiffen"
                                        : "Soften",

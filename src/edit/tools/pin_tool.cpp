@@ -39,7 +39,8 @@ class PinTool final : public HandleTool {
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.shown.deformation().has_cage()) return needs_a_cage(workspace, "Pins act inside a cage");
+    if (!workspace.shown.deformation().has_cage())
+      return needs_a_cage(workspace, "Pins act inside a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to turn the picture around the pin, scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click deletes"

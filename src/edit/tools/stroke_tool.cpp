@@ -48,7 +48,8 @@ class StrokeTool final : public HandleTool {
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
-    if (!workspace.shown.deformation().has_cage()) return needs_a_cage(workspace, "Strokes act inside a cage");
+    if (!workspace.shown.deformation().has_cage())
+      return needs_a_cage(workspace, "Strokes act inside a cage");
     if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";

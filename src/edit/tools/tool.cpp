@@ -150,7 +150,8 @@ void PinRing::cancel(Workspace& workspace) {
 }
 
 std::string needs_a_cage(const Workspace& workspace, const std::string& what) {
-  return what + ": draw one with " + workspace.actions.key_of("tool.pen") + ", or make one from the picture";
+  return what + ": draw one with " + workspace.actions.key_of("tool.pen") +
+         ", or make one from the picture";
 }
 
 }  // namespace holomorph

@@ -252,8 +252,7 @@ TEST_CASE(
         SampledMap map = deformer->deform(pose, {});
         const auto at = deformer->point_map(pose);
         if (!at) continue;
-        const InverseMap inverse(rest.cage, *rest.mesh,
-                                 {map.f.data(), static_cast<size_t>(map.f.size())}, *at);
+        const InverseMap inverse(rest.cage, *rest.mesh, as_span(map.f), *at);
         const Points outline = flattened(rest.cage).points;
         const double size = box_of(outline).diagonal();
         for (const Complex z : inner_points(rest.cage, 40, random(), 0.7)) {

@@ -63,8 +63,7 @@ TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its 
     for (const SampledMap* map : {&mesh, &smooth})
       for (size_t i = 0; i < bar.rest.pins.size(); ++i) {
         const auto at = locate(*bar.rest.mesh, bar.rest.mesh->vertices, bar.rest.pins[i].position);
-        const Complex place =
-            at->in(*bar.rest.mesh, {map->f.data(), static_cast<size_t>(map->f.size())});
+        const Complex place = at->in(*bar.rest.mesh, as_span(map->f));
         CHECK(std::abs(place - bar.pose.pins[i].position) < 3);  // pixels of 600
       }
   }
