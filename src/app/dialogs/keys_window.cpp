@@ -115,12 +115,13 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::AlignTextToFramePadding();
   const Action* owner = waits && asked_ ? workspace_.actions.owner_of(*asked_) : nullptr;
   wrapped_text(owner ? "'" + owner->label + "' has this key" : action.label);
+  if (!owner && *action.hint) tooltip_of(action);
   ImGui::PopID();
 }
 
 bool KeysWindow::draw_keys(float s) {
   const auto is_found = [&](const Action& action) {
-    return has_words(action.label + " " + keys_text(action), search_);
+    return has_words(action.label + " " + action.hint + " " + keys_text(action), search_);
   };
   if (std::ranges::none_of(workspace_.actions.rows(), is_found)) return false;
   if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return true;

@@ -59,7 +59,7 @@ std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAn
   for (const Action& action : workspace.actions.rows())
     if (action.run)
       rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
-                      action.id + " " + action.menu, action.enabled(workspace),
+                      action.id + " " + action.menu + " " + action.hint, action.enabled(workspace),
                       action.checked && action.checked(workspace),
                       [&, id = action.id] { run(id, workspace); }});
   add_method_rows(workspace, rows);

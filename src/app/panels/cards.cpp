@@ -44,7 +44,7 @@ float draw_cage_offer(Workspace& workspace, double scale) {
   const bool row = view.width > 600 * scale;
   const auto button = [&](const char* face, const char* id) {
     if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);
-    tooltip_of(workspace, id);
+    tooltip_of(workspace.actions.named(id));
     if (row) ImGui::SameLine();
   };
   button("\uf0d0  Make from picture", "cage.from_picture");

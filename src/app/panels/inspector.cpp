@@ -281,7 +281,7 @@ void selection_section(Workspace& workspace) {
   for (const char* id : {"edit.reset", "edit.delete"}) {
     const Action& action = workspace.actions.named(id);
     if (ImGui::Button(action.label.c_str())) run(action, workspace);
-    tooltip_of(workspace, id);
+    tooltip_of(workspace.actions.named(id));
     ImGui::SameLine();
   }
   ImGui::NewLine();

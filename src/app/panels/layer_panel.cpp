@@ -129,7 +129,7 @@ void LayerPanel::draw(Workspace& workspace, double scale) {
     if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
       run(action, workspace);
     ImGui::EndDisabled();
-    tooltip_of(workspace, id);
+    tooltip_of(workspace.actions.named(id));
     ImGui::SameLine(0, 4 * s);
   }
   ImGui::NewLine();

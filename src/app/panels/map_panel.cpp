@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "app/theme.h"
-#include "edit/actions/actions.h"
+#include "app/panels/panels.h"
 
 namespace holomorph {
 namespace {
@@ -16,8 +15,7 @@ void action_button(const char* id, const char* text, Workspace& workspace) {
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button(text)) run(action, workspace);
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+  tooltip_of(action);
 }
 
 /// A polyline of log energy over log of the iteration (the first one counts as 1).
@@ -96,8 +94,7 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     if (!found.folds_at.empty()) {
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
-      if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", label_with_keys(workspace.actions.named("view.fold")).c_str());
+      tooltip_of(workspace.actions.named("view.fold"));
       if (found.folds_at.size() > 1)
         ImGui::TextColored(warning, "in %d places", static_cast<int>(found.folds_at.size()));
     }

@@ -32,9 +32,16 @@ std::vector<Look> looks(const Preferences& now) {
   return all;
 }
 
-void tooltip_of(const Workspace& workspace, const char* id) {
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", label_with_keys(workspace.actions.named(id)).c_str());
+void tooltip_of(const Action& action) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(label_with_keys(action).c_str());
+  if (*action.hint) {
+    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
+    ImGui::TextDisabled("%s", action.hint);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::EndTooltip();
 }
 
 void begin_card(const char* name, ImVec2 at, ImVec2 pivot, double scale) {
@@ -75,6 +82,7 @@ void action_item(const Action& action, Workspace& workspace) {
   const bool checked = action.checked && action.checked(workspace);
   if (ImGui::MenuItem(action.label.c_str(), keys.c_str(), checked, action.enabled(workspace)))
     run(action, workspace);
+  if (*action.hint) tooltip_of(action);
 }
 
 void look_menu(const char* group, Preferences& preferences, PanelAnswer& answer) {
@@ -213,7 +221,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
     if (ImGui::Button(face.c_str(), button)) run(action, workspace);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor();
-    tooltip_of(workspace, id);
+    tooltip_of(action);
   }
   ImGui::End();
   ImGui::PopStyleVar(3);

@@ -73,7 +73,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 void draw_context_menu(Workspace& workspace);
 
 /// Says what the item that was drawn last does, with its keys.
-void tooltip_of(const Workspace& workspace, const char* id);
+void tooltip_of(const Action& action);
 
 /// A small window over the canvas, whose middle of an edge or corner (`pivot`, in parts of it) is
 /// at a place of the window; end_card ends it.

@@ -41,8 +41,7 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   ImGui::EndDisabled();
   if (std::string_view(id) == "time.auto_key" && on) ImGui::PopStyleColor();
   if (on && !playing) ImGui::PopStyleColor();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", label_with_keys(action).c_str());
+  tooltip_of(action);
   ImGui::SameLine(0, 3);
 }
 

@@ -11,6 +11,7 @@ struct Workspace;
 /// A row of the table. Rows name their fields; what is missing has the default.
 struct Action {
   std::string id, label;
+  const char* hint = "";  ///< what it does, where the label does not say all of it
   const char* icon = "";  ///< a glyph of the icon font
   const char* menu = "";  ///< the menu that lists it
   std::vector<Shortcut> keys = {};

@@ -63,7 +63,8 @@ std::string keys_markdown(const ActionTable& actions) {
   text += "\n| Keys | |\n|---|---|\n";
   for (const Action& action : actions.rows())
     if (!action.keys.empty())
-      text += "| " + table_cell(keys_text(action)) + " | " + action.label + " |\n";
+      text += "| " + table_cell(keys_text(action)) + " | " + action.label +
+              (*action.hint ? std::string(": ") + action.hint : "") + " |\n";
   return text;
 }
 
