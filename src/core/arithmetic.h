@@ -1,5 +1,5 @@
-// Complex arithmetic written out: std::complex's operators guard against infinities and are several
-// times slower for it.
+// Complex arithmetic written out. The operators of std::complex handle infinities, which makes them
+// several times slower.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ inline Complex quotient(Complex x, Complex y) {
   return {over * dot(y, x), over * cross(y, x)};
 }
 
-/// What comes next after `before` among numbers that mean the same up to whole turns and never
-/// fall: what rounding has put just before it is taken to be there.
+/// The smallest number that equals `number` up to whole multiples of `turn` and is not below
+/// `before`. A number that rounding has put just below `before` counts as `before`.
 inline double next_in_turn(double before, double number, double turn) {
   constexpr double kRounding = 1e-6;
   const double step = (number - before) / turn, on = step - std::floor(step);

@@ -1,11 +1,11 @@
-// How long things take.
+// A clock that measures how long things take.
 #pragma once
 
 #include <chrono>
 
 namespace holomorph {
 
-/// Milliseconds of a clock that never jumps; only differences mean something.
+/// Milliseconds on a clock that never jumps. Only differences are meaningful.
 inline double now_ms() {
   using Clock = std::chrono::steady_clock;
   return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();

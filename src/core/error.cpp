@@ -1,4 +1,4 @@
-// A broken invariant ends the program: the autosave file holds everything up to the last commit.
+// A broken invariant ends the program. The autosave file holds everything up to the last commit.
 #include "core/error.h"
 
 #include <new>
@@ -9,7 +9,7 @@
 namespace holomorph {
 
 std::string what_of(const std::exception& error) {
-  if (dynamic_cast<const std::bad_alloc*>(&error)) return "there is not enough memory for this";
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "not enough memory";
   return error.what();
 }
 

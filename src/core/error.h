@@ -1,4 +1,4 @@
-// Two ways to fail: the input is bad (Error, caught at the edges), or the program is (check).
+// The two kinds of failure: bad input (Error, caught at the edges of the program) and bugs (check).
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@
 namespace holomorph {
 
 enum class ErrorKind {
-  bad_input,  ///< what the user gave cannot be used: exit status 2
-  failed      ///< the input is good but the work could not be done (disk full): exit status 1
+  bad_input,  ///< the user's input cannot be used: exit status 2
+  failed      ///< the input is valid, but the work failed (disk full): exit status 1
 };
 
-/// Bad input or failed work. The message says what, where and what to do about it.
-/// `where` is the place in the plane that an editor can show, when there is one.
+/// Bad input or failed work. The message says what, where and what to do about it. `where`, if any,
+/// is the position in the plane that an editor can show.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message, std::optional<Complex> where = {})
@@ -29,10 +29,10 @@ class Error : public std::runtime_error {
   std::optional<Complex> where_;
 };
 
-/// What went wrong, in words: also of what the standard library throws.
+/// What went wrong, in words. Covers exceptions of the standard library, too.
 std::string what_of(const std::exception& error);
 
-/// Aborts with a message when an invariant of the program itself is broken; on in every build.
+/// Aborts with a message when an invariant of the program itself is broken. Active in every build.
 void check(bool condition, const char* what);
 
 }  // namespace holomorph

@@ -1,6 +1,7 @@
-// The scalar and array types of the whole program.
+// The scalar and array types used throughout the program.
 //
-// A point of the plane is one Complex: image pixels, origin at the image's lower left, y up.
+// A point of the plane is a Complex, in image pixels: the origin is at the lower left of the image
+// and y points up.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +33,7 @@ inline double cross(Complex a, Complex b) {
 inline bool is_finite(Complex z) {
   return std::isfinite(z.real()) && std::isfinite(z.imag());
 }
-/// Whether coordinates are so small that products of four of them do not overflow.
+/// Whether the coordinates are small enough that products of four of them do not overflow.
 inline bool is_moderate(Complex z) {
   return std::abs(z.real()) <= 1e70 && std::abs(z.imag()) <= 1e70;
 }
@@ -42,7 +43,7 @@ inline std::span<const Complex> as_span(const VectorXc& vector) {
   return {vector.data(), static_cast<size_t>(vector.size())};
 }
 
-/// An axis-parallel box; empty until something is included.
+/// An axis-aligned box; empty until a point is included.
 struct Box {
   double left = 1e300, bottom = 1e300, right = -1e300, top = -1e300;
 
@@ -62,7 +63,7 @@ struct Box {
   }
 };
 
-/// The smallest box around points.
+/// The bounding box of the points.
 template <class Range>
 Box box_of(const Range& points) {
   Box box;

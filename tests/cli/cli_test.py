@@ -213,7 +213,7 @@ class CommandLine(Case):
         self.bad("new", "--force", fish, "--out", scene, "--cage", mask, says="no texture coordinates")
         self.bad("new", "--force", fish, "--out", scene, "--outline", mask, "--flattening", "magic", says="magic")
         closed = self.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")
-        self.bad("new", "--force", fish, "--out", scene, "--outline", closed, says="closed.obj: the surface is no disk: it is closed")
+        self.bad("new", "--force", fish, "--out", scene, "--outline", closed, says="closed.obj: the surface is not a disk: it is closed")
 
     def test_strokes_are_kept_in_the_file_and_what_is_none_is_named(self):
         scene = {"format": "holomorph", "version": 1,

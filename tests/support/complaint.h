@@ -1,4 +1,4 @@
-// What is said of bad input.
+// The error messages for bad input.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 
 namespace holomorph {
 
-/// The message of the Error{bad_input} that an act ends with; empty without one.
+/// The message of the Error{bad_input} that `act` throws; empty if it throws none.
 template <class Act>
 std::string complaint_of(const Act& act) {
   try {

@@ -1,4 +1,4 @@
-// The rest and pose that the contract tests give every method.
+// The rest and pose that the contract tests use for every method.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -16,7 +16,7 @@ inline Complex bend(Complex z) {
   return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12);
 }
 
-/// How the rest is written: straight, straight with a higher degree, or curved.
+/// The edges of the rest cage: straight, straight with a higher degree, or curved.
 enum class Shape { straight, raised, curved };
 
 inline Cage cage_of(Shape shape) {
@@ -33,8 +33,8 @@ inline Cage cage_of(Shape shape) {
   return cubic;
 }
 
-/// A cage with three pins (one of them turning) and two strokes where the method uses them; posed
-/// by a bend.
+/// A cage, posed by a bend. Methods that use them also get three pins, one of them with a frame,
+/// and two strokes.
 inline Setup setup(const Method& method, Precision precision, Shape shape = Shape::straight) {
   Setup s;
   s.rest.cage = cage_of(shape);

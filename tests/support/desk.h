@@ -1,4 +1,4 @@
-// A workspace without a window, and hands for it.
+// A workspace without a window, and the mouse actions to use it.
 #pragma once
 
 #include "edit/tools/tool.h"
@@ -6,7 +6,7 @@
 
 namespace holomorph {
 
-/// A workspace whose viewport shows one plane unit as one pixel, with tools to drive.
+/// A workspace whose viewport shows one plane unit as one pixel, with its tools.
 struct Desk {
   Workspace workspace{MeshOptions{500}};
   std::vector<std::unique_ptr<Tool>> tools;
@@ -67,7 +67,7 @@ struct Desk {
     move(to, mods);
     release(to, mods);
   }
-  /// With the button down along a line.
+  /// Moves along a line with the button down.
   void draw(const Points& line, Modifiers mods = {}) {
     press(line.front(), mods);
     for (const Complex& z : line) move(z, mods);

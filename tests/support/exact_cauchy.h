@@ -1,4 +1,4 @@
-// A polygon's Cauchy map in 50 digits: the judge of what is evaluated next to the boundary.
+// A polygon's Cauchy map in 50 digits: the reference for evaluation next to the boundary.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -30,7 +30,7 @@ struct Number {
 };
 
 /// f = z + the Cauchy integral of displacements that are linear along the edges of a
-/// counter-clockwise polygon, and f'. Outside, the nearest point of the boundary counts.
+/// counter-clockwise polygon, and f'. For a point outside, the nearest boundary point is used.
 struct Image {
   Complex f, df;
 };
@@ -38,7 +38,7 @@ inline Image image_of(const Points& polygon, const Points& displaced, Complex at
   const size_t n = polygon.size();
   const Real pi = boost::math::constants::pi<Real>();
   const auto edge = [&](size_t e) { return Number(polygon[(e + 1) % n]) - Number(polygon[e]); };
-  // Inside, or which edge is the nearest and where on it.
+  // Whether the point is inside; if not, the nearest edge and the parameter on it.
   Real turns = 0, distance = -1;
   size_t own = n;
   Real share = 0;
@@ -63,7 +63,7 @@ inline Image image_of(const Points& polygon, const Points& displaced, Complex at
     if (vertex && e == own) {
       const Number in = edge(before), out = edge(own);
       Real angle = -atan2((out / in).im, (out / in).re);  // the turn to the right
-      // L of both edges together: ln |out / in| + i (2 pi - the inner angle).
+      // The sum of L over both edges: ln |out / in| + i (2 pi - the inner angle).
       sum = sum + d0 * Number(log(out.modulus() / in.modulus()), pi - angle) + step;
       continue;
     }

@@ -7,7 +7,7 @@
 #include <webp/mux.h>
 
 #include <cstdio>  // before jpeglib.h
-// In this order.
+// jpeglib.h must come before png.h.
 #include <jpeglib.h>
 #include <png.h>
 
@@ -20,9 +20,9 @@ namespace holomorph {
 
 struct PngKind {
   std::string exif = {}, profile = {};
-  double gamma = 0;  ///< none
+  double gamma = 0;  ///< 0: none
   bool srgb = false, adobe = false, interlaced = false, sixteen = false;
-  int gray_bits = 0;  ///< of red alone
+  int gray_bits = 0;  ///< 0: color; else a gray picture from the red channel
 };
 
 inline std::string png_file(const Image& image, const PngKind& kind) {
@@ -93,7 +93,7 @@ struct JpegOptions {
   std::string exif = {}, profile = {};
   JpegKind kind = JpegKind::color;
   bool progressive = false;
-  bool many_scans = false;  ///< 200 of them
+  bool many_scans = false;  ///< 200 scans
 };
 
 inline std::string jpeg_file(const Image& image, const JpegOptions& options) {
@@ -226,7 +226,7 @@ inline std::string tiff_file(const Image& image, const TiffKind& kind) {
   return bytes;
 }
 
-/// With a palette of 256 colors.
+/// A GIF file with a palette of 256 colors.
 inline std::string gif_file(const Image& image) {
   std::string bytes;
   int wrong = 0;

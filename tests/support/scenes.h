@@ -1,11 +1,11 @@
-// Scenes with one thing changed.
+// Scenes with one change.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace holomorph {
 
-/// A change of the edited layer's deformation.
+/// Changes the deformation of the edited layer.
 template <class Change>
 void change(Scene& scene, Change change) {
   Deformation deformation = scene.deformation();
@@ -13,7 +13,7 @@ void change(Scene& scene, Change change) {
   scene = with_deformation(std::move(scene), std::move(deformation));
 }
 
-/// A change of the edited layer.
+/// Changes the edited layer.
 template <class Change>
 void change_layer(Scene& scene, Change change) {
   Layer layer = scene.layer();
@@ -21,7 +21,7 @@ void change_layer(Scene& scene, Change change) {
   scene = with_layer(std::move(scene), std::move(layer));
 }
 
-/// With this cage, at rest.
+/// The scene with this cage, in its rest pose.
 inline Scene scene_with_cage(const Scene& scene, const Points& polygon) {
   return with_deformation(scene, with_cage(scene.deformation(), polygon));
 }

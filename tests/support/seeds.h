@@ -1,4 +1,4 @@
-// Seeds of random tests: fixed ones, and one that is drawn in each run and printed.
+// Seeds for random tests: fixed ones, and a random one that each run prints.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 
 namespace holomorph {
 
-/// The fixed seeds and a fresh one; HOLOMORPH_SEED in the environment stands in for all of them, so
-/// that a failure can be repeated.
+/// The fixed seeds and a random one. The environment variable HOLOMORPH_SEED replaces all of them,
+/// so that a failure can be reproduced.
 inline std::vector<unsigned> seeds_of(const char* test, std::vector<unsigned> fixed) {
   if (const char* given = std::getenv("HOLOMORPH_SEED"))
     return {static_cast<unsigned>(std::strtoul(given, nullptr, 10))};

@@ -27,8 +27,8 @@ inline Points star(int n, double ripple, unsigned seed) {
   return polygon;
 }
 
-/// A star whose edges are curves of `degree`: control points off the chord by up to `bulge` of its
-/// length.
+/// A star whose edges are curves of the given degree. Their control points are off the chord by up
+/// to `bulge` of its length.
 inline Cage curved_star(int n, int degree, double bulge, unsigned seed) {
   const Points polygon = star(n, 0.15, seed);
   std::mt19937 random(seed + 1);
@@ -44,7 +44,7 @@ inline Cage curved_star(int n, int degree, double bulge, unsigned seed) {
   return cage;
 }
 
-/// A closed comb: many thin teeth.
+/// A comb with many thin teeth.
 inline Points comb(int teeth) {
   Points polygon{{0, 0}};
   for (int i = 0; i < teeth; ++i) {

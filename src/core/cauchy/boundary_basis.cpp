@@ -1,4 +1,5 @@
-// The polygon is a mitred offset, halved until it is simple and keeps the domain inside.
+// The polygon is a mitered offset of the boundary. The offset is halved until the polygon is simple
+// and contains the domain.
 #include "core/cauchy/boundary_basis.h"
 
 #include <Eigen/QR>
@@ -10,10 +11,10 @@
 namespace holomorph {
 namespace {
 
-/// A polygon's corners moved outwards by distances of their own from both their edges.
+/// The corners of a polygon, each moved outwards by its own distance from both of its edges.
 Points mitred(const Points& polygon, const std::vector<double>& distances) {
   const size_t n = polygon.size();
-  constexpr double kLongest = 12;  // of a mitre, in distances
+  constexpr double kLongest = 12;  // length of a miter, in units of the distance
   Points outer;
   for (size_t i = 0; i < n; ++i) {
     const Complex before = polygon[i] - polygon[(i + n - 1) % n],
@@ -21,7 +22,8 @@ Points mitred(const Points& polygon, const std::vector<double>& distances) {
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
     Complex mitre = u + v;
     const double size = std::norm(mitre);
-    // At a spike the mitre would be long; in a notch it must be, or the sides meet before it ends.
+    // At a spike the miter would be too long. In a notch it must be long, or the sides meet before
+    // its end.
     const bool spike = cross(before, after) >= 0;
     if (spike && size < 4 / (kLongest * kLongest))
       mitre = kLongest * before / std::abs(before);
@@ -32,7 +34,7 @@ Points mitred(const Points& polygon, const std::vector<double>& distances) {
   return outer;
 }
 
-/// How many equal parts each length gets, one at least, about `wanted` in all.
+/// The number of equal parts for each length: at least one, and about `wanted` in total.
 std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
   double total = 0;
   for (const double length : lengths) total += length;
@@ -42,7 +44,7 @@ std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
   return parts;
 }
 
-/// The segments' lengths.
+/// The lengths of the segments.
 std::vector<double> lengths_of(const Cage& domain) {
   std::vector<double> lengths;
   for (Index e = 0; e < domain.size(); ++e) {
@@ -58,7 +60,7 @@ std::vector<double> lengths_of(const Cage& domain) {
   return lengths;
 }
 
-/// A piece in equal parts of its parameter.
+/// A piece, divided into parts that are equal in its parameter.
 std::vector<BoundaryPiece> parted(const Cage& domain, const BoundaryPiece& piece, int parts) {
   std::vector<BoundaryPiece> pieces;
   const double step = (piece.to - piece.from) / parts;
@@ -68,13 +70,13 @@ std::vector<BoundaryPiece> parted(const Cage& domain, const BoundaryPiece& piece
   return pieces;
 }
 
-/// How far a piece is from its chord at most.
+/// A bound of the distance of a piece from its chord.
 double sagitta(const BoundaryPiece& piece) {
   return piece.bend / 8;
 }
 
-/// About `wanted` pieces of equal length, one for each segment at least, and more where they are
-/// bent by more than `flat`.
+/// About `wanted` pieces of equal length, at least one for each segment, and more where they
+/// deviate from their chords by more than `flat`.
 std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
   const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
   std::vector<BoundaryPiece> pieces;
@@ -100,7 +102,7 @@ bool crosses(Complex a, Complex b, Complex c, Complex d) {
          cross(d - c, a - c) * cross(d - c, b - c) <= 0;
 }
 
-/// Whether a polygon is simple and lies around another one, nowhere nearer than `distance`.
+/// Whether a polygon is simple and surrounds another one at more than `distance` everywhere.
 bool is_around(const Points& polygon, const Points& inner, double distance) {
   if (self_crossing(polygon)) return false;
   for (const Complex& z : inner)
@@ -116,7 +118,7 @@ bool is_around(const Points& polygon, const Points& inner, double distance) {
   return true;
 }
 
-/// A polygon around the domain, and the piece that each of its edges lies along.
+/// A polygon around the domain, and the boundary piece that belongs to each of its edges.
 struct Surrounding {
   Points polygon;
   std::vector<BoundaryPiece> pieces;
@@ -129,7 +131,7 @@ Surrounding surrounding(const Cage& domain, int wanted, double distance) {
     const Points inner = starts_of(pieces);
     double off = distance;
     for (int halving = 0; halving < 12; ++halving, off *= 0.5) {
-      std::vector<double> distances;  // chords of curves leave parts of the domain outside
+      std::vector<double> distances;  // chords of curves cut off parts of the domain
       for (size_t i = 0; i < pieces.size(); ++i) {
         const BoundaryPiece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
         distances.push_back(off + 1.5 * std::max(sagitta(pieces[i]), sagitta(before)));
@@ -201,7 +203,7 @@ Points BoundaryBasis::inset(double share) const {
     const Complex in = samples_[(i + n - 1) % n] - samples_[i],
                   out = samples_[(i + 1) % n] - samples_[i];
     Complex step = share * std::min(std::abs(in), std::abs(out)) * inwards_between(out, in);
-    // Not beyond the middle of a thin part.
+    // Do not go beyond the middle of a thin part.
     for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
                                            winding_number(fine, samples_[i] + 2.0 * step) != 1);
          ++halving)

@@ -1,8 +1,9 @@
-// One segment: stable evaluation of Bernstein moments M_n[m] = integral_0^1 B_m^N(t) / (t -
-// s)^(n+1) dt.
+// Stable evaluation of the Bernstein moments of one segment,
+// M_n[m] = integral_0^1 B_m^N(t) / (t - s)^(n+1) dt.
 //
-// Near an edge (small ellipse |s| + |q|) degree raising from one logarithm is stable; far from it
-// the same sums cancel and Gauss-Legendre quadrature converges fast. Together: 1e-14.
+// Near an edge (small ellipse |s| + |q|), degree raising from one logarithm is stable. Far from it
+// the same sums cancel, but Gauss-Legendre quadrature converges fast. Together they are accurate to
+// 1e-14.
 #include "core/cauchy/cauchy.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::array<int, 12> kRuleSizes{4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
 
-/// A rule with at least this many nodes, from a few sizes; 64 at most.
+/// A rule with at least this many nodes, chosen from a few sizes; at most 64.
 const GaussRule& gauss_rule_of_at_least(int size) {
   for (const int rule : kRuleSizes)
     if (rule >= size) return gauss_rule(rule);
@@ -34,7 +35,7 @@ View view_of(const Root& root, bool on_edge) {
   return {s, q, {0.5 * std::log(std::norm(q) / std::norm(s)), on_edge ? kPi : angle_of(root)}};
 }
 
-/// Degree raising of the moments, all orders up to `order` at once: row n holds M_n.
+/// The moments of all orders up to `order`, by degree raising: row n holds M_n.
 MatrixXc moments_near(const View& view, int degree, int order) {
   MatrixXc moments = MatrixXc::Zero(order + 1, degree + 1);
   moments(0, 0) = view.log;
@@ -65,14 +66,14 @@ MatrixXc moments_near(const View& view, int degree, int order) {
   return moments;
 }
 
-/// Gauss-Legendre nodes that integrate a polynomial of `degree` over powers of (t - s) to `order`
-/// when s lies on the ellipse |s| + |q| = `ellipse`.
+/// The number of Gauss-Legendre nodes that integrate a polynomial of the given degree, divided by
+/// powers of (t - s) up to `order`, if s lies on the ellipse |s| + |q| = `ellipse`.
 int nodes_for(double ellipse, int degree, int order) {
   const double rho = ellipse + std::sqrt(ellipse * ellipse - 1);
   return static_cast<int>(std::ceil(((37 + 2 * order) / std::log(rho) + degree) / 2)) + 1;
 }
 
-/// Values of all Bernstein polynomials of a degree at t.
+/// Values of all Bernstein polynomials of the given degree at t.
 void bernstein(int degree, double t, std::vector<double>& values) {
   values.assign(degree + 1, 0);
   values[0] = 1;
@@ -110,13 +111,13 @@ MatrixXc moments_at(const View& view, int degree, int order) {
              : moments_far(view, degree, order, nodes_for(ellipse, degree, order));
 }
 
-/// Taylor coefficients 1..order of the branch t(z + h) - t(z) of the inverse of a curve with these
-/// Taylor coefficients, in powers of h (reversion of series).
+/// Reversion of series: the Taylor coefficients 1..order of the branch t(z + h) - t(z), in powers
+/// of h, of the inverse of a curve with the given Taylor coefficients.
 std::vector<Complex> reversion(const std::vector<Complex>& curve, int order) {
   std::vector<Complex> branch(order + 1);
   const Complex unit = inverse(curve[1]);
   for (int k = 1; k <= order; ++k) {
-    // [h^k] of the sum over j >= 2 of curve_j (branch)^j, which knows branch up to k - 1 only.
+    // [h^k] of the sum over j >= 2 of curve_j (branch)^j, which depends on branch only up to k - 1.
     Complex rest = 0;
     std::vector<Complex> power = branch;  // branch^j
     for (int j = 2; j <= k; ++j) {
@@ -131,7 +132,7 @@ std::vector<Complex> reversion(const std::vector<Complex>& curve, int order) {
   return branch;
 }
 
-/// Adds the coefficient of h^order of M_0 along the branch of one root: M_0(t(z + h)).
+/// Adds the coefficient of h^order of M_0(t(z + h)), along the branch of one root.
 void add_branch(const SegmentPolynomial& segment, const Root& root, const MatrixXc& moments,
                 VectorXc& sum) {
   const int order = static_cast<int>(moments.rows()) - 1;
@@ -152,8 +153,8 @@ void add_branch(const SegmentPolynomial& segment, const Root& root, const Matrix
   }
 }
 
-/// integral of B_m c' / (c - z)^(order + 1) over [from, to] by quadrature, halved until every root
-/// is far from its piece. False when a root is on the curve.
+/// Adds the integral of B_m c' / (c - z)^(order + 1) over [from, to] by quadrature. The interval is
+/// halved until every root is far from its piece. Returns false if a root is on the curve.
 bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> roots, Complex z,
                     double from, double to, int order, VectorXc& sum) {
   constexpr double kFar = 1.3, kShortest = 1.0 / 4096;
@@ -183,8 +184,9 @@ bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> root
   return true;
 }
 
-/// Whether two roots are so near to each other that they are better taken together, by quadrature:
-/// a double root has half the digits, and the derivatives of two near ones cancel.
+/// Whether two roots are so close to each other that they are better handled together, by
+/// quadrature: a double root has only half the digits, and the derivatives of two close roots
+/// cancel.
 bool has_twins(std::span<const Root> roots, int order) {
   const double apart = order == 0 ? 1e-3 : 0.05;
   for (size_t i = 0; i < roots.size(); ++i)
@@ -200,9 +202,10 @@ Complex cauchy_factor(int order) {
   return factor;
 }
 
-/// Without the poles that a segment's first and last control points bring at its own ends.
+/// Removes the poles of a segment's first and last control points at its own ends.
 ///
-/// By parts: integral of B' / (t - s) is what is left of the integral of B / (t - s)^2.
+/// Integration by parts turns the integral of B / (t - s)^2 into the pole plus the integral of
+/// B' / (t - s).
 void drop_poles(const View& view, Ends ends, MatrixXc& moments) {
   const int order = static_cast<int>(moments.rows()) - 1,
             degree = static_cast<int>(moments.cols()) - 1;
@@ -215,7 +218,7 @@ void drop_poles(const View& view, Ends ends, MatrixXc& moments) {
   }
 }
 
-/// Such a pole for an end of the segment, whose difference from z is given.
+/// The pole at an end of the segment, given the difference of this end from z.
 Complex pole_at(Complex from_end, int order) {
   Complex power = 1;
   for (int n = 0; n < order; ++n) power = times(power, inverse(from_end));
@@ -275,7 +278,7 @@ double harmonic_number(int n) {
   return sum;
 }
 
-/// The moments of a segment's roots at its own end, without that end.
+/// The sum over the roots of a segment at its own end, without the root at that end.
 VectorXc other_roots(const SegmentPolynomial& segment, int degree, bool at_start) {
   VectorXc sum = VectorXc::Zero(degree + 1);
   if (segment.is_straight()) return sum;
@@ -292,7 +295,7 @@ VectorXc other_roots(const SegmentPolynomial& segment, int degree, bool at_start
 
 }  // namespace
 
-// The logarithms of the two segments cancel up to the ratio of their speeds.
+// The logarithms of the two segments cancel, except for the ratio of their speeds.
 VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
                          const SegmentPolynomial& own, int degree) {
   const Complex turn = 2 * kPi * kI;

@@ -1,4 +1,5 @@
-// Blocks of points times segments by the kernels; the stable formula for points on the boundary.
+// The kernels fill blocks of points, segment by segment; points on the boundary take the stable
+// formula.
 #include "core/cauchy/cauchy_array.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ auto product_of(const kernel::Table& table, double) {
   return table.product_double;
 }
 
-/// One block of consecutive points and the columns that it fills, segment by segment.
+/// Fills the rows of one block of consecutive points, segment by segment.
 template <class T>
 class BlockFiller {
  public:
@@ -61,7 +62,8 @@ class BlockFiller {
     here_ = points.subspan(first, count);
     set_up_points();
     needs_patch_.fill(false);
-    // A vertex's column is the end of the segment before it and the start of the one after.
+    // The column of a vertex is the end of the segment before it plus the start of the one after
+    // it.
     const Index n = cage_.size();
     moments_of(n - 1, moments_[1]);
     for (Index e = 0; e < n; ++e) {
@@ -105,10 +107,11 @@ class BlockFiller {
       if (moments.on_edge[i] != 0) needs_patch_[i] = true;
   }
 
-  /// Each root of a curve is a straight edge's s; those that need care are left to the exact path.
+  /// Each root of a curve acts as the s of a straight edge. Points whose roots need care are left
+  /// to the exact path.
   void curved_moments_of(Index e, kernel::Moments& moments) {
     const SegmentPolynomial& segment = segments_[e];
-    std::vector<Root>& roots = roots_[e];  // of the point before, which is near
+    std::vector<Root>& roots = roots_[e];  // of the previous point, which is near
     std::array<bool, kernel::kBlock> careful{};
     all_roots_.resize(roots.size());
     for (size_t i = 0; i < kernel::kBlock; ++i) {
@@ -122,7 +125,7 @@ class BlockFiller {
       for (size_t r = 0; r < roots.size(); ++r) {
         const Complex factor = order_ == 0 || careful[i] ? 1.0 : 1.0 / segment.derivative(roots[r]);
         kernel::Roots& block = all_roots_[r];
-        // A place off the segment stands in for one that the exact path takes.
+        // A point off the segment stands in for the roots of points that take the exact path.
         const Complex s = careful[i] ? Complex(0.5, 1) : roots[r].s,
                       q = careful[i] ? 1.0 - s : roots[r].q;
         block.s_re[i] = s.real(), block.s_im[i] = s.imag();
@@ -138,7 +141,7 @@ class BlockFiller {
       if (careful[i]) set_exactly(e, i, moments);
   }
 
-  /// Whether a root may be on the segment, within rounding in its lengths, or is near an end.
+  /// Whether a root may be on the segment, within `rounding` segment lengths, or is near an end.
   static bool is_near(const Root& root, double rounding) {
     constexpr double kEnd = 1e-4;
     return (std::abs(root.s.imag()) < rounding && root.s.real() > -rounding &&
@@ -146,7 +149,7 @@ class BlockFiller {
            std::norm(root.s) < kEnd * kEnd || std::norm(root.q) < kEnd * kEnd;
   }
 
-  /// Near the segment or nearly double.
+  /// Whether a root is near the segment or nearly double.
   static bool needs_care(std::span<const Root> roots, double rounding) {
     constexpr double kTwins = 0.05;
     for (size_t r = 0; r < roots.size(); ++r) {
@@ -166,7 +169,7 @@ class BlockFiller {
     }
   }
 
-  /// On the boundary and next to vertices the segments must be seen from one place.
+  /// On the boundary and next to vertices, all segments must be evaluated at the same position.
   void patch_row(Complex z, Index row) {
     if (!rows_) rows_.emplace(cage_, order_, CauchyRows::AtVertices::from_inside);
     const auto patch = rows_->patch(z);
@@ -179,14 +182,14 @@ class BlockFiller {
   }
 
   const Cage& cage_;
-  std::optional<CauchyRows> rows_;  ///< made when it is needed
+  std::optional<CauchyRows> rows_;  ///< created on first use
   int order_;
   const kernel::Table& table_;
   PlanarMatrix<T>& out_;
   std::vector<Index> offsets_;
   std::vector<SegmentPolynomial> segments_;
   std::vector<kernel::Edge> edges_;
-  std::vector<std::vector<Root>> roots_;  ///< per segment, of the last point
+  std::vector<std::vector<Root>> roots_;  ///< for each segment, the roots of the last point
   std::vector<char> warm_ = std::vector<char>(static_cast<size_t>(cage_.size()), 0);
   std::vector<Root> fresh_;
   std::vector<kernel::Roots> all_roots_;
@@ -196,7 +199,7 @@ class BlockFiller {
   std::array<bool, kernel::kBlock> needs_patch_{};
 };
 
-/// The exact path for what the kernels do not integrate.
+/// The exact path, for degrees that the kernels do not integrate.
 template <class T>
 void exactly(const Cage& cage, std::span<const Complex> points, int order, PlanarMatrix<T>& out) {
   const CauchyRows rows(cage, order, CauchyRows::AtVertices::from_inside);

@@ -1,8 +1,9 @@
-// Cauchy coordinates of many points at once, and products with them: the array path.
+// Cauchy coordinates of many points in one call, and products with them: the array path.
 //
-// Same values as cauchy.h to 1e-14 (degree 1) and 1e-13. Away from a segment the coordinates are a
-// power series in 1 / W^2, W = q - s twice the offset from the middle in edge lengths; near it one
-// logarithm. Both run without branches over blocks of points, so that the compiler vectorises them.
+// The values agree with those of cauchy.h to 1e-14 for degree 1 and to 1e-13 for higher degrees.
+// Away from a segment, the coordinates are a power series in 1 / W^2, where W = q - s is twice the
+// offset from the midpoint in edge lengths. Near it they take one logarithm. Both run without
+// branches over blocks of points, so that the compiler vectorizes them.
 #pragma once
 
 #include <span>
@@ -11,7 +12,7 @@
 
 namespace holomorph {
 
-/// A complex matrix as two real ones. Column-major; planar storage is what vectorises.
+/// A complex matrix as two real ones, in column-major order. Loops over planar storage vectorize.
 template <class T>
 struct PlanarMatrix {
   using Real = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
@@ -38,30 +39,31 @@ MatrixXc as_complex(const PlanarMatrix<T>& planar) {
 }
 
 /// Which machine code runs: `automatic` takes the widest of AVX-512, AVX2 and portable that the
-/// processor has.
+/// processor supports.
 enum class Kernel { automatic, portable, avx2 };
 /// Whether this processor can run Kernel::avx2.
 bool has_avx2();
 
-/// Cauchy coordinates (order 0 or 1) of a cage's control points at points: points x control points.
-/// Orientation, boundary limits and identities as in cauchy_coordinates, but derivatives at
-/// vertices are looked at from 1e-12 of an edge inside, so that finite limits come out. Bases of
-/// degree above 4 take the path of cauchy.h. Rows of order 0 sum to one up to 1e-11: products with
-/// control points far from the origin are to be taken from a middle of theirs. Points that are near
-/// each other should be neighbors in the list. Cost with AVX2: 3 ns per point and edge of degree 1,
-/// 8 ns of degree 3; 0.4 us per point and curved cubic segment, most of it for the roots.
+/// Cauchy coordinates (order 0 or 1) of a cage's control points: points x control points.
+/// Orientation, boundary limits and identities are those of cauchy_coordinates, but derivatives at
+/// vertices are evaluated 1e-12 of an edge inside, which gives the limits that are finite. Bases of
+/// degree above 4 take the path of cauchy.h. Rows of order 0 sum to one up to 1e-11: take products
+/// relative to the center of the control points if they are far from the origin. Points that are
+/// close to each other should be neighbors in the list. Cost with AVX2: 3 ns per point and edge of
+/// degree 1, 8 ns for degree 3; 0.4 us per point and curved cubic segment, most of it for the
+/// roots.
 template <class T>
 PlanarMatrix<T> planar_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0,
                                    Kernel kernel = Kernel::automatic);
 
-/// The same into a matrix whose storage is used again: fresh memory costs as much as the
+/// The same, written to a matrix whose storage is reused: fresh memory costs as much as the
 /// coordinates.
 template <class T>
 void planar_coordinates(const Cage& cage, std::span<const Complex> points, int order, Kernel kernel,
                         PlanarMatrix<T>& out);
 
-/// out = matrix * factors; out must be matrix.rows() x factors.cols(), factors.rows() the number of
-/// columns. Cost: 8 flops per entry and factor column, one pass over the matrix.
+/// out = matrix * factors. `out` must be matrix.rows() x factors.cols(), and factors.rows() must be
+/// matrix.cols(). Cost: 8 flops per entry and factor column, in one pass over the matrix.
 template <class T>
 void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, PlanarMatrix<T>& out,
               Kernel kernel = Kernel::automatic);

@@ -1,22 +1,22 @@
-// The inner loops that are compiled several times, for any processor and for wider instructions.
-// Plain pointers and no templates of other headers: nothing compiled with wider instructions can
-// leak into the rest of the program through the linker.
+// The inner loops, which are compiled several times: for any processor and for wider instructions.
+// They use plain pointers and no templates of other headers, so that nothing compiled with wider
+// instructions can leak into the rest of the program through the linker.
 #pragma once
 
 namespace holomorph::kernel {
 
 /// Points per call.
 inline constexpr int kBlock = 32;
-/// Basis degrees that the kernels integrate.
+/// The highest basis degree that the kernels integrate.
 inline constexpr int kMostDegree = 4;
 
-/// One edge from (ax, ay) to (bx, by), (ux, uy) = 1 / (b - a); a point whose offset from the edge
-/// is at most `rounding` edge lengths may be on it.
+/// An edge from (ax, ay) to (bx, by), with (ux, uy) = 1 / (b - a). A point may be on it if its
+/// offset from the edge is at most `rounding` edge lengths.
 struct Edge {
   double ax, ay, bx, by, ux, uy, rounding;
 };
 
-/// kBlock points and a disc around them.
+/// kBlock points and a disk around them.
 struct alignas(64) Block {
   double x[kBlock], y[kBlock], center_x, center_y, radius;
 };
@@ -28,27 +28,28 @@ struct alignas(64) Roots {
       factor_im[kBlock];
 };
 
-/// Coordinates of a segment's control points at kBlock points; on_edge marks points with 1.
+/// Coordinates of a segment's control points at kBlock points; on_edge is 1 for marked points.
 struct alignas(64) Moments {
   double re[kMostDegree + 1][kBlock], im[kMostDegree + 1][kBlock], on_edge[kBlock];
 };
 
-/// Fills `out` for the points of a block: a basis of degree 1 to kMostDegree, order 0 or 1. Returns
-/// whether some points may be on the edge or next to its ends; then on_edge marks them with 1 and
-/// their moments need not be meaningful.
+/// Fills `out` for the points of a block, for a basis of degree 1 to kMostDegree and order 0 or 1.
+/// Returns whether some points may be on the edge or next to its ends. If so, on_edge marks them
+/// with 1, and their moments may be meaningless.
 using EdgeMoments = bool (*)(const Edge& edge, const Block& block, int degree, int order,
                              Moments& out);
 
-/// Adds one root's part of a curved segment's coordinates. Roots are off the segment.
+/// Adds the contribution of one root to the coordinates of a curved segment. Roots must be off the
+/// segment.
 using RootMoments = void (*)(const Roots& roots, int degree, int order, Moments& sum);
 
-/// The first `count` sums of two rows (the second may be null) as a column.
+/// Writes the first `count` sums of two rows, of which the second may be null, to a column.
 template <class T>
 using Join = void (*)(const double* re, const double* im, const double* more_re,
                       const double* more_im, long count, T* out_re, T* out_im);
 
-/// out += matrix * factors for a block of rows: matrix is column-major with leading dimension
-/// `stride`, `rows` x `inner`; factors are inner complex numbers.
+/// out += matrix * factors for a block of rows. The matrix is `rows` x `inner` and column-major
+/// with leading dimension `stride`. The factors are `inner` complex numbers.
 template <class T>
 using BlockProduct = void (*)(const T* re, const T* im, long stride, long rows, long inner,
                               const T* factor_re, const T* factor_im, T* out_re, T* out_im);

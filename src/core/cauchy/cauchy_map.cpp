@@ -1,5 +1,5 @@
-// Near a segment the logarithm, at middle distances and far away Gauss-Legendre quadrature: the
-// closed form cancels there like the distance to the power of the degree.
+// Uses the logarithm near a segment, and Gauss-Legendre quadrature at middle distances and far
+// away. There, cancellation in the closed form grows like the distance to the power of the degree.
 #include "core/cauchy/cauchy_map.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace holomorph {
 namespace {
 
-/// Gauss-Legendre rules, each exact to rounding where the modulus of W = q - s is above `from`.
+/// A Gauss-Legendre rule that is exact to rounding where the modulus of W = q - s is above `from`.
 struct Rule {
   double from;
   int nodes;
@@ -31,7 +31,7 @@ Points at_nodes(std::span<const Complex> controls, int count) {
 CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
   Cage rest = given;
   VectorXc displacement = displaced;
-  if (signed_area(outline_of(given)) < 0) {  // the formulas are those of a counter-clockwise cage
+  if (signed_area(outline_of(given)) < 0) {  // the formulas are for counter-clockwise cages
     rest = reversed(given);
     const std::vector<Index> column = reversed_columns(given);
     for (Index c = 0; c < displaced.size(); ++c) displacement[column[c]] = displaced[c];
@@ -65,7 +65,8 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
 }
 
 // With v_s = s - q = -W:  integral of d / (v - v_s) over [-1, 1] = d(v_s) L + R(v_s), where
-// R = sum d_k sum_{j even < k} 2 / (j + 1) v_s^{k-1-j}. Derivatives are in s: dv_s / ds = 2.
+// R = sum d_k sum_{j even < k} 2 / (j + 1) v_s^{k-1-j}. Derivatives are with respect to s:
+// dv_s / ds = 2.
 CauchySum::ValueAndSlope CauchySum::integral(const Segment& segment, const Root& root, Complex log,
                                              Ends without_poles) {
   const Complex v = root.s - root.q;
@@ -85,14 +86,14 @@ CauchySum::ValueAndSlope CauchySum::integral(const Segment& segment, const Root&
     if (without_poles.end) sum.df += times(segment.from_end[0], inverse(root.q));
     return sum;
   }
-  // Horner's scheme for d and R together: R_{k} = v R_{k+1} + (the even part of what follows).
+  // Horner's scheme for d(v_s) and its slope.
   Complex d = 0, slope = 0, rest = 0, rest_slope = 0;
   for (size_t k = segment.powers.size(); k-- > 0;) {
     slope = times(slope, v) + d;
     d = times(d, v) + segment.powers[k];
   }
-  // Quotients (d(v) - d(v_s)) / (v - v_s) = sum_j e_j v^j by synthetic division; even e_j
-  // integrate.
+  // R is the integral of the quotient (d(v) - d(v_s)) / (v - v_s) = sum_j e_j v^j, which synthetic
+  // division yields. Only even j contribute.
   Complex e = 0, e_slope = 0;
   for (size_t j = segment.powers.size() - 1; j-- > 0;) {
     e_slope = times(e_slope, v) + e;
@@ -102,7 +103,8 @@ CauchySum::ValueAndSlope CauchySum::integral(const Segment& segment, const Root&
       rest_slope += 2.0 / static_cast<double>(j + 1) * e_slope;
     }
   }
-  // d times the logarithm's slope, -1 / s - 1 / q: (d(s) - d(0)) / s is left of a pole.
+  // d times the slope of the logarithm, -1 / s - 1 / q. Without its pole, d(s) / s is
+  // (d(s) - d(0)) / s.
   const auto over = [&](const Points& powers, Complex x, bool without_pole) {
     if (!without_pole) return times(d, inverse(x));
     Complex quotient = 0;
@@ -140,8 +142,8 @@ CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
       const Complex slope = segment.curve.derivative(root);
       const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)), angle_of(root));
       turns += log.imag();
-      // Where a curve goes on smoothly, its neighbors' extensions come as near: beyond its ends
-      // a segment is as far as its end.
+      // Where a boundary is smooth at a vertex, the extension of the neighboring segment comes
+      // equally near. Beyond its ends, a segment is therefore as far away as its end.
       const double beyond = std::max({0.0, -root.s.real(), -root.q.real()});
       const double beside = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);
       if (beyond <= 0.1 && beside < nearest) {

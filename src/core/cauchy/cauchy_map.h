@@ -1,7 +1,8 @@
 // A holomorphic map f(z) = z + sum C_m(z) d_m at single points, with its derivative.
 //
-// d are displacements of a cage's control points. Unlike the coordinates themselves this needs one
-// polynomial per segment: integral of d(t) / (t - s) dt = d(s) L + a polynomial, at each root s.
+// The d_m are displacements of the control points of a cage. Unlike the coordinates themselves,
+// this sum needs only one polynomial per segment: integral of d(t) / (t - s) dt = d(s) L + a
+// polynomial, at each root s.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace holomorph {
 
-/// The sum over all segments and its derivative; 0 everywhere when nothing is displaced.
+/// The sum over all segments and its derivative. Both are 0 everywhere if nothing is displaced.
 class CauchySum {
  public:
   /// `displacement` has an entry for each control point of `rest`, in file order.
@@ -20,10 +21,10 @@ class CauchySum {
   struct ValueAndSlope {
     Complex f, df;
   };
-  /// At a point inside the cage or near its boundary: outside, the inner branch is continued across
-  /// the nearest segment, so that Newton's method does not notice the boundary. A vertex is looked
-  /// at from 1e-12 of its shorter edge inside: the derivative is the limit where that is finite.
-  /// Cost: 40 ns a straight segment, 0.3 us a curved one.
+  /// The sum at a point inside the cage or near its boundary. Outside, the inner branch is
+  /// continued across the nearest segment, so that Newton's method can cross the boundary. A vertex
+  /// is replaced by a point that is 1e-12 of its shorter edge inside; the derivative there is the
+  /// limit if that is finite. Cost: 40 ns per straight segment, 0.3 us per curved one.
   ValueAndSlope at(Complex z) const;
 
  private:
@@ -33,7 +34,7 @@ class CauchySum {
     Points from_start, from_end;     ///< d in powers of t and of 1 - t
     std::array<Points, 3> at_nodes;  ///< d at the nodes of each quadrature rule
     Complex inwards;                 ///< a tiny step from the start into the cage
-    double reach = 0;                ///< around the start, where poles are left out
+    double reach = 0;                ///< radius around the start within which poles are omitted
     bool is_moved = false;
   };
   static ValueAndSlope integral(const Segment& segment, const Root& root, Complex log,

@@ -1,4 +1,5 @@
-// Segments that meet at a vertex are looked at from the same place, as an offset from that vertex.
+// Segments that meet at a vertex are evaluated at the same position, given as an offset from that
+// vertex.
 #include "core/cauchy/cauchy_rows.h"
 
 #include <algorithm>
@@ -10,12 +11,13 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 0.05;     ///< of a vertex's reach: there the poles of its segments cancel
-constexpr double kPole = 1e-5;     ///< nearer, what is left of them would lose digits
+constexpr double kNear = 0.05;     ///< of a vertex's reach: the poles of its segments cancel there
+constexpr double kPole = 1e-5;     ///< closer than this, their remainders would lose digits
 constexpr double kInside = 1e-12;  ///< of a vertex's reach
-/// What is on a cage must be on the finer boundaries along it, whose vertices are rounded, too.
+/// A point on a cage must also be on the finer boundaries along it, whose vertices are rounded.
 constexpr double kOutside = 3;
-constexpr double kRecovers = 1e10;  ///< so many roundings away a step of one does not matter
+/// At a distance of this many roundings, a step of one rounding does not matter.
+constexpr double kRecovers = 1e10;
 
 }  // namespace
 
@@ -102,7 +104,7 @@ VectorXc CauchyRows::row(BoundaryPoint point) const {
   return whole_row(stand_on(contact_at(segments_, point.segment, point.t)));
 }
 
-/// Between two straight edges the second derivative is rational: no cancellation at all.
+/// Between two straight edges, the second derivative is rational and does not cancel at all.
 void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const {
   for (Index v = 0; v < cage_.size(); ++v) {
     const size_t vertex = static_cast<size_t>(v);
@@ -121,7 +123,7 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
     for (size_t v = 0; v < segments_.size(); ++v)
       if (std::abs(segments_[v].start() - z) < kPole * reach_[v]) own = v;
   if (own == segments_.size()) return {};
-  // As far both ways along the boundary as a step by a rounding error would be felt.
+  // Extends in both directions along the boundary as far as a step by a rounding error matters.
   const size_t n = segments_.size();
   const double far = kRecovers * rounding_of(segments_[own], z, 0.5, 0.5);
   const auto is_felt = [&](size_t vertex) {
@@ -131,7 +133,7 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
   while (to - from < n && is_felt(from)) --from;
   while (to - from < n && is_felt(to + 1)) ++to;
   if (to - from + 3 >= n) return Patch{0, whole_row(stand)};
-  // Their columns, to which the next segments on both sides contribute, too.
+  // Fills their columns, to which the next segments on both sides contribute, too.
   Patch patch{column(from % n, 0), {}};
   const Index all = cage_.control_count();
   const Index count = (column((to + 1) % n, 0) - patch.first + all) % all + 1;

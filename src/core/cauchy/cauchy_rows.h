@@ -1,4 +1,4 @@
-// Rows of Cauchy coordinates: what all segments of a cage contribute at one point.
+// Rows of Cauchy coordinates: the contributions of all segments of a cage at one point.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,21 @@ namespace holomorph {
 
 class CauchyRows {
  public:
-  /// Derivatives have a logarithm at vertices where the control points' slope jumps. Rows there are
-  /// not a number, or those of a point that is 1e-12 of the shorter edge inside: products with
-  /// control points whose slope does not jump are then the limit.
+  /// Derivatives have a logarithm at vertices where the slope of the control points jumps. Rows
+  /// there are either NaN or those of a point that is 1e-12 of the shorter edge inside. Products of
+  /// the latter with control points whose slope does not jump are the limit.
   enum class AtVertices { not_a_number, from_inside };
 
-  /// For a counter-clockwise cage and order >= 0.
+  /// The cage must be counter-clockwise, and the order must be >= 0.
   CauchyRows(const Cage& cage, int order, AtVertices at_vertices);
 
-  /// The coordinates of all control points at z, or at a point of the boundary.
+  /// The coordinates of all control points at z, or at a boundary point.
   VectorXc row(Complex z) const;
   VectorXc row(BoundaryPoint point) const;
 
-  /// The columns of z's row that are lost to rounding when segments are looked at one by one: on
-  /// the boundary and, for derivatives, next to a vertex. Columns are cyclic from `first`; none
-  /// when no column is.
+  /// The columns of the row at z that are lost to rounding when segments are evaluated one by one.
+  /// There are such columns on the boundary and, for derivatives, next to a vertex. They run
+  /// cyclically from `first`. None if no column is lost.
   struct Patch {
     Index first = 0;
     VectorXc values;
@@ -31,7 +31,7 @@ class CauchyRows {
   std::optional<Patch> patch(Complex z) const;
 
  private:
-  /// Where a row is looked at from.
+  /// The position at which a row is evaluated.
   struct Stand {
     FinePoint point;
     std::optional<Contact> on;
@@ -52,7 +52,7 @@ class CauchyRows {
   AtVertices at_vertices_;
   std::vector<Index> offsets_;
   std::vector<SegmentPolynomial> segments_;
-  std::vector<double> reach_;  ///< of each vertex: the shorter of its two chords
+  std::vector<double> reach_;  ///< for each vertex, the shorter of its two chords
 };
 
 }  // namespace holomorph

@@ -5,12 +5,13 @@
 
 namespace holomorph {
 
-/// Nodes and weights: exact for polynomials of degree 2 n - 1.
+/// Nodes and weights. A rule with n nodes is exact for polynomials up to degree 2 n - 1.
 struct GaussRule {
   std::vector<double> nodes, weights;
 };
 
-/// The rule with 1 to 64 nodes, computed in extended precision once.
+/// The rule with the given number of nodes, 1 to 64. Rules are computed once, in extended
+/// precision.
 const GaussRule& gauss_rule(int nodes);
 
 }  // namespace holomorph

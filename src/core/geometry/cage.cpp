@@ -1,4 +1,4 @@
-// Cages by index arithmetic over segments; the curves themselves are curve.h's.
+// Cages are index arithmetic over segments. The curves themselves are in curve.h.
 #include "core/geometry/cage.h"
 
 #include <algorithm>
@@ -202,7 +202,7 @@ BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z) {
   double t = start + near.t * (end - start);
   if (!is_straight(cage, segment)) {
     const SegmentPolynomial curve(cage.controls(segment));
-    constexpr int kSteps = 6;  // of Gauss and Newton, from 5e-5 of the size
+    constexpr int kSteps = 6;  // Gauss-Newton steps, starting within 5e-5 of the cage's size
     for (int step = 0; step < kSteps; ++step) {
       const Root at{t, 1 - t};
       const Complex slope = curve.derivative(at);
@@ -221,9 +221,9 @@ std::string point_text(Complex z) {
 
 namespace {
 
-/// Vertices must keep a distance from the edges beside which they lie that survives rounding, also
-/// of what a mesher inserts between them: a needle's angle is at least kNeedle. Otherwise which
-/// side they are on is nobody's to say.
+/// Each vertex must keep a distance from the edges next to it that survives rounding, including
+/// that of points which a mesher inserts between them: a needle must have an angle of at least
+/// kNeedle. Otherwise it is undecidable on which side of an edge a vertex lies.
 std::optional<Error> gap_fault(const FlatCage& flat) {
   constexpr double kNeedle = 1e-7;
   const Points& polygon = flat.points;
@@ -231,7 +231,7 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
   std::vector<double> along(polygon.size() + 1, 0);  // arc length up to each vertex
   for (Index e = 0; e < n; ++e)
     along[e + 1] = along[e] + std::abs(polygon[(e + 1) % n] - polygon[e]);
-  // The shorter way along the boundary between a vertex and an edge.
+  // The distance along the boundary between a vertex and an edge, in the shorter direction.
   const auto way = [&](Index vertex, Index edge) {
     const double forward = along[vertex] - along[edge + 1], back = along[edge] - along[vertex];
     return forward >= 0 ? std::min(forward, along[n] - along[vertex] + along[edge])
@@ -259,14 +259,15 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
                      "the rest cage touches itself: point " +
                          std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
                          " lies on segment " + std::to_string(flat.places[e].segment + 1) +
-                         "; move one of them away",
+                         "; move them apart",
                      z);
     }
   }
   return {};
 }
 
-/// A curve must not stop: where c' = 0 there is a cusp, and the map's derivative has no limit.
+/// A curve must have nonzero speed: where c' = 0 it has a cusp, and the derivative of the map has
+/// no limit.
 std::optional<Error> speed_fault(const Cage& cage, Index segment) {
   if (is_straight(cage, segment)) return {};
   const Points controls = cage.controls(segment);
@@ -281,17 +282,18 @@ std::optional<Error> speed_fault(const Cage& cage, Index segment) {
     if (std::abs(stop.s.imag()) > kNear || t < -kNear || t > 1 + kNear) continue;
     const Complex z = bezier_point(controls, std::clamp(t, 0.0, 1.0));
     const bool at_end = t < kNear || t > 1 - kNear;
-    return Error(ErrorKind::bad_input,
-                 "rest cage segment " + std::to_string(segment + 1) +
-                     (at_end ? " has a tangent handle on its point at " : " has a cusp at ") +
-                     point_text(z) + "; pull its handles apart",
-                 z);
+    return Error(
+        ErrorKind::bad_input,
+        "rest cage segment " + std::to_string(segment + 1) +
+            (at_end ? " has a tangent handle on top of its point at " : " has a cusp at ") +
+            point_text(z) + "; pull its handles apart",
+        z);
   }
   return {};
 }
 
-/// Two segments must not leave their common vertex in the same direction: rounding cannot tell an
-/// angle of 0 from one of 2 pi there.
+/// Two segments must not leave their common vertex in the same direction: rounding makes angles of
+/// 0 and 2 pi indistinguishable there.
 std::optional<Error> tip_fault(const Cage& cage) {
   constexpr double kTip = 1e-7;  // radians
   for (Index i = 0; i < cage.size(); ++i) {
@@ -301,13 +303,15 @@ std::optional<Error> tip_fault(const Cage& cage) {
     if (dot(in, out) > 0 && std::abs(cross(in, out)) <= kTip * std::abs(in) * std::abs(out))
       return Error(ErrorKind::bad_input,
                    "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
-                       point_text(z) + ": its two segments run in the same direction; open them",
+                       point_text(z) +
+                       ": its two segments leave it in the same direction; spread them apart",
                    z);
   }
   return {};
 }
 
-/// What would be no polynomial, or overflow when areas are multiplied.
+/// Rejects segments that are not polynomials and coordinates that overflow when areas are
+/// multiplied.
 std::optional<Error> numbers_fault(const Cage& cage) {
   const auto fault = [](Index i, const std::string& what) {
     return Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) + " " + what);
@@ -315,7 +319,7 @@ std::optional<Error> numbers_fault(const Cage& cage) {
   for (Index i = 0; i < cage.size(); ++i) {
     if (cage.degree(i) < 1) return fault(i, "has no control point");
     if (cage.degree(i) > kHighestDegree)
-      return fault(i, "is of degree " + std::to_string(cage.degree(i)) + "; the highest one is " +
+      return fault(i, "has degree " + std::to_string(cage.degree(i)) + "; the highest degree is " +
                           std::to_string(kHighestDegree));
     for (const Complex& z : cage.segments[i]) {
       if (!is_finite(z)) return fault(i, "has a coordinate that is not a finite number");
@@ -361,7 +365,8 @@ std::optional<Error> rest_fault(const Cage& cage) {
   if (auto fault = gap_fault(flat)) return fault;
   const Box box = box_of(flat.points);
   if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
-    return Error(ErrorKind::bad_input, "the rest cage has no area", cage.vertex(0));
+    return Error(ErrorKind::bad_input,
+                 "the rest cage has no area; move its points off a common line", cage.vertex(0));
   return {};
 }
 

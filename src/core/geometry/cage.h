@@ -1,6 +1,6 @@
-// The cage: a closed loop of Bezier segments, each with a degree of its own.
+// The cage: a closed loop of Bezier segments, each with its own degree.
 //
-// A polygon is a cage of degree 1 everywhere; there is no second cage type.
+// A polygon is a cage whose segments all have degree 1; it has no separate type.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace holomorph {
 
-/// A closed loop of Bezier segments. Segment i holds its control points without the last one, which
-/// is the first of segment i + 1, so its degree is its length. Value type.
+/// A closed loop of Bezier segments. Segment i stores its control points except the last, which is
+/// the first of segment i + 1. Its degree is therefore the number of points that it stores. Value
+/// type.
 struct Cage {
   std::vector<Points> segments;
 
@@ -19,9 +20,9 @@ struct Cage {
 
   Index size() const { return static_cast<Index>(segments.size()); }
   int degree(Index segment) const { return static_cast<int>(segments[segment].size()); }
-  /// Number of control points, a vertex that two segments share counted once.
+  /// Number of control points. A vertex that two segments share counts once.
   Index control_count() const;
-  /// The vertex that segment i starts at; i is taken modulo size().
+  /// The start vertex of segment i, where i is taken modulo size().
   Complex vertex(Index i) const { return segments[(i % size() + size()) % size()][0]; }
   /// All degree(i) + 1 control points of segment i.
   Points controls(Index segment) const;
@@ -29,88 +30,95 @@ struct Cage {
   Index control_offset(Index segment) const;
 };
 
-/// A point of the cage's boundary, addressed exactly: parameter t in [0, 1) on segment `segment`.
+/// A point on the boundary of the cage, given exactly: parameter t in [0, 1) on segment `segment`.
 struct BoundaryPoint {
   Index segment = 0;
   double t = 0.0;
 };
 
-/// The place of a boundary point in the plane.
+/// The position of a boundary point in the plane.
 Complex position_of(const Cage& cage, BoundaryPoint point);
 
 /// A cage with straight edges.
 Cage polygon_cage(std::span<const Complex> vertices);
 
-/// The segments' end points: the polygon that a cage of degree 1 is.
+/// The end points of the segments. A cage of degree 1 is the polygon with these vertices.
 Points vertices_of(const Cage& cage);
 
-/// All control points in file order: segment by segment, shared vertices once.
+/// All control points in file order: segment by segment, with shared vertices once.
 VectorXc controls_of(const Cage& cage);
 
-/// `cage` with each segment's degree raised to at least that of the same segment of `other`.
-/// Throws Error when the two have different numbers of segments.
+/// `cage` with each segment's degree raised to at least that of the corresponding segment of
+/// `other`. Throws Error if the two have different numbers of segments.
 Cage elevated_to(const Cage& cage, const Cage& other);
 
-/// The loop as a polyline: each segment sampled at `per_curve` parameters when curved, at its start
-/// alone when straight.
+/// The loop as a polyline. A segment of degree 1 is sampled only at its start, others at
+/// `per_curve` parameters.
 Points outline_of(const Cage& cage, int per_curve = 16);
 
-/// The loop as a polygon within 5e-5 of its size: its vertices and where on the cage they are.
-/// Straight segments stay whole; curved ones are cut evenly in the parameter, into at most 1024.
+/// The loop as a polygon, accurate to 5e-5 of the cage's diagonal: its vertices and their locations
+/// on the cage. Straight segments stay whole. Curved ones are divided evenly in the parameter, into
+/// at most 1024 pieces.
 struct FlatCage {
   Points points;
   std::vector<BoundaryPoint> places;
 };
 FlatCage flattened(const Cage& cage);
 
-/// The cage's point nearest to z; `flat` is the flattened cage. Cost: that of nearest_on_polygon.
+/// The point of the cage nearest to z. `flat` is the flattened cage. Cost: that of
+/// nearest_on_polygon.
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
 
-/// The same loop run through backwards, from the same first vertex.
+/// The same loop traversed backwards from the same first vertex.
 Cage reversed(const Cage& cage);
 
-/// The same loop run through counter-clockwise.
+/// The same loop, traversed counter-clockwise.
 Cage counter_clockwise(const Cage& cage);
 
-/// z itself but, at a vertex of a counter-clockwise cage, a point inside that is 1e-9 of the
-/// shorter edge away: where derivatives that are infinite at vertices are looked at.
+/// z itself, unless z is a vertex of the counter-clockwise cage; then an interior point at a
+/// distance of 1e-9 times the shorter edge. Derivatives that are infinite at a vertex are evaluated
+/// at this point instead.
 Complex beside_vertex(const Cage& cage, Complex z);
 
-/// For each control point of the cage its number among those of the reversed cage.
+/// For each control point of the cage, its index among the control points of the reversed cage.
 std::vector<Index> reversed_columns(const Cage& cage);
 
-/// Cuts segment `segment` at parameter t in (0, 1) by de Casteljau: the curve stays as it is.
+/// Splits segment `segment` at parameter t in (0, 1) by de Casteljau's algorithm. The curve does
+/// not change.
 void insert_vertex(Cage& cage, Index segment, double t);
 
-/// What happens to curved neighbors of a vertex that is removed: they follow the old curve by
-/// least squares with the larger degree, or become one cubic with the outer tangents.
+/// What replaces the two curved segments at a vertex that is removed: a least-squares fit to the
+/// old curve with the larger of the two degrees, or a cubic with the outer tangents.
 enum class Refit { curve, tangents };
 
-/// The parameter that a vertex has on the one segment which its two become: the speeds there agree,
-/// so that a cut made by insert_vertex heals. Clamped to [0.05, 0.95].
+/// The parameter of a vertex on the segment that replaces its two segments. It makes the speeds on
+/// both sides agree, so that erase_vertex undoes insert_vertex. Clamped to [0.05, 0.95].
 double joint_parameter(const Cage& cage, Index vertex);
 
-/// Removes vertex `vertex`. Two straight segments become one; `refit` says what curved ones do,
-/// with `joint` the vertex's parameter on the new curve: rest and pose must use the same one, or
-/// the picture slides along them. The cage must have more than three segments.
+/// Removes vertex `vertex`. Two straight segments become one; `refit` says what replaces curved
+/// ones. `joint` is the parameter of the vertex on the curve that replaces them. The rest cage and
+/// the posed cage must use the same `joint`, or the picture slides along the curve. The cage must
+/// have more than three segments.
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
 
-/// Whether every segment runs along its chord at constant speed (degree-raised edges do).
+/// Whether every segment is a straight edge traversed at constant speed. Edges of raised degree
+/// count as straight.
 bool is_straight(const Cage& cage);
 
-/// Whether segment i is a straight edge, run through at constant speed.
+/// Whether segment `segment` is a straight edge traversed at constant speed.
 bool is_straight(const Cage& cage, Index segment);
 
-/// Throws Error unless the cage can be a rest cage: at least three segments, finite, no segment of
-/// zero length, no cusp, an area, no needle below 1e-7 radians, and no crossing with itself. The
-/// message names the segments and the error's `where` is the place. Curves are judged as
-/// `flattened`. Cost: O(n log n) in its points for ordinary loops.
+/// Throws Error unless the cage can be a rest cage. It must have at least three segments, finite
+/// coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a needle
+/// below 1e-7 radians or a self-intersection. The message names the segments, and the error's
+/// `where` is the position. Needles, self-intersections and the area are those of the `flattened`
+/// cage. Cost: O(n log n) in the number of its points for ordinary loops.
 void check_rest_cage(const Cage& cage);
 
-/// What check_rest_cage would throw; none when the cage can rest.
+/// The error that check_rest_cage would throw, or none if the cage is valid.
 std::optional<Error> rest_fault(const Cage& cage);
 
-/// "(12, 30.5)": how messages write a point.
+/// A point as written in messages: "(12, 30.5)".
 std::string point_text(Complex z);
 
 }  // namespace holomorph

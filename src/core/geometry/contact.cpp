@@ -1,4 +1,5 @@
-// The nearest among vertices and the feet of perpendiculars, which are real parts of roots.
+// The candidates are the vertices and the feet of perpendiculars, whose parameters are the real
+// parts of roots.
 #include "core/geometry/contact.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ double rounding_of(const SegmentPolynomial& segment, Complex z, double s, double
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   if (!segment.is_straight())
     return (4 + segment.degree()) * kEpsilon * std::max(segment.magnitude(), std::abs(z));
-  // The ends are exact.
+  // The end points are exact.
   const double along = std::abs(segment.end() - segment.start()) * std::max(0.0, std::min(s, q));
   return kEpsilon * (4 * std::abs(z) + 6 * along);
 }

@@ -1,7 +1,7 @@
-// Which point of a boundary a point is, as well as rounding can tell.
+// Finds the boundary point with which a point coincides, up to rounding.
 //
-// Half of all points that were rounded onto an edge lie outside of it. They take the limits from
-// inside, and near a vertex both of its segments must agree on where that is.
+// Half of all points that were rounded onto an edge lie outside it. They get the limits from
+// inside, and near a vertex its two segments must agree on the position.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,25 @@
 
 namespace holomorph {
 
-/// A point of a closed loop of segments.
+/// A point on a closed loop of segments.
 struct Contact {
   Index segment = 0;
-  double s = 0, q = 1;  ///< its parameter t and 1 - t, each to its own relative precision
+  double s = 0, q = 1;  ///< the parameter t and 1 - t, each to full relative precision
   FinePoint point;      ///< relative to the nearer end of the segment
 
   bool is_vertex() const { return s == 0; }
 };
 
-/// The boundary's nearest point to z when their distance is within the rounding of z and of the
-/// curves, about 4 eps |z|, outside `outside` times that; else none. Cost: 3 ns a straight segment,
-/// and the roots of curved segments whose box z is in.
+/// The boundary point nearest to z if its distance is within the rounding of z and of the curves,
+/// about 4 eps |z|, or `outside` times that for z outside the loop; else none. Cost: 3 ns per
+/// straight segment, plus the roots for each curved segment whose box contains z.
 std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Complex z,
                                   double outside = 1);
 
 /// The contact at parameter t in [0, 1) of a segment.
 Contact contact_at(std::span<const SegmentPolynomial> loop, Index segment, double t);
 
-/// By how much rounding can move a point z next to a segment, at the segment's parameter s = 1 - q.
+/// How far rounding can move a point z that is next to a segment at its parameter s = 1 - q.
 double rounding_of(const SegmentPolynomial& segment, Complex z, double s, double q);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// Bezier segments by de Casteljau; polylines by orientation tests in extended precision, whose
-// extra 11 bits keep signs right for coordinates up to millions of pixels.
+// Bezier segments by de Casteljau's algorithm, and polylines by orientation tests in extended
+// precision. The extra 11 bits keep the signs right for coordinates up to millions of pixels.
 #include "core/geometry/curve.h"
 
 #include <Eigen/QR>
@@ -32,7 +32,7 @@ SplitCurve split(std::span<const Complex> controls, double t) {
 Points elevated(std::span<const Complex> controls, int degree) {
   Points curve(controls.begin(), controls.end());
   if (static_cast<int>(curve.size()) - 1 > degree)
-    throw Error(ErrorKind::bad_input, "a curve's degree cannot be raised to a lower one");
+    throw Error(ErrorKind::bad_input, "the degree of a curve cannot be raised to a lower degree");
   while (static_cast<int>(curve.size()) - 1 < degree) {
     const size_t n = curve.size();
     Points raised(n + 1);
@@ -58,7 +58,8 @@ double bernstein(int degree, int m, double t) {
 }  // namespace
 
 Points fitted(std::span<const Complex> samples, std::span<const double> parameters, int degree) {
-  check(samples.size() == parameters.size() && samples.size() >= 2, "fitted: one t per sample");
+  check(samples.size() == parameters.size() && samples.size() >= 2,
+        "fitted: one parameter per sample, two or more samples");
   Points curve(degree + 1);
   curve.front() = samples.front();
   curve.back() = samples.back();
@@ -104,7 +105,7 @@ double perimeter(std::span<const Complex> polygon) {
 
 namespace {
 
-/// Sign of the area of (a, b, c).
+/// Sign of the signed area of the triangle (a, b, c).
 int orientation(Complex a, Complex b, Complex c) {
   const long double abx = static_cast<long double>(b.real()) - a.real();
   const long double aby = static_cast<long double>(b.imag()) - a.imag();
@@ -114,13 +115,13 @@ int orientation(Complex a, Complex b, Complex c) {
   return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-/// z is known to lie on the line through a and b: is it between them?
+/// Whether z, a point of the line through a and b, is between them.
 bool between(Complex a, Complex b, Complex z) {
   return std::min(a.real(), b.real()) <= z.real() && z.real() <= std::max(a.real(), b.real()) &&
          std::min(a.imag(), b.imag()) <= z.imag() && z.imag() <= std::max(a.imag(), b.imag());
 }
 
-/// A common point of the closed segments ab and cd.
+/// A common point of the closed segments ab and cd, or none.
 std::optional<Complex> common_point(Complex a, Complex b, Complex c, Complex d) {
   const int abc = orientation(a, b, c), abd = orientation(a, b, d);
   const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
@@ -179,7 +180,7 @@ std::optional<Crossing> self_crossing(std::span<const Complex> polygon) {
 
   const auto cross_at = [&](Index i, Index j) -> std::optional<Complex> {
     const Complex a = at(i), b = at(i + 1), c = at(j), d = at(j + 1);
-    // Neighbors share a vertex by construction: they cross only when one folds back on the other.
+    // Neighbors share a vertex by construction. They cross only if one folds back on the other.
     if ((i + 1) % n == j)
       return orientation(a, b, d) == 0 && dot(a - b, d - b) > 0 ? std::optional(b) : std::nullopt;
     if ((j + 1) % n == i)

@@ -1,4 +1,4 @@
-// Bezier segments and polylines: what cages, strokes and outlines are made of.
+// Bezier segments and polylines, which make up cages, strokes and outlines.
 #pragma once
 
 #include <optional>
@@ -8,32 +8,35 @@
 
 namespace holomorph {
 
-/// The highest degree of a segment: above it powers amplify rounding, and nobody draws.
+/// The highest degree of a segment. Above it, powers amplify rounding, and nobody draws such
+/// curves.
 inline constexpr int kHighestDegree = 8;
 
 /// Point at parameter t of the Bezier curve with control points `controls` (degree + 1 of them),
 /// by de Casteljau's algorithm. Cost O(degree^2).
 Complex bezier_point(std::span<const Complex> controls, double t);
 
-/// The two halves of a Bezier curve cut at t, each with as many control points as the curve; the
-/// last of the first half is the first of the second (de Casteljau).
+/// The two parts of a Bezier curve that is split at t by de Casteljau's algorithm. Each has as many
+/// control points as the curve; the last one of `before` is the first one of `after`.
 struct SplitCurve {
   Points before, after;
 };
 SplitCurve split(std::span<const Complex> controls, double t);
 
-/// The same curve written with one more control point per step until it has `degree`.
-/// Throws Error when the curve's degree is already higher.
+/// The same curve, written with the given higher degree. Each step adds one control point. Throws
+/// Error if the curve's degree is already higher.
 Points elevated(std::span<const Complex> controls, int degree);
 
-/// The Bezier curve of `degree` with the given samples' end points that passes nearest to the
-/// samples in the least-squares sense, samples[i] belonging to parameter parameters[i].
+/// The Bezier curve of the given degree that starts at the first sample, ends at the last one and
+/// fits the others best in the least-squares sense. samples[i] belongs to the parameter
+/// parameters[i].
 Points fitted(std::span<const Complex> samples, std::span<const double> parameters, int degree);
 
-/// The angle, in (0, 2 pi], by which `out` has to turn counter-clockwise onto `in`: the one inside
-/// at a vertex of a counter-clockwise boundary that is left along `out` and reached against `in`.
+/// The counter-clockwise angle from `out` to `in`, in (0, 2 pi]. It is the interior angle at a
+/// vertex of a counter-clockwise boundary, where `out` points to the next vertex and `in` to the
+/// previous one.
 double inner_angle(Complex out, Complex in);
-/// The unit vector that halves it.
+/// The unit vector that bisects this angle.
 Complex inwards_between(Complex out, Complex in);
 
 /// Signed area of a closed polygon: positive when counter-clockwise.
@@ -42,11 +45,12 @@ double signed_area(std::span<const Complex> polygon);
 /// Length of a closed polygon.
 double perimeter(std::span<const Complex> polygon);
 
-/// How often a closed polygon winds around z; points on the boundary count as either side.
+/// The winding number of a closed polygon around z. Points on the boundary may count as being on
+/// either side.
 int winding_number(std::span<const Complex> polygon, Complex z);
 
-/// A nearest point on a polyline: the edge (from vertex `edge` to the next), the parameter on it,
-/// the point and its distance.
+/// The nearest point on a polyline: its edge (from vertex `edge` to the next one), the parameter on
+/// this edge, the position and the distance.
 struct NearestPoint {
   Index edge = 0;
   double t = 0.0;
@@ -56,18 +60,19 @@ struct NearestPoint {
 NearestPoint nearest_on_segment(Complex a, Complex b, Complex z);
 NearestPoint nearest_on_polygon(std::span<const Complex> polygon, Complex z);
 
-/// A place where a closed polygon touches or crosses itself: the two edges and one common point.
+/// A self-intersection of a closed polygon: two edges that touch or cross, and a common point.
 struct Crossing {
   Index first = 0, second = 0;
   Complex point;
 };
 
-/// The first self-crossing of a closed polygon, or none when it is simple. Neighboring edges
-/// cross only when they overlap. Sweep over x-sorted boxes: O(n log n) for ordinary outlines.
+/// The first self-crossing of a closed polygon, or none when it is simple. Neighboring edges count
+/// as crossing only if they overlap. Method: a sweep over boxes sorted by x. Cost: O(n log n) for
+/// ordinary outlines.
 std::optional<Crossing> self_crossing(std::span<const Complex> polygon);
 
-/// The turning number of a closed polygon: the sum of its exterior angles over 2 pi.
-/// Edges of zero length are passed over.
+/// The turning number of a closed polygon: the sum of its exterior angles over 2 pi. Edges of zero
+/// length are skipped.
 double turning_number(std::span<const Complex> polygon);
 
 }  // namespace holomorph

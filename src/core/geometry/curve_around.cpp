@@ -1,5 +1,5 @@
-// Least-squares cubics between places of the outline; a piece that would cut what must be kept is
-// halved, until none does.
+// Fits least-squares cubics between points of the outline. Pieces that would cut the kept polyline
+// are halved until none does.
 #include "core/geometry/curve_around.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace holomorph {
 namespace {
 
-constexpr double kCorner = 0.65;  ///< cosine of the turn from which a joint is a corner
-constexpr int kFlat = 24;         ///< edges that stand for a curve in tests
+constexpr double kCorner = 0.65;  ///< cosine of the smallest turning angle of a corner
+constexpr int kFlat = 24;         ///< edges that represent a curve in the tests
 
-/// Where the simplified polygon's vertices are nearest to the outline, in order.
+/// The outline's points nearest to the vertices of the simplified polygon, in order.
 std::set<size_t> first_breaks(const Points& outline, const Points& polygon) {
   std::set<size_t> breaks;
   for (const Complex& z : polygon) {
@@ -27,7 +27,8 @@ std::set<size_t> first_breaks(const Points& outline, const Points& polygon) {
   return breaks;
 }
 
-/// The cubic through the outline from one place to another; a line where there are too few points.
+/// The cubic fitted to the outline from one of its points to another, or a line if there are too
+/// few points in between.
 Points piece(const Points& outline, size_t from, size_t to) {
   const size_t n = outline.size(), count = (to + n - from) % n;
   Points samples;
@@ -41,7 +42,7 @@ Points piece(const Points& outline, size_t from, size_t to) {
   return fitted(samples, parameters, 3);
 }
 
-/// Turns the two tangents of each joint into one line, unless the joint is a corner.
+/// Makes the two tangents of each joint collinear, unless the joint is a corner.
 void smooth_joints(Cage& cage) {
   for (Index e = 0; e < cage.size(); ++e) {
     const Index before = (e + cage.size() - 1) % cage.size();
@@ -70,7 +71,7 @@ Cage loop_over(const Points& outline, const std::set<size_t>& breaks) {
   return cage;
 }
 
-/// The segments that cut what must be kept, or cross others.
+/// The segments that cut off kept points or cross other segments.
 std::set<Index> bad_segments(const Cage& cage, const Points& kept) {
   Points flat = outline_of(cage, kFlat);
   std::vector<Index> segment;

@@ -1,4 +1,4 @@
-// Boxes over runs of segments, halved down to four of them.
+// Boxes around runs of segments, which are halved until they have at most four.
 #include "core/geometry/polyline.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr Index kLeaf = 4;
 }  // namespace
 
 Polyline::Polyline(Points points, bool closed) : points_(std::move(points)), closed_(closed) {
-  check(points_.size() >= (closed ? 3u : 2u), "polyline: enough points");
+  check(points_.size() >= (closed ? 3u : 2u), "polyline: two points or more, three if closed");
   lengths_.push_back(0);
   for (Index i = 0; i < segments(); ++i)
     lengths_.push_back(lengths_.back() + std::abs(end(i) - start(i)));
@@ -96,7 +96,8 @@ double Polyline::diagonal() const {
   return std::hypot(box.right - box.left, box.top - box.bottom);
 }
 
-// The widest of the extents in many directions: off by the cosine of half the angle between two.
+// The largest extent over many directions. It is at least the diameter times the cosine of half the
+// angle between two directions.
 double Polyline::diameter() const {
   constexpr int kDirections = 50;
   double widest = 0;
@@ -121,7 +122,8 @@ void check_stroke(std::span<const Complex> points) {
     if (!is_finite(z))
       throw Error(ErrorKind::bad_input, "the stroke has a point that is not finite");
   if (std::ranges::all_of(points, [&](Complex z) { return z == points[0]; }))
-    throw Error(ErrorKind::bad_input, "the stroke has no length; draw it through two places");
+    throw Error(ErrorKind::bad_input,
+                "the stroke has no length; draw it through two different points");
 }
 
 Points at_equal_lengths(const Polyline& line, Index count) {

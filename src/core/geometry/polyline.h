@@ -1,4 +1,4 @@
-// A curve of straight segments that answers what is nearest: the target of outlines and strokes.
+// A polyline that finds its point nearest to a given one: the target of outlines and strokes.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@ namespace holomorph {
 
 class Polyline {
  public:
-  /// Neighboring points must differ; two points at least, three when it closes. Cost: linear.
+  /// Takes at least two points, or three if closed. Neighboring points must differ. Cost: linear.
   Polyline(Points points, bool closed);
 
   struct Nearest {
@@ -18,17 +18,18 @@ class Polyline {
     double parameter = 0;  ///< 0 to 1 along the segment
     double distance = 0;
   };
-  /// The nearest point. `hint` is a segment that is likely to be near, such as the last answer's.
-  /// Cost: logarithmic in the segments when the hint is good.
+  /// The point nearest to z. `hint` is a segment that is likely to be near, such as that of the
+  /// previous answer. Cost: logarithmic in the number of segments if the hint is good.
   Nearest nearest(Complex z, Index hint = 0) const;
 
   const Points& points() const { return points_; }
   bool closed() const { return closed_; }
   Index segments() const { return static_cast<Index>(points_.size()) - (closed_ ? 0 : 1); }
   double length() const { return lengths_.back(); }
-  /// The point at an arc length from the first one; closed curves go round, others end.
+  /// The point at the given arc length from the first point. The length wraps around on a closed
+  /// curve and is clamped on an open one.
   Complex at(double length) const;
-  /// Where that is: a segment and the parameter on it.
+  /// The location of this point: a segment and the parameter on it.
   struct Location {
     Index segment = 0;
     double parameter = 0;
@@ -36,9 +37,9 @@ class Polyline {
   Location place_at(double length) const;
   /// The arc length of a point on a segment.
   double length_at(Index segment, double parameter) const;
-  /// The smallest box's diagonal.
+  /// The diagonal of the bounding box.
   double diagonal() const;
-  /// The largest distance of two points, or up to 0.05 % less. Cost: linear.
+  /// The largest distance between two points, or up to 0.05 % less. Cost: linear.
   double diameter() const;
 
  private:
@@ -55,20 +56,20 @@ class Polyline {
 
   Points points_;
   bool closed_;
-  std::vector<double> lengths_;  ///< from the first point to each, and to the end
-  std::vector<Box> boxes_;       ///< a binary tree over consecutive segments
+  std::vector<double> lengths_;  ///< arc lengths from the first point to each and to the end
+  std::vector<Box> boxes_;       ///< bounding boxes in a binary tree over consecutive segments
 };
 
-/// The points without those that repeat the one before.
+/// The points without consecutive duplicates.
 Points without_repeats(const Points& points);
 
-/// Throws Error unless the points are finite, and at two places at least.
+/// Throws Error unless all points are finite and at least two of them differ.
 void check_stroke(std::span<const Complex> points);
 
-/// `count` points at equal arc lengths; an open curve's ends are among them.
+/// `count` points at equal distances in arc length. On an open curve, they include both ends.
 Points at_equal_lengths(const Polyline& line, Index count);
 
-/// The largest distance of a's points (its corners and the middles of its segments) from b.
+/// The largest distance from b among points of a: its corners and the midpoints of its segments.
 double one_sided_distance(const Polyline& a, const Polyline& b);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// Three expansions of one polynomial: the middle one is balanced over the segment and finds the
-// roots, the two at the ends polish those that are near them.
+// Three expansions of the same polynomial. The one about the middle is balanced over the segment
+// and finds the roots; the two about the ends refine the roots near them.
 #include "core/geometry/segment.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct ValueAndSlope {
   Complex value, slope;
 };
 
-/// The polynomial less z, and its derivative, by Horner's scheme.
+/// The polynomial minus z, and its derivative, by Horner's scheme.
 ValueAndSlope horner(const Points& powers, const FinePoint& z, Complex x) {
   ValueAndSlope at{powers.back(), 0};
   for (size_t k = powers.size() - 1; k-- > 0;) {
@@ -53,15 +53,15 @@ Points powers_about_middle(std::span<const Complex> controls) {
 }
 
 SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
-  check(!controls.empty() && controls.size() <= kHighestDegree + 1, "a segment of degree 0 to 8");
+  check(!controls.empty() && controls.size() <= kHighestDegree + 1, "segment: degree 0 to 8");
   for (const Complex& z : controls) magnitude_ = std::max(magnitude_, std::abs(z));
   box_ = box_of(controls);
   Points backwards(controls.rbegin(), controls.rend());
   middle_ = powers_about_middle(controls);
   start_ = powers_of(Points(controls.begin(), controls.end()));
   end_ = powers_of(std::move(backwards));
-  // What is only rounding of the control points, as differences amplify it, is no power of the
-  // curve.
+  // A leading coefficient does not count if it is only the rounding of the control points,
+  // amplified by the differences.
   const auto rounding = [&] {
     const double n = static_cast<double>(controls.size()) - 1, k = static_cast<double>(degree());
     double binomial = 1;
@@ -74,7 +74,7 @@ SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
     end_.pop_back();
   }
   if (!is_straight()) return;
-  start_[1] = controls.back() - controls.front();  // exact where raised control points are rounded
+  start_[1] = controls.back() - controls.front();  // exact, even if control points are rounded
   end_[1] = -start_[1];
 }
 
@@ -83,14 +83,14 @@ void SegmentPolynomial::refine(const FinePoint& z, Root& root) const {
   Complex& x = from_start ? root.s : root.q;
   const Points& powers = from_start ? start_ : end_;
   if (std::norm(x) > 1) return;
-  // Next to the end all digits of x may be wrong, but no other root is as near.
+  // Close to the end, all digits of x may be wrong, but no other root is as near.
   constexpr double kAtEnd = 1e-10;
   for (int step = 0; step < 3; ++step) {
     const ValueAndSlope at = horner(powers, z, x);
     const Complex move = quotient(at.value, at.slope);
     if (!is_finite(move)) break;
     if (std::norm(move) > 1e-4 * std::norm(x) && std::norm(move) > kAtEnd * kAtEnd)
-      break;  // nearly double
+      break;  // nearly a double root
     x -= move;
   }
   (from_start ? root.q : root.s) = 1.0 - x;

@@ -1,7 +1,7 @@
-// A Bezier segment as a polynomial c(t), and every place where it takes a given value.
+// A Bezier segment as a polynomial c(t), and all the parameters where it takes a given value.
 //
-// Over a segment c'(t) / (c(t) - z) = sum over the roots t_r of c(t) = z of 1 / (t - t_r):
-// integrals over a curve become integrals over the unit interval, one for each root.
+// On a segment, c'(t) / (c(t) - z) is the sum of 1 / (t - t_r) over the roots t_r of c(t) = z.
+// Integrals over a curve therefore become integrals over the unit interval, one for each root.
 #pragma once
 
 #include <array>
@@ -10,54 +10,55 @@
 
 namespace holomorph {
 
-/// A point as a base, such as a vertex, and an offset from it: differences with what is near the
+/// A point as a base, such as a vertex, and an offset from it. Differences from points near the
 /// base keep all their digits.
 struct FinePoint {
   Complex base, offset;
 
   FinePoint(Complex z) : base(z) {}
   FinePoint(Complex from, Complex by) : base(from), offset(by) {}
-  /// Rounded.
+  /// The point, rounded.
   Complex plain() const { return base + offset; }
 };
 inline Complex operator-(Complex a, const FinePoint& b) {
   return (a - b.base) - b.offset;
 }
 
-/// The curve in powers of t.
+/// The coefficients of the curve in powers of t.
 Points powers_about_start(std::span<const Complex> controls);
-/// The curve in powers of 2 t - 1.
+/// The coefficients of the curve in powers of 2 t - 1.
 Points powers_about_middle(std::span<const Complex> controls);
 
-/// A root t of c(t) = z as s = t and q = 1 - t, each to its own relative precision: near the
-/// segment's ends the small one of the two is what matters.
+/// A root t of c(t) = z as s = t and q = 1 - t, each to full relative precision. Near an end of the
+/// segment, the smaller of the two is the one that matters.
 struct Root {
   Complex s, q;
 };
 
 class SegmentPolynomial {
  public:
-  /// From the control points, kHighestDegree + 1 at most (a check). A curve whose degree was raised
-  /// is known for what it was.
+  /// From the control points, at most kHighestDegree + 1 of them (checked). The degree of a
+  /// degree-raised curve is reduced to the original one.
   explicit SegmentPolynomial(std::span<const Complex> controls);
 
-  /// The number of roots: the true degree, 0 for a single point.
+  /// The number of roots, which is the true degree; 0 for a single point.
   int degree() const { return static_cast<int>(middle_.size()) - 1; }
-  /// A straight segment run through at constant speed.
+  /// Whether the segment is a straight edge traversed at constant speed.
   bool is_straight() const { return degree() == 1; }
   Complex start() const { return start_[0]; }
   Complex end() const { return end_[0]; }
-  /// The largest modulus among the control points.
+  /// The largest modulus of a control point.
   double magnitude() const { return magnitude_; }
-  /// A box around the control points.
+  /// The bounding box of the control points.
   const Box& box() const { return box_; }
 
-  /// Writes the degree() roots of c(t) = z. `near`, when given, are the roots of a nearby z: they
-  /// start the iteration. Aberth's method, then Newton's from the nearer end; a double root comes
-  /// out to half the digits, as it must. Cost: about 100 ns a root.
+  /// Writes the degree() roots of c(t) = z. `near`, if given, holds the roots of a nearby z, from
+  /// which the iteration starts. Uses Aberth's method, then Newton's on the expansion about the
+  /// nearer end. A double root necessarily has only half the digits. Cost: about 100 ns per root.
   void roots(const FinePoint& z, std::span<Root> out, std::span<const Root> near = {}) const;
 
-  /// c^(j)(t) / j! for j below out.size() at a parameter; 0 above the degree. Cost O(degree^2).
+  /// The Taylor coefficients c^(j)(t) / j! at a parameter, for j < out.size(); 0 above the degree.
+  /// Cost O(degree^2).
   void taylor(const Root& at, std::span<Complex> out) const;
   /// c(t) and c'(t).
   Complex at(const Root& parameter) const { return fine_at(parameter).plain(); }
@@ -68,7 +69,7 @@ class SegmentPolynomial {
  private:
   void refine(const FinePoint& z, Root& root) const;
 
-  // c in powers of 2t - 1, of s = t and of q = 1 - t.
+  // The coefficients of c in powers of 2 t - 1, of s = t and of q = 1 - t.
   Points middle_, start_, end_;
   Box box_;
   double magnitude_ = 0;

@@ -1,4 +1,4 @@
-// Centers go to centers; the factor is a quotient of sums of products.
+// The centroid maps to the centroid, and the factor is a quotient of sums of products.
 #include "core/geometry/similarity.h"
 
 #include "core/error.h"
@@ -6,7 +6,7 @@
 namespace holomorph {
 
 Similarity similarity_between(std::span<const Complex> from, std::span<const Complex> to) {
-  check(!from.empty() && from.size() == to.size(), "similarity_between: as many points");
+  check(!from.empty() && from.size() == to.size(), "similarity_between: equal numbers of points");
   Similarity s{1, 0, 0};
   for (size_t i = 0; i < from.size(); ++i) s.from += from[i], s.to += to[i];
   s.from /= static_cast<double>(from.size());

@@ -1,4 +1,4 @@
-// The turn, scale and move that takes points nearest to others.
+// The rotation, scale and translation that best match points to other points.
 #pragma once
 
 #include <span>
@@ -13,8 +13,9 @@ struct Similarity {
   Complex operator()(Complex w) const { return factor * (w - from) + to; }
 };
 
-/// The similarity that takes points nearest to as many others, in the sense of least squares; a
-/// translation where the first have no extent. Needs at least one point.
+/// The similarity that maps the points `from` closest to the points `to` in the least-squares
+/// sense. It is a translation if `from` has no extent. Both need the same number of points, at
+/// least one.
 Similarity similarity_between(std::span<const Complex> from, std::span<const Complex> to);
 
 }  // namespace holomorph

@@ -1,5 +1,6 @@
 // A queue of candidate changes, each a triangle that the polygon loses or gains. A change is valid
-// when no other vertex lies in its triangle (so nothing can cross) and, for a loss, no kept point.
+// when no other vertex lies in its triangle (so nothing can cross) and, for a loss, no kept point
+// does.
 #include "core/geometry/simplify.h"
 
 #include <algorithm>
@@ -58,7 +59,8 @@ class Simplifier {
 
   Complex at(int i) const { return nodes_[i].z; }
 
-  /// Where the edges before node i and after its successor meet beyond both, if they do.
+  /// The point where the edge before node i and the edge after its successor meet when both are
+  /// extended, if they do.
   std::optional<Complex> corner_of(int i) const {
     const int j = nodes_[i].next;
     const Complex a = at(nodes_[i].previous), b = at(i), c = at(j), d = at(nodes_[j].next);
@@ -80,7 +82,7 @@ class Simplifier {
           {std::abs(cross(*corner - node.z, at(node.next) - node.z)), i, node.version, true});
   }
 
-  /// No vertex but those named lies in the triangle; for a loss no kept point does.
+  /// Whether no vertex except `corners` lies in the triangle and, for a loss, no kept point does.
   bool is_free(Complex a, Complex b, Complex c, std::initializer_list<int> corners,
                bool loss) const {
     const double left = std::min({a.real(), b.real(), c.real()}),
@@ -101,15 +103,15 @@ class Simplifier {
     return true;
   }
 
-  /// No other edge cuts the corner p off the triangle (b, p, c) that stands on the edge after node
-  /// i.
+  /// Whether no other edge cuts the corner p off the triangle (b, p, c) on the edge after node i.
   bool is_uncut(int i, Complex p) const {
     const int j = nodes_[i].next;
     const auto crosses = [](Complex a, Complex b, Complex c, Complex d) {
       return cross(b - a, c - a) * cross(b - a, d - a) <= 0 &&
              cross(d - c, a - c) * cross(d - c, b - c) <= 0;
     };
-    // Edges from d around to a: those at d and a share a line with a new edge, not a crossing.
+    // Edges from d around to a. The edges cd and ab lie on the lines of the added edges and do not
+    // cross them.
     for (int k = nodes_[j].next; k != nodes_[i].previous; k = nodes_[k].next)
       if (crosses(at(i), p, at(k), at(nodes_[k].next)) ||
           crosses(p, at(j), at(k), at(nodes_[k].next)))

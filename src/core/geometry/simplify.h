@@ -1,15 +1,15 @@
-// Fewer vertices for a polygon that has to keep points inside.
+// Removes vertices from a polygon that must keep given points inside.
 #pragma once
 
 #include "core/geometry/curve.h"
 
 namespace holomorph {
 
-/// Takes vertices away from a simple counter-clockwise polygon until `count` remain, cheapest
-/// change of area first, so that it stays simple and never gives up a point of `kept` that it
-/// contains. A vertex is dropped, or two neighbors are replaced by the corner where the edges
-/// beside them meet, which only adds area. Stops early, with more vertices, when nothing can be
-/// taken away. Cost: about (polygon + kept) per vertex removed.
+/// Removes vertices from a simple counter-clockwise polygon until `count` remain, the smallest
+/// change of area first. The polygon stays simple and keeps all points of `kept` that it contains.
+/// Each step drops a vertex, or replaces two neighbors by the corner where their outer edges meet,
+/// which only adds area. Stops early, with more vertices, if no vertex can be removed. Cost: about
+/// (polygon + kept) per vertex removed.
 Points simplified_around(std::span<const Complex> polygon, std::span<const Complex> kept,
                          int count);
 

@@ -1,4 +1,4 @@
-// The falloff of soft selection: smooth, and exactly 0 at the radius.
+// Each dab has the falloff of soft selection, which is smooth and exactly 0 at the radius.
 #include "core/geometry/stiffness.h"
 
 #include <algorithm>

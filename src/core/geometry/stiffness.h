@@ -1,4 +1,4 @@
-// How stiff the picture is, painted with round brushes.
+// The stiffness of the picture, painted with round brushes.
 #pragma once
 
 #include <span>
@@ -7,19 +7,20 @@
 
 namespace holomorph {
 
-/// One touch of the brush on the picture at rest.
+/// One dab of the brush on the rest picture.
 struct BrushDab {
   Complex at;
   double radius = 1;  ///< pixels
-  double level = 0;   ///< in its middle, powers of ten; falls off to 0 at the radius
+  double level = 0;   ///< at its center, in powers of ten; falls off to 0 at the radius
   bool operator==(const BrushDab&) const = default;
 };
 inline constexpr double kLeastStiffness = -1, kMostStiffness = 2;  ///< powers of ten
 inline constexpr double kLeastBrush = 1, kMostBrush = 1e5;         ///< radius, pixels
 inline constexpr size_t kMostDabs = 5000;
 
-/// The level at a place: the sum of all touches, each (1 - (d / r)^2)^2 of its own, kept within
-/// bounds; 0 where nothing is painted. Stiffness is 10 to this power.
+/// The level at z: the sum of level (1 - (d / r)^2)^2 over all dabs, where d is the distance of z
+/// from the dab and r is its radius. It is clamped to [kLeastStiffness, kMostStiffness] and is 0
+/// where nothing is painted. The stiffness is 10 to this power.
 double stiffness_level(std::span<const BrushDab> dabs, Complex z);
 
 }  // namespace holomorph

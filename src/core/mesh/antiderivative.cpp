@@ -1,5 +1,5 @@
-// Breadth first keeps the ways short, and away from the boundary, where derivatives change fastest:
-// both keep the sums of errors small.
+// Breadth-first order keeps the paths short and away from the boundary, where derivatives change
+// fastest. Both keep the accumulated errors small.
 #include "core/mesh/antiderivative.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace holomorph {
 
 MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
   const int count = static_cast<int>(mesh.vertices.size());
-  check(count > 0, "a mesh has vertices");
+  check(count > 0, "mesh tree: the mesh has vertices");
   const Complex center = box_of(mesh.vertices).center();
   root_ = root ? *root
                : static_cast<int>(
@@ -27,7 +27,8 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
     }
   const std::vector<char> outer = boundary_marks(mesh);
   std::vector<char> reached(static_cast<size_t>(count), 0);
-  std::vector<int> queue{root_}, last;  // boundary vertices lead on only where nothing else does
+  // Paths continue from boundary vertices only if there is no other way.
+  std::vector<int> queue{root_}, last;
   reached[static_cast<size_t>(root_)] = 1;
   for (size_t at = 0, end = 0; at < queue.size() || end < last.size();) {
     const int from = at < queue.size() ? queue[at++] : last[end++];

@@ -1,5 +1,5 @@
-// Dijkstra's algorithm from all places at once: each vertex takes the height of whose wave comes
-// first.
+// Dijkstra's algorithm from all depth points together: each vertex takes the height of the point
+// whose wave reaches it first.
 #include "core/mesh/draw_order.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
         waves.push({step.way + way(next, mesh.vertices[v]), next, step.height});
   }
   std::vector<Triangle> order = mesh.triangles;
-  // A triangle between two regions goes with the higher one.
+  // A triangle between two regions belongs to the higher one.
   const auto height = [&](const Triangle& t) {
     return std::max({heights[static_cast<size_t>(t[0])], heights[static_cast<size_t>(t[1])],
                      heights[static_cast<size_t>(t[2])]});

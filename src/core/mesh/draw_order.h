@@ -1,20 +1,20 @@
-// Which part of the picture lies on top where parts of it overlap.
+// The order in which overlapping parts of the picture are drawn.
 #pragma once
 
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
 
-/// A place on the picture at rest, and how high what is around it lies.
+/// A point of the rest picture, and the height of the region around it.
 struct Depth {
   Complex at;
   int depth = 0;
   bool operator==(const Depth&) const = default;
 };
 
-/// A mesh's triangles from the lowest to the highest: each is as high as the place that is nearest
-/// to it, measured through the mesh (along its edges), and keeps its turn among equals. Places
-/// outside the mesh do not count. Cost: n log n in the vertices.
+/// The triangles of a mesh from the lowest to the highest. A triangle has the height of the nearest
+/// depth point, measured through the mesh (along its edges). Triangles of equal height keep their
+/// order. Points outside the mesh do not count. Cost: O(n log n) in the number of vertices.
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths);
 
 }  // namespace holomorph

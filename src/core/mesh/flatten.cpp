@@ -1,4 +1,4 @@
-// CGAL solves; here its answer is turned, scaled and checked.
+// CGAL computes the flattening; this file rotates, scales and checks the result.
 #include "core/mesh/flatten.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -36,7 +36,7 @@ Points parameterized(Net& net) {
   return flat;
 }
 
-/// CGAL's invariants break with triangles that are lines, too.
+/// Catches the exceptions that CGAL throws when thin triangles break its invariants.
 template <class Parameterizer>
 Points guarded(Net& net) {
   static const auto printing =  // the exception says enough
@@ -54,7 +54,7 @@ Eigen::Vector3d side(const Surface& surface, int a, int b) {
   return surface.vertices[static_cast<size_t>(b)] - surface.vertices[static_cast<size_t>(a)];
 }
 
-/// Throws Error for triangles that are lines or points.
+/// Throws Error for triangles that are degenerate.
 void check_areas(const Surface& surface) {
   constexpr double kThinnest = 1e-12;
   for (size_t i = 0; i < surface.triangles.size(); ++i) {
@@ -68,12 +68,13 @@ void check_areas(const Surface& surface) {
   }
 }
 
-/// The gradient of the surface's y over the plane, summed by area.
+/// The gradient of the surface's y as a function on the plane, integrated over the flattened
+/// surface up to a factor.
 Complex upwards(const Surface& surface, const Points& flat) {
   Complex sum = 0;
   for (const auto& t : surface.triangles)
     for (size_t k = 0; k < 3; ++k) {
-      // y at a corner times its hat function's gradient times twice the area.
+      // y at a corner times the gradient of its hat function times twice the area.
       const Complex opposite =
           flat[static_cast<size_t>(t[(k + 2) % 3])] - flat[static_cast<size_t>(t[(k + 1) % 3])];
       sum += surface.vertices[static_cast<size_t>(t[k])].y() * kI * opposite;
@@ -115,7 +116,7 @@ Points flattened(const Surface& surface, Flattening how) {
   if (flat_area < 0)
     for (Complex& z : flat) z = std::conj(z);
   if (!(std::abs(flat_area) > 0))
-    throw Error(ErrorKind::bad_input, "the surface has no area to be flattened");
+    throw Error(ErrorKind::bad_input, "the surface could not be flattened: the result has no area");
   const Complex up = upwards(surface, flat);
   const double scale = std::sqrt(area / std::abs(flat_area));
   const Complex turn = std::abs(up) > 1e-9 * area ? kI * std::abs(up) / up : Complex(1);

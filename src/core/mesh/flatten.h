@@ -1,4 +1,4 @@
-// The conformal flattening of a surface in space. Part of the mesher: CGAL solves.
+// The conformal flattening of a surface in space. Part of the mesher library, since it uses CGAL.
 #pragma once
 
 #include "core/mesh/surface.h"
@@ -6,18 +6,19 @@
 namespace holomorph {
 
 enum class Flattening {
-  lscm,    ///< least squares conformal maps (Levy et al. 2002): the boundary finds its own shape
-  circle,  ///< discrete conformal (Eck et al. 1995), the boundary on a circle by arc length
+  lscm,    ///< least squares conformal maps (Levy et al. 2002): the boundary is free
+  circle,  ///< discrete conformal map (Eck et al. 1995), boundary on a circle by arc length
 };
 
-/// "lscm", "circle". The second throws Error for other names.
+/// Converts to and from "lscm" and "circle". flattening_named throws Error for other names.
 std::string name_of(Flattening flattening);
 Flattening flattening_named(const std::string& name);
 
-/// Where the vertices go in the plane: counter-clockwise, of the surface's area, turned so that the
-/// surface's y goes up on average, its box's lower left corner at the origin. Throws Error for what
-/// disk_boundary refuses and for surfaces that fold when they are flattened. Cost: a sparse
-/// factorisation, about 50 us a vertex for thousands, 200 us for half a million.
+/// The positions of the vertices in the plane. The result is counter-clockwise and has the area of
+/// the surface. It is rotated so that the surface's y points up on average, and the lower left
+/// corner of its bounding box is the origin. Throws Error for surfaces that disk_boundary rejects
+/// and for those that fold when they are flattened. Cost: a sparse factorization, about 50 us per
+/// vertex for thousands of vertices, 200 us for half a million.
 Points flattened(const Surface& surface, Flattening how);
 
 }  // namespace holomorph

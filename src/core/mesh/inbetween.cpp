@@ -58,7 +58,7 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
                                      const ExpectedTurn& expected) const {
   const Index count = areas_.size();
   Shape shape{f, VectorXc(count), VectorXc(count), 0};
-  constexpr double kLeast = 1e-9;  // of f_z
+  constexpr double kLeast = 1e-9;  // lower bound of |f_z|
   for (const auto& [triangle, from] : order_) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
     Complex fz = 0, fzbar = 0;
@@ -139,7 +139,7 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.array() += (1 - share) * at(a.f) + share * at(b.f) - at(f);
 }
 
-/// The place that two maps agree about, or the vertex that they take to the nearest places.
+/// The point at which the two maps agree or, if there is none, the vertex whose images are closest.
 Location Inbetween::stillest(const VectorXc& a, const VectorXc& b) const {
   Location best;
   double least = INFINITY;

@@ -1,10 +1,11 @@
-// Maps between maps that keep shapes: turns and sizes are blended, never places.
+// In-between maps that keep shapes: rotations and sizes are blended, never positions.
 //
-// A map of a mesh has f_z and f_zbar in each triangle; L = ln f_z and nu = conj(f_zbar) / f_z are
-// blended and integrated again, in the sense of least squares. Between conformal maps this blends
-// angles and logarithms of sizes (Weber, Gotsman 2010, sec. 6); between harmonic ones L and nu stay
-// holomorphic, so that |nu| stays below the larger one and the least stretch above the smaller one.
-// The largest stretch may exceed both by (1 + k / 2) / sqrt(1 + k), k the larger |nu|.
+// A map of a mesh has constant f_z and f_zbar in each triangle. L = ln f_z and nu = conj(f_zbar) /
+// f_z are blended, and the result is integrated by least squares. Between conformal maps, this
+// blends angles and logarithms of sizes (Weber, Gotsman 2010, sec. 6). Between harmonic maps, L and
+// nu stay holomorphic, so that |nu| stays below the larger of the two and the smallest stretch
+// stays above the smaller of the two. The largest stretch may exceed both by a factor of
+// (1 + k / 2) / sqrt(1 + k), where k is the larger |nu|.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -16,8 +17,8 @@
 
 namespace holomorph {
 
-/// How much of a whole turn a part of the picture makes from one map to the next: of the triangle
-/// around a place at rest, or on average.
+/// The expected rotation from one map to the next: that of the triangle around a rest point or,
+/// without a point, the average.
 struct ExpectedTurn {
   std::optional<Complex> at;
   double radians = 0;
@@ -25,25 +26,27 @@ struct ExpectedTurn {
 
 class Inbetween {
  public:
-  /// Cost: a sparse factorisation, 60 ms for 10,000 vertices.
+  /// Cost: a sparse factorization, 60 ms for 10,000 vertices.
   explicit Inbetween(std::shared_ptr<const Mesh> mesh);
 
-  /// A map at the mesh's vertices, taken apart.
+  /// A map at the mesh's vertices, and its decomposition.
   struct Shape {
     VectorXc f;
     VectorXc logarithm;  ///< of f_z in each triangle, continuous
     VectorXc nu;
-    int turns = 0;  ///< whole ones, beyond the angle from -pi to pi of the first triangle
+    int turns = 0;  ///< whole turns, on top of the first triangle's angle in [-pi, pi]
   };
-  /// `before`, when given, decides about whole turns: the average is the nearest one to what is
-  /// expected, and to that map's otherwise. Triangles of no size count as very small ones.
+  /// If `before` is given, the number of whole turns is chosen such that the rotation since then is
+  /// as close as possible to the expected one, which is 0 by default. Triangles of size zero count
+  /// as very small ones.
   Shape shape_of(const VectorXc& f, const Shape* before = nullptr,
                  const ExpectedTurn& expected = {}) const;
-  /// The same with whole turns that are known already.
+  /// The same with a known number of whole turns.
   Shape shape_of(const VectorXc& f, int turns) const;
 
-  /// By how much each quantity of a shape changes with time at a key between its neighbors, which
-  /// lie `to_before` and `to_after` away: monotone cubics (Fritsch, Carlson 1980); 0 at ends.
+  /// The time derivative of each triangle's logarithm at a key, for interpolation by monotone
+  /// cubics (Fritsch, Carlson 1980). The neighboring keys are `to_before` and `to_after` away in
+  /// time. The derivative is 0 at the first and last key.
   VectorXc slopes(const Shape* before, const Shape& here, const Shape* after, double to_before,
                   double to_after) const;
 
@@ -51,10 +54,10 @@ class Inbetween {
   struct Interval {
     const Shape &from, &to;
     double duration = 1;
-    const VectorXc *slopes_from = nullptr, *slopes_to = nullptr;  ///< both or none: straight
+    const VectorXc *slopes_from = nullptr, *slopes_to = nullptr;  ///< both or none; none: linear
   };
-  /// The map at u from 0 to 1 of an interval; exact at both ends. The place that moves least
-  /// between the two maps goes straight. Cost: 4 ms for 10,000 vertices.
+  /// The map at u in [0, 1] of an interval; exact at both ends. The point that moves least between
+  /// the two maps moves along a straight line. Cost: 4 ms for 10,000 vertices.
   void blend(const Interval& interval, double u, VectorXc& f) const;
 
   const Mesh& mesh() const { return *mesh_; }
@@ -68,7 +71,7 @@ class Inbetween {
   Location stillest(const VectorXc& a, const VectorXc& b) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  /// Triangles in an order in which each one but the first has an earlier neighbor.
+  /// Triangles in an order in which each one except the first has an earlier neighbor.
   struct Visit {
     int triangle, from;
   };

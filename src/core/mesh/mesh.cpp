@@ -1,4 +1,4 @@
-// Questions about a mesh, and meshes of given triangles; mesher.cpp makes the triangles itself.
+// Queries on a mesh, and meshes from given triangles. mesher.cpp generates the triangles itself.
 #include "core/mesh/mesh.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ double doubled_area(const Mesh& mesh, const Triangle& t) {
                mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-/// The boundary vertex at a cage's vertex, moved to the very place.
+/// Finds the boundary vertex at a vertex of the cage and moves it there exactly.
 int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
   const auto away = [&](int v) { return std::abs(mesh.vertices[v] - corner); };
   const int nearest = *std::ranges::min_element(mesh.boundary, {}, away);
   if (away(nearest) > tolerance)
-    refuse("none of their boundary vertices is at the cage's vertex " + point_text(corner));
+    refuse("no boundary vertex is at the cage's vertex " + point_text(corner));
   mesh.vertices[nearest] = corner;
   return nearest;
 }
@@ -34,12 +34,13 @@ int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles) {
   constexpr double kAtVertex = 1e-9, kAtCurve = 1e-4, kArea = 1e-3;  // of the cage's size
   check_rest_cage(cage);
-  if (!std::ranges::all_of(vertices, is_finite)) refuse("a vertex is not finite");
+  if (!std::ranges::all_of(vertices, is_finite))
+    refuse("a vertex has a coordinate that is not finite");
   Mesh mesh{std::move(vertices), std::move(triangles), {}, {}};
   const int count = static_cast<int>(mesh.vertices.size());
   for (Triangle& t : mesh.triangles) {
     if (std::ranges::any_of(t, [count](int v) { return v < 0 || v >= count; }))
-      refuse("one names a vertex that does not exist");
+      refuse("a triangle refers to a vertex that does not exist");
     if (doubled_area(mesh, t) < 0) std::swap(t[1], t[2]);
   }
   mesh.boundary = disk_boundary(count, mesh.triangles, "the mesh");
@@ -50,14 +51,14 @@ Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles)
   double area = 0;
   for (const Triangle& t : mesh.triangles) {
     const double doubled = doubled_area(mesh, t);
-    if (!(doubled > 0)) refuse("the one at " + point_text(mesh.vertices[t[0]]) + " is flat");
+    if (!(doubled > 0)) refuse("the triangle at " + point_text(mesh.vertices[t[0]]) + " is flat");
     area += 0.5 * doubled;
   }
   for (const int v : mesh.boundary)
     if (nearest_on_polygon(outline, mesh.vertices[v]).distance > kAtCurve * size)
       refuse("the boundary vertex " + point_text(mesh.vertices[v]) + " is not on the cage");
   if (std::abs(area - std::abs(signed_area(outline))) > kArea * size * size)
-    refuse("they do not fill it");
+    refuse("they do not fill the cage");
   return mesh;
 }
 

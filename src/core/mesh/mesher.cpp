@@ -1,12 +1,11 @@
-// The domain mesh by CGAL's Delaunay refinement; nothing else includes the mesher.
+// The domain mesh by CGAL's Delaunay refinement. No other file includes CGAL's mesher.
 //
-// Most vertices are laid out first, a graded triangular lattice inserted in one go, which is
-// several times faster than refining; refinement then finishes the seam between lattice and
-// boundary.
+// Most vertices come from a graded triangular lattice that is inserted in one go, which is several
+// times faster than refinement. Refinement then finishes the seam between lattice and boundary.
 //
-// CGAL's assertions stay on in optimised builds (CGAL_DEBUG): between edges that nearly touch,
-// midpoints that are rounded to the wrong side break the mesher's invariants, and a broken one has
-// to end in an Error.
+// CGAL's assertions stay on in optimized builds (CGAL_DEBUG). Between edges that nearly touch,
+// midpoints that are rounded to the wrong side break the mesher's invariants, and this must end in
+// an Error.
 #include "core/mesh/mesher.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -41,8 +40,9 @@ Complex complex_of(const Point& p) {
   return {p.x(), p.y()};
 }
 
-/// The wanted edge length at each place: `finest` at the boundary, growing to four times that
-/// inside. Distances to the boundary come from a grid, exact at its nodes and interpolated between.
+/// The target edge length at each point: `finest` at the boundary, growing to four times that
+/// inside. Distances to the boundary come from a grid; they are exact at its nodes and interpolated
+/// in between.
 class Sizing {
  public:
   Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
@@ -71,15 +71,15 @@ class Sizing {
            v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
   }
   double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
-  /// The lattice's step at z in units of the finest: the power of two below size.
+  /// The step of the lattice at z, in units of the finest: the power of two below size(z).
   int level(Complex z) const {
     const double h = size(z) / finest_;
     return h >= 4 ? 4 : h >= 2 ? 2 : 1;
   }
 
-  /// Vertices of the graded lattice would number about the integral of 1 / (area per vertex). Its
-  /// mean is taken at the cells' centers and the area from the polygon: thin parts lie between
-  /// centers.
+  /// The approximate number of vertices of the graded lattice: the integral of 1 / (area per
+  /// vertex). It is the mean of the integrand at the centers of cells times the area of the
+  /// polygon, because thin parts may lie between centers.
   double expected_vertices(std::span<const Complex> polygon) const {
     double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
     int inside = 0;
@@ -147,8 +147,8 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
   const Sizing* sizing_;
 };
 
-/// Points of a triangular lattice, thinned by powers of two where the sizing allows, that keep
-/// their distance from the boundary.
+/// Points of a triangular lattice that keep their distance from the boundary. The lattice is
+/// thinned by powers of two where the sizing allows.
 std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
   std::vector<Point> points;
   const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
@@ -183,7 +183,7 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
   return points;
 }
 
-/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: near numbers are near places.
+/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: points with close keys are close.
 unsigned hilbert_key(unsigned x, unsigned y) {
   unsigned key = 0;
   for (unsigned s = 1u << 15; s > 0; s >>= 1) {
@@ -202,8 +202,8 @@ unsigned hilbert_key(unsigned x, unsigned y) {
               "the rest cage nearly touches itself and cannot be meshed; move its points apart");
 }
 
-/// Copies the inside of the triangulation, vertices in Hilbert order. Throws when it has a triangle
-/// without an area, or an outline that is not closed.
+/// Copies the inside of the triangulation, with its vertices in Hilbert order. Throws Error if a
+/// triangle has no area or if the outline is not closed.
 Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners) {
   std::vector<Triangulation::Vertex_handle> used;
   for (const auto& v : cdt.finite_vertex_handles()) v->info() = -1;
@@ -267,8 +267,8 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
       last = corner[v];
       continue;
     }
-    // The boundary runs counter-clockwise, a clockwise cage the other way: the chord is the one
-    // between the last corner and the next one in either direction.
+    // The boundary runs counter-clockwise, while the cage may be clockwise: the chord runs from the
+    // last corner to the next or to the previous one.
     const size_t n = flat.points.size();
     const size_t next = (static_cast<size_t>(last) + 1) % n, before = (last + n - 1) % n;
     const auto off = [&](size_t other) {
@@ -286,7 +286,7 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   }
 }
 
-/// Moves inner vertices of triangles that settling turned over to the mean of their neighbors.
+/// Moves the inner vertices of triangles that settle_on inverted to the mean of their neighbors.
 void untangle(Mesh& mesh) {
   const std::vector<char> outer = boundary_marks(mesh);
   constexpr int kMostRounds = 50;
@@ -309,13 +309,14 @@ void untangle(Mesh& mesh) {
   }
 }
 
-/// Throws CGAL::Failure_exception when CGAL's invariants break, Error when the mesh does not fill
+/// Throws CGAL::Failure_exception if CGAL's invariants break, and Error if the mesh does not fill
 /// the polygon.
 Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
   double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
-  // A few steps settle ordinary polygons; a needle's finest length is one of its perimeter's parts.
+  // Ordinary polygons take a few steps. A needle takes more, since its finest length is a fraction
+  // of its perimeter.
   for (int step = 0; step < 60; ++step) {
     sizing.set_scale(finest);
     const double ratio = std::sqrt(sizing.expected_vertices(polygon) / wanted);
@@ -352,7 +353,7 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 }
 
 Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
-  // The exception says enough; the default handler prints, too.
+  // The exception says enough; the default handler would also print.
   static const auto printing =
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
   static_cast<void>(printing);
@@ -366,7 +367,7 @@ Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 }  // namespace
 
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
-  check_rest_cage(cage);  // in terms of its own segments
+  check_rest_cage(cage);  // its messages name the cage's own segments
   const FlatCage flat = flattened(cage);
   Mesh mesh = polygon_mesh(flat.points, options);
   if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;

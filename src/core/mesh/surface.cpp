@@ -1,4 +1,4 @@
-// A disk: one part, one boundary loop, V - E + F = 1.
+// A disk has one component, one boundary loop and V - E + F = 1.
 #include "core/mesh/surface.h"
 
 #include <map>
@@ -10,7 +10,7 @@ namespace {
 
 using Edge = std::pair<int, int>;
 
-/// The representative of i's part.
+/// The representative of the component of i.
 int root(std::vector<int>& parent, int i) {
   while (parent[static_cast<size_t>(i)] != i)
     i = parent[static_cast<size_t>(i)] =
@@ -28,7 +28,7 @@ std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> tr
                                const std::string& what) {
   const auto refuse = [&what](const std::string& why) {
     throw Error(ErrorKind::bad_input,
-                what + " is no disk: " + why + "; it must be one piece with one boundary");
+                what + " is not a disk: " + why + "; it must be one piece with one boundary");
   };
   if (triangles.empty()) refuse("it has no triangles");
   std::map<Edge, int> directed;
@@ -37,14 +37,14 @@ std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> tr
   for (const auto& t : triangles)
     for (int k = 0; k < 3; ++k) {
       const int a = t[static_cast<size_t>(k)], b = t[static_cast<size_t>((k + 1) % 3)];
-      if (a < 0 || a >= count) refuse("a triangle names a vertex that does not exist");
+      if (a < 0 || a >= count) refuse("a triangle refers to a vertex that does not exist");
       if (a == b) refuse("a triangle has the same vertex twice");
       if (++directed[{a, b}] > 1)
         refuse("an edge has more than two triangles, or two of opposite orientation");
       parent[static_cast<size_t>(root(parent, a))] = root(parent, b);
     }
   for (int i = 1; i < count; ++i)
-    if (root(parent, i) != root(parent, 0)) refuse("it is in several parts");
+    if (root(parent, i) != root(parent, 0)) refuse("it has several parts");
   std::map<int, int> next;  // along the boundary
   size_t edges = 0;
   for (const auto& [edge, times] : directed) {

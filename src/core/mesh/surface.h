@@ -1,4 +1,4 @@
-// A surface in space, and what makes it a disk.
+// A surface in space, and the test whether it is a disk.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,13 @@ struct Surface {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// The boundary as one closed loop of vertex numbers, in the triangles' direction. Throws Error for
-/// a surface that is not a disk, saying why: closed, in several parts, with holes or handles, with
-/// edges of more than two triangles, or with triangles of both orientations. Cost: O(n log n).
+/// The boundary as one closed loop of vertex indices, in the direction of the triangles. Throws
+/// Error that says why if the surface is not a disk: closed, in several parts, with holes or
+/// handles, with edges of more than two triangles, or with triangles of both orientations. Cost:
+/// O(n log n).
 std::vector<int> disk_boundary(const Surface& surface);
 
-/// The same for triangles over the vertices 0 to count - 1; the message calls them `what`.
+/// The same for triangles over the vertices 0 to count - 1; error messages call them `what`.
 std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
                                const std::string& what);
 

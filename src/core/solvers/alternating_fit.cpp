@@ -1,5 +1,5 @@
-// Iterates are g = R x: Q g are the scaled values, Q* of the scaled targets is the next g. What
-// given targets cost follows from |Q g| = |g|, without their rows.
+// Iterates on g = R x: the scaled values are Q g, and the next g is Q* times the scaled targets.
+// The energy of given targets follows from |Q g| = |g|, without their rows.
 #include "core/solvers/alternating_fit.h"
 
 #include <Eigen/QR>
@@ -12,7 +12,7 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kMemory = 5;
-constexpr double kAlong = 0.1;  ///< what going along the target's tangent costs in the first order
+constexpr double kAlong = 0.1;  ///< weight of the tangential distance in a first-order step
 
 }  // namespace
 
@@ -20,8 +20,8 @@ AlternatingFit::AlternatingFit(std::vector<FitTerm> terms) {
   Index rows = 0;
   for (const FitTerm& term : terms) rows += term.rows.rows();
   const Index n = terms.at(0).rows.cols();
-  check(rows >= n, "alternating fit: as many rows as unknowns");
-  check(terms[0].project != nullptr, "alternating fit: a first term whose targets move");
+  check(rows >= n, "alternating fit: at least as many rows as unknowns");
+  check(terms[0].project != nullptr, "alternating fit: the targets of the first term move");
   MatrixXc all(rows, n);
   Index first = 0;
   for (FitTerm& term : terms) {
@@ -82,7 +82,7 @@ double AlternatingFit::distance(size_t term) const {
                    static_cast<double>(moving.values.size()));
 }
 
-/// Values, targets and the energy at g; what is below rounding is rounding.
+/// Values, targets and energy at g. The energy is kept above its own rounding error.
 void AlternatingFit::evaluate(const VectorXc& g) {
   g_ = g;
   energy_ = g.squaredNorm() - 2 * given_.dot(g).real() + given_square_;
@@ -104,7 +104,7 @@ VectorXc AlternatingFit::zeroth() const {
   return g;
 }
 
-/// The combination of the last steps that should leave nothing to do (Anderson 1965).
+/// The combination of the last iterates whose predicted change is smallest (Anderson 1965).
 VectorXc AlternatingFit::anderson() {
   const VectorXc next = zeroth(), change = next - g_;
   memory_.g.push_back(next);
@@ -115,7 +115,7 @@ VectorXc AlternatingFit::anderson() {
   }
   const Index m = static_cast<Index>(memory_.g.size()) - 1;
   if (m == 0) return next;
-  // Real combinations: targets are no complex-linear function of the map.
+  // Real coefficients: the targets are not a complex-linear function of the map.
   MatrixXd differences(2 * change.size(), m);
   for (Index i = 0; i < m; ++i)
     differences.col(i) = stacked(memory_.change[static_cast<size_t>(i + 1)] -
@@ -127,8 +127,9 @@ VectorXc AlternatingFit::anderson() {
   return mixed;
 }
 
-/// Targets may slide along their curves (SB16 eq. 13): what lies along the tangent counts `kAlong`
-/// only, M = I - (1 - along) A^T A with A the real form of the tangent's components of Q's rows.
+/// Targets may slide along their curves (SB16 eq. 13): tangential distances only have the weight
+/// kAlong. M = I - (1 - kAlong) A^T A, where A is the real form of the tangential components of the
+/// rows of Q.
 VectorXc AlternatingFit::first_order() const {
   const Index n = r_.cols();
   MatrixXd m = MatrixXd::Identity(2 * n, 2 * n);
@@ -137,7 +138,7 @@ VectorXc AlternatingFit::first_order() const {
     if (!term.normals) continue;
     VectorXc normals(term.values.size());
     term.normals(term.values, term.targets, normals);
-    // Along the curve, with tangent i n: value and target need not agree.
+    // Along the tangent i n, value and target need not agree.
     MatrixXd along(2 * n, normals.size());
     for (Index i = 0; i < normals.size(); ++i) {
       const Complex tangent = std::conj(kI * normals[i]);

@@ -1,4 +1,4 @@
-// Slacks follow x linearly, but for their heights, which are taken anew after each step.
+// The slacks are linear in x except for their heights, which are recomputed after each step.
 #include "core/solvers/cone_program.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-/// After a step shorter than this, which a slack that is curved and nearly used up allows, the next
-/// one goes back towards the central path.
+/// After a step shorter than kShort, as enforced by a curved slack that is nearly zero, the next
+/// step goes back toward the central path.
 constexpr double kShort = 0.3, kRecenter = 0.5;
 
 class Solver {
@@ -62,7 +62,8 @@ class Solver {
     return p_ > 0 ? transposed_product(system_.height, x.head(p_)) : VectorXd::Zero(m_);
   }
 
-  /// The slacks' heights where these are u; false when a slack is not strictly inside.
+  /// Sets the heights of the slacks for the given u. Returns false if a slack is not strictly
+  /// inside its cone.
   bool set_heights(const VectorXd& u, std::vector<Eigen::Matrix3Xd>& s) {
     decay_ = (-u.array()).exp();
     bool inside = true;
@@ -78,7 +79,7 @@ class Solver {
     return cone.slope + (cone.decay > 0 ? cone.decay * decay_[i] : 0);
   }
 
-  /// z = mu s^-1 where there are no multipliers, at a moderate mu or the present one.
+  /// Sets z = mu s^-1 where multipliers are missing, with the mu of the others or a moderate one.
   void center_duals() {
     if (at_.z.size() != s_.size()) at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, 0));
     const Index known = std::min(at_.z.empty() ? 0 : at_.z[0].cols(), m_);
@@ -110,7 +111,8 @@ class Solver {
     return result;
   }
 
-  /// One side of |r| <= t: slacks t - r or t + r, multipliers, and their directions.
+  /// One side of |r| <= t: the slacks t - r or t + r, their multipliers, and the directions of
+  /// both.
   struct Side {
     VectorXd s, z, ds, dz;
   };
@@ -136,7 +138,8 @@ class Solver {
 
   void take_gradient() { gradient_ = system_.quadratic * at_.x + target_.linear; }
 
-  /// Adds the fit's share of the right-hand side, with c = (the complementarity's right) / s - z.
+  /// Adds the fit's part of the right-hand side. `up` and `down` are (the right-hand side of the
+  /// complementarity) / s - z.
   void add_fit_right(const VectorXd& up, const VectorXd& down, VectorXd& right) const {
     if (k_ == 0) return;
     const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array();
@@ -145,7 +148,8 @@ class Solver {
     right.head(p_) -= product(system_.fit, pull);
   }
 
-  /// Directions of both sides from that of the residuals: t is free, up.z + down.z stays.
+  /// The directions of both sides from that of the residuals. t is free, and up.z + down.z is
+  /// constant.
   void push_fit(const VectorXd& dx, const VectorXd& up, const VectorXd& down) {
     if (k_ == 0) return;
     const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array(),
@@ -168,14 +172,14 @@ class Solver {
     if (k_ > 0) at_.energy += 0.5 * system_.fit_weight * (up_.s - down_.s).lpNorm<1>();
   }
 
-  /// The normal matrix' lower triangle. Far from the end single precision does: steps that are a
-  /// little off are steps, and what is left is measured in double precision.
+  /// The lower triangle of the normal matrix. Far from the solution, single precision suffices: a
+  /// slightly inexact step still makes progress, and the residual is measured in double precision.
   void assemble() {
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i)
         scalings_[c][static_cast<size_t>(i)] = Scaling(s_[c].col(i), at_.z[c].col(i));
     normal_ = system_.quadratic;
-    constexpr double kFar = 1e-5;  // of a gap
+    constexpr double kFar = 1e-5;  // the smallest gap for single precision
     precise_ = precise_ || at_.gap < kFar;
     if (precise_)
       add_curvature(double_);
@@ -183,7 +187,7 @@ class Solver {
       add_curvature(single_);
   }
 
-  /// Columns to be multiplied, and their products.
+  /// Columns to be multiplied, and the sum of their products.
   template <class Scalar>
   struct Workspace {
     using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
@@ -201,7 +205,7 @@ class Solver {
     normal_ += work.sum.template cast<double>();
   }
 
-  /// Curvature 4 / (s / z of both sides) of |r| along the central path.
+  /// The curvature of |r| along the central path: 4 / (sum of s / z over both sides).
   template <class Scalar>
   void add_fit(Workspace<Scalar>& work) {
     for (Index i = 0; i < k_; ++i) {
@@ -211,7 +215,7 @@ class Solver {
     add_gram(work.a, k_, 0, work.sum);
   }
 
-  /// The curvature of a sample's barriers in (u, w).
+  /// The curvature of the barriers of a sample with respect to (u, w).
   Eigen::Matrix3d barrier_at(Index i) const {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
     for (size_t c = 0; c < s_.size(); ++c) {
@@ -250,7 +254,7 @@ class Solver {
     if (p_ > 0 && q_ > 0) add_product(work.ab, work.a, used, p_, 0, work.sum);
   }
 
-  /// The linear parts of slacks along dx: that of u, then w of all cones.
+  /// The linear parts of the slacks along dx: du_ for u, and the w rows of `ds` for all cones.
   void push(const VectorXd& dx, std::vector<Eigen::Matrix3Xd>& ds) {
     du_ = heights(dx);
     VectorXd re = VectorXd::Zero(m_), im = re;
@@ -265,14 +269,14 @@ class Solver {
       ds[c].row(2) = im.transpose();
     }
   }
-  /// The directions of slacks along dx.
+  /// The directions of the slacks along dx.
   void push_slacks(const VectorXd& dx) {
     push(dx, ds_);
     for (size_t c = 0; c < ds_.size(); ++c)
       for (Index i = 0; i < m_; ++i) ds_[c](0, i) = slope_at(system_.cones[c], i) * du_[i];
   }
 
-  /// dz = t - z - W^-2 ds, with t given or none.
+  /// dz = t - z - W^-2 ds, where t is 0 if null.
   void dual_step(const std::vector<Eigen::Matrix3Xd>& ds, const std::vector<Eigen::Matrix3Xd>* t,
                  std::vector<Eigen::Matrix3Xd>& dz) const {
     dz.resize(s_.size());
@@ -346,7 +350,7 @@ class Solver {
     return move(dx, 0.98 * longest(ds_, dz_));
   }
 
-  /// Goes along dx as far as the exact slacks allow.
+  /// Moves along dx as far as the exact slacks allow.
   bool move(const VectorXd& dx, double length) {
     std::vector<Eigen::Matrix3Xd> slacks(s_.size());
     VectorXd u;
@@ -382,11 +386,11 @@ class Solver {
   Index p_, q_, m_, k_;
   ConeSolution at_;
   Side up_, down_;
-  double length_ = 1;  ///< of the last step
+  double length_ = 1;  ///< length of the last step
   std::vector<Eigen::Matrix3Xd> s_, ds_, dz_;
   std::vector<std::vector<Scaling>> scalings_;
   VectorXd u_, du_, decay_, gradient_;
-  bool precise_ = false;  ///< from the end of single precision on
+  bool precise_ = false;  ///< whether double precision has taken over
   MatrixXd normal_;
   Workspace<float> single_;
   Workspace<double> double_;
@@ -396,7 +400,7 @@ class Solver {
 }  // namespace
 
 bool is_feasible(const ConeSystem& system, const VectorXd& x) {
-  // The same sums as the solver's, so that both agree to the last bit.
+  // The same sums as in the solver, so that both agree to the last bit.
   const Index p = system.height.rows(), q = system.re.rows(), m = system.samples();
   VectorXd u = VectorXd::Zero(m), re = u, im = u;
   if (p > 0) u = transposed_product(system.height, x.head(p));

@@ -1,24 +1,24 @@
-// Small dense second-order cone programs: a convex fit under cones at many samples.
+// Small dense second-order cone programs: a convex fit under cone constraints at many samples.
 //
 //     minimize   x'Px / 2 + c'x + constant + weight * sum of |fit_k . a - wanted_k|
 //     subject to |w_i(b)| <= height_ci(u_i(a))   for each sample i and each cone c,
 //                height(u) = offset + slope u - decay e^-u,
 //
-// with unknowns x = (a, b), u_i real-linear in a, w_i complex and real-linear in b. These are the
-// programs of bounded distortion (Levi, Weber 2016): u = ln |f_z|, w = nu or Psi'.
+// The unknowns are x = (a, b). u_i is real-linear in a; w_i is complex and real-linear in b. These
+// are the programs of bounded distortion (Levi, Weber 2016), where u = ln |f_z| and w = nu or Psi'.
 #pragma once
 
 #include "core/solvers/dense.h"
 
 namespace holomorph {
 
-/// height(u) = offset + slope u - decay e^-u, decay >= 0: concave, so that the cone's set is
-/// convex.
+/// height(u) = offset + slope u - decay e^-u, decay >= 0. It is concave, so that the feasible set
+/// of the cone is convex.
 struct Cone {
-  VectorXd offset;  ///< one for all samples, or one each
+  VectorXd offset;  ///< one for all samples, or one per sample
   double slope = 0, decay = 0;
 
-  /// At a sample whose e^-u is given, too.
+  /// The height at a sample, where e^-u is given as well.
   double height(Index sample, double u, double exp_minus_u) const {
     const double bend =
         decay > 0 ? decay * exp_minus_u : 0;  // e^-u may overflow where it is unused
@@ -26,11 +26,12 @@ struct Cone {
   }
 };
 
-/// What stays while targets move. p unknowns a, q unknowns b, m samples, k rows of the fit.
+/// The part of a program that does not change when the targets move. There are p unknowns a, q
+/// unknowns b, m samples and k rows of the fit.
 struct ConeSystem {
   MatrixXd height;          ///< p x m: u_i = height.col(i) . a; p = 0: u = 0
   MatrixXd re, im;          ///< q x m: w_i = (re.col(i) . b, im.col(i) . b); q = 0: w = 0
-  std::vector<Cone> cones;  ///< all of them on each sample
+  std::vector<Cone> cones;  ///< each applies to every sample
   MatrixXd quadratic;       ///< P, (p + q) x (p + q), positive semidefinite, both triangles
   MatrixXd fit;             ///< p x k; k may be 0
   double fit_weight = 1;
@@ -39,7 +40,7 @@ struct ConeSystem {
   Index unknowns() const { return height.rows() + re.rows(); }
 };
 
-/// What moves.
+/// The part of a program that changes when the targets move.
 struct ConeTarget {
   VectorXd linear;  ///< c: p + q
   double constant = 0;
@@ -47,20 +48,20 @@ struct ConeTarget {
 };
 
 struct ConeSettings {
-  double gap = 1e-4;       ///< the sum of all slacks times their multipliers
-  double share = 0;        ///< the same, of the energy: the larger one counts
-  double residual = 3e-3;  ///< norm of the Lagrangian's gradient
-  double neglected = 0;    ///< samples whose barrier curves less than this are left out of it
+  double gap = 1e-4;       ///< tolerance for the sum of all slacks times their multipliers
+  double share = 0;        ///< the same as a fraction of the energy; the larger one counts
+  double residual = 3e-3;  ///< tolerance for the norm of the Lagrangian's gradient
+  double neglected = 0;    ///< samples with less barrier curvature are left out of the Hessian
   int iterations = 60;
 };
 
-/// A strictly feasible x, the multipliers, and how good they are.
+/// A strictly feasible x, the multipliers, and their accuracy.
 struct ConeSolution {
   enum class Status { solved, stopped };
   Status status = Status::stopped;
   VectorXd x;
   std::vector<Eigen::Matrix3Xd> z;  ///< for each cone 3 x m: (height, w)
-  VectorXd fit_duals;               ///< in (-1, 1): the signs of the fit's residuals, at the end
+  VectorXd fit_duals;               ///< in (-1, 1), converging to the signs of the fit's residuals
   double energy = 0;
   double gap = 0, residual = 0;
   int iterations = 0;
@@ -72,12 +73,12 @@ bool is_feasible(const ConeSystem& system, const VectorXd& x);
 /// The program's energy at x.
 double energy_of(const ConeSystem& system, const ConeTarget& target, const VectorXd& x);
 
-/// Solves the program from `start.x`, which must be strictly feasible (a check); multipliers that
-/// are missing, as those of appended samples, are made up. Every iterate is strictly feasible, so
-/// that stopping after settings.iterations still gives a point that keeps all cones. Primal-dual
-/// interior points with Nesterov-Todd scaling and Mehrotra's corrector; the norm by the duals of
-/// Chan, Golub, Mulet 1999. Cost: an iteration takes one Cholesky factorisation and one symmetric
-/// product of (p + q)^2 (m + k) / 2.
+/// Solves the program from `start.x`, which must be strictly feasible (checked). Missing
+/// multipliers, such as those of appended samples, are filled in. Every iterate is strictly
+/// feasible, so that stopping after settings.iterations still gives a point inside all cones.
+/// Method: primal-dual interior points with Nesterov-Todd scaling and Mehrotra's corrector; the L1
+/// norm is handled by the duals of Chan, Golub, Mulet 1999. Cost per iteration: one Cholesky
+/// factorization and one symmetric product of (p + q)^2 (m + k) / 2.
 ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
                     const ConeSettings& settings, const ConeSolution& start);
 

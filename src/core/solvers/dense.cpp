@@ -1,4 +1,4 @@
-// Calls of CBLAS and of LAPACK on Eigen's column-major storage.
+// Calls CBLAS and LAPACK on Eigen's column-major storage.
 #include "core/solvers/dense.h"
 
 #include <cblas.h>
@@ -103,7 +103,7 @@ void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index colum
 
 Orthonormal orthonormal(MatrixXc a) {
   const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols());
-  check(m >= n && n > 0, "orthonormal: as many rows as columns");
+  check(m >= n && n > 0, "orthonormal: at least as many rows as columns");
   constexpr int kBlock = 64;
   const int room = n * kBlock;
   VectorXc tau(n), work(room);
@@ -118,7 +118,7 @@ Orthonormal orthonormal(MatrixXc a) {
 
 VectorXc least_squares(MatrixXc a, VectorXc b) {
   const int m = static_cast<int>(a.rows()), n = static_cast<int>(a.cols()), one = 1;
-  check(m >= n && n > 0 && b.size() == m, "least squares: as many rows as columns");
+  check(m >= n && n > 0 && b.size() == m, "least squares: at least as many rows as columns");
   constexpr int kBlock = 64;
   const int room = (n + 1) * kBlock;
   VectorXc tau(n), work(room);

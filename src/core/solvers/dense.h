@@ -1,6 +1,6 @@
-// Dense real linear algebra by BLAS: what a solver repeats in every iteration.
+// Dense linear algebra by BLAS: the operations that a solver repeats in every iteration.
 //
-// The library chooses its instruction set when the program runs and has a portable path.
+// The BLAS library chooses its instruction set at run time and has a portable path.
 #pragma once
 
 #include "core/types.h"
@@ -15,36 +15,38 @@ MatrixXd matrix_product(const MatrixXd& a, const MatrixXd& b);
 MatrixXc matrix_product(const MatrixXc& a, const MatrixXc& b);
 MatrixXd transposed_matrix_product(const MatrixXd& a, const MatrixXd& b);
 
-/// Adds K K^T of the first `columns` columns to the lower triangle of out's block that starts at
-/// (first, first) and has K's rows. Cost: rows^2 * columns multiplications, half of them saved.
+/// Adds K K^T, for the first `columns` columns of K, to the lower triangle of a block of `out`. The
+/// block starts at (first, first) and has as many rows as K. Cost: rows^2 * columns / 2
+/// multiplications.
 void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out);
 void add_gram(const Eigen::MatrixXf& k, Index columns, Index first, Eigen::MatrixXf& out);
 
-/// Adds A B^T of the first `columns` columns to out's block at (row, column).
+/// Adds A B^T, for the first `columns` columns of A and B, to the block of `out` at (row, column).
 void add_product(const MatrixXd& a, const MatrixXd& b, Index columns, Index row, Index column,
                  MatrixXd& out);
 void add_product(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, Index columns, Index row,
                  Index column, Eigen::MatrixXf& out);
 
-/// A = Q R with orthonormal columns of Q and R upper triangular, by Householder's reflections. A
-/// has as many rows as columns at least.
+/// A = Q R by Householder reflections: Q has orthonormal columns, and R is upper triangular. A must
+/// have at least as many rows as columns.
 struct Orthonormal {
   MatrixXc q, r;
 };
 Orthonormal orthonormal(MatrixXc a);
 
-/// The x with the least |A x - b|, by Householder's reflections. A has at least as many rows as
-/// columns and full rank. Rows of very different sizes keep their digits when they are
-/// sorted by size, the largest first.
+/// The x that minimizes |A x - b|, by Householder reflections. A must have full rank and at least
+/// as many rows as columns. Rows of very different sizes keep their digits if they are sorted by
+/// size, the largest first.
 VectorXc least_squares(MatrixXc a, VectorXc b);
 
-/// A symmetric positive definite matrix as L L^T; reads the lower triangle only.
+/// The factorization L L^T of a symmetric positive definite matrix. Only the lower triangle is
+/// read.
 class Cholesky {
  public:
-  /// Returns false when the matrix is not positive definite to rounding.
+  /// Returns false if the matrix is not positive definite up to rounding.
   bool factor(const MatrixXd& matrix);
   VectorXd solve(const VectorXd& right) const;
-  /// The same for all columns at once.
+  /// The same for all columns of `right`.
   MatrixXd solve_all(MatrixXd right) const;
 
  private:

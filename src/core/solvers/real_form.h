@@ -1,12 +1,12 @@
-// Complex unknowns as real ones, (Re x, Im x), for solvers that know reals only.
+// Complex unknowns as real ones, (Re x, Im x), for solvers that handle only real numbers.
 #pragma once
 
 #include "core/types.h"
 
 namespace holomorph {
 
-/// Columns of a complex row q: Re(q x) = re . (Re x, Im x) and Im(q x) = im . (Re x, Im x). Both
-/// matrices are 2n x m for q of m x n.
+/// The columns of `re` and `im` for each complex row of q: Re(q x) = re . (Re x, Im x) and
+/// Im(q x) = im . (Re x, Im x). Both matrices are 2n x m if q is m x n.
 inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
   const Index n = q.cols();
   re.resize(2 * n, q.rows());
@@ -17,7 +17,7 @@ inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
   im.bottomRows(n) = q.real().transpose();
 }
 
-/// Appends columns.
+/// Appends `columns` to those of `to`.
 inline void append_columns(const MatrixXd& columns, MatrixXd& to) {
   const Index before = to.cols();
   to.conservativeResize(columns.rows(), before + columns.cols());

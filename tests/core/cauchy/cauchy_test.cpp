@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The requirement of the golden data: relative error per edge.
+/// The relative error per edge that the golden data require.
 constexpr double kGolden = 1e-13;
 
 const char* const kFiles[] = {"convex_hex", "star5", "sliver", "concave_L", "notch_ratio1e4"};
@@ -42,7 +42,7 @@ Points polygon_of(const json& data) {
   return polygon;
 }
 
-/// The polygon with each edge written at its degree of the data.
+/// The polygon with each edge raised to the degree that the data give for it.
 Cage cage_of(const json& data) {
   Cage shape = polygon_cage(polygon_of(data));
   Cage wanted = shape;
@@ -149,7 +149,7 @@ TEST_CASE("The map of target control points and its derivatives equal the golden
     for (const json& query : data["queries"])
       for (size_t order = 0; order < query["map"].size(); ++order) {
         const VectorXc row = row_at(cage, query, static_cast<int>(order));
-        // The measure of the data sums |C b| per edge, before shared columns are added up.
+        // The error measure of the data sums |C b| per edge, before shared columns are added up.
         double scale = 0;
         for (Index e = 0; e < cage.size(); ++e) {
           const json& exact = query["bezier"][std::to_string(order)][e];
@@ -247,7 +247,7 @@ TEST_CASE("Cauchy coordinates: rows reproduce constants and z inside, and vanish
   }
 }
 
-TEST_CASE("Cauchy coordinates: each order is the derivative of the one before") {
+TEST_CASE("Cauchy coordinates: each order is the derivative of the previous one") {
   const Cage cage = elevated_to(polygon_cage(star(7, 0.2, 1)), [] {
     Cage c = polygon_cage(star(7, 0.2, 1));
     c.segments[2].resize(4);
@@ -310,7 +310,7 @@ TEST_CASE("The array path equals the stable formula, and AVX2 equals portable, t
     const Points polygon = star(n, 0.3, 17);
     Points points = random_points(1000, 110, 23);
     points.push_back(polygon[1]);                       // a vertex
-    points.push_back(0.5 * (polygon[0] + polygon[1]));  // an edge, as well as rounding allows
+    points.push_back(0.5 * (polygon[0] + polygon[1]));  // a point on an edge, up to rounding
     for (int order = 0; order < 2; ++order) {
       const MatrixXc exact = cauchy_coordinates(polygon_cage(polygon), points, order);
       const auto portable =
@@ -319,7 +319,7 @@ TEST_CASE("The array path equals the stable formula, and AVX2 equals portable, t
            {has_avx2() ? Kernel::avx2 : Kernel::portable, Kernel::automatic}) {
         const auto fast = planar_coordinates<double>(polygon_cage(polygon), points, order, choice);
         for (Index i = 0; i < exact.rows(); ++i) {
-          if (!exact.row(i).allFinite()) {  // a vertex: the limit for what is linear there
+          if (!exact.row(i).allFinite()) {  // a vertex: the limit for linear functions
             const MatrixXc row = as_complex(fast).row(i);
             CHECK(std::abs(row.sum()) <= 1e-13);
             CHECK(std::abs((row * controls_of(polygon_cage(polygon)))(0) - 1.0) <= 1e-12);
@@ -372,7 +372,7 @@ TEST_CASE("Points rounded onto an edge take the limit from inside") {
     }
 }
 
-TEST_CASE("Cauchy coordinates refuse negative orders") {
+TEST_CASE("Cauchy coordinates reject negative orders") {
   const Cage cage = polygon_cage(star(4, 0.1, 1));
   const Complex z{0, 0};
   CHECK_THROWS_AS(cauchy_coordinates(cage, std::span(&z, 1), -1), Error);

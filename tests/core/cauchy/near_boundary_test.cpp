@@ -1,4 +1,5 @@
-// At the boundary and within rounding of it and of its vertices: maps against 50 digits.
+// Compares maps with 50-digit values on the boundary, and within rounding of it and of its
+// vertices.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -38,8 +39,8 @@ Case random_case(std::mt19937& random) {
     vertices.push_back(offset + made.size * uniform(0.4, 1.0) * std::polar(1.0, angle));
     moves.push_back(anywhere());
   }
-  // Some edges have a vertex on them, as the finer boundaries of methods have: as well as doubles
-  // can, where nothing bends, or anywhere.
+  // Some edges have further vertices on them, as the finer boundaries of methods do, up to
+  // rounding. Their displacements are linear along the edge or arbitrary.
   for (size_t i = 0; i < vertices.size(); ++i) {
     const size_t next = (i + 1) % vertices.size();
     made.polygon.push_back(vertices[i]);
@@ -63,7 +64,8 @@ Complex after(Complex z, int x, int y) {
   return {after(z.real(), x), after(z.imag(), y)};
 }
 
-/// Doubles around vertices, along edges towards them and inwards, and on the middles of edges.
+/// Doubles around vertices and midpoints of edges, and at decreasing distances from vertices along
+/// edges and inwards.
 Points near_points(const Points& polygon, std::mt19937& random) {
   std::uniform_int_distribution<int> ulps(-4, 4);
   Points points;
@@ -96,7 +98,7 @@ Points near_points(const Points& polygon, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("Maps next to the boundary agree with 50 digits, by every path") {
+TEST_CASE("Maps next to the boundary agree with 50-digit values, by every path") {
   for (const unsigned seed : seeds_of("near boundary", {1, 2, 3})) {
     std::mt19937 random(seed);
     for (int round = 0; round < 4; ++round) {
@@ -140,8 +142,8 @@ TEST_CASE("Maps next to the boundary agree with 50 digits, by every path") {
         }
         INFO("seed " << seed << " round " << round << " size " << made.size << " point " << i
                      << " z " << z.real() << " " << z.imag());
-        // An image is z plus a displacement: where the map squeezes, z's own distance from the
-        // boundary stays.
+        // An image is z plus a displacement: where the map compresses, the distance of z itself
+        // from the boundary remains.
         CHECK(off <= 1e-9 * made.size + std::max(change, 16 * ulp));
         CHECK(is_finite(slopes[row]));
         if (!at_vertex) CHECK(slope_off <= 1e-9 + slope_change);
@@ -150,7 +152,8 @@ TEST_CASE("Maps next to the boundary agree with 50 digits, by every path") {
   }
 }
 
-TEST_CASE("Derivatives at vertices where nothing bends are those of the edge without them") {
+TEST_CASE(
+    "Derivatives at vertices where nothing bends equal those of the edge without the vertex") {
   for (const unsigned seed : seeds_of("vertices that do not bend", {11, 12, 13})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> part(0.1, 0.9);
@@ -163,7 +166,7 @@ TEST_CASE("Derivatives at vertices where nothing bends are those of the edge wit
       Points polygon = plain.polygon, displaced = plain.displaced;
       const auto at = [&](Points& points) { return points.begin() + static_cast<long>(edge) + 1; };
       polygon.insert(at(polygon), z);
-      // What is linear along the edge, at the vertex as it was rounded.
+      // The displacement that is linear along the edge, at the rounded vertex.
       const Complex step = plain.polygon[next] - plain.polygon[edge],
                     share = (z - plain.polygon[edge]) / step;
       displaced.insert(at(displaced), plain.displaced[edge] +
@@ -178,7 +181,8 @@ TEST_CASE("Derivatives at vertices where nothing bends are those of the edge wit
       const VectorXc slopes = as_complex(planar_coordinates<double>(cage, points, 1)) * d;
       const CauchySum sum(cage, d);
       const Complex wanted = exact::image_of(plain.polygon, plain.displaced, z).df;
-      // Rounding of the vertex and of its displacement is a slope along what is left of the edge.
+      // Rounding of the vertex and of its displacement acts as a slope along the shorter part of
+      // the edge.
       const double rounding = 1e3 * std::numeric_limits<double>::epsilon() *
                               (1 + std::abs(z) / (std::min(t, 1 - t) * std::abs(step)));
       for (size_t i = 0; i < points.size(); ++i) {
@@ -190,7 +194,7 @@ TEST_CASE("Derivatives at vertices where nothing bends are those of the edge wit
   }
 }
 
-TEST_CASE("Curved boundaries: single points are rows at and next to vertices") {
+TEST_CASE("Curved boundaries: single points agree with rows at and next to vertices") {
   for (const unsigned seed : seeds_of("curved vertices", {51, 52, 53, 54})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> by(-30, 30);
@@ -219,7 +223,7 @@ TEST_CASE("Curved boundaries: single points are rows at and next to vertices") {
 
 namespace {
 
-/// A slanted pentagon with handles of all kinds, posed at random, of any size and anywhere.
+/// A slanted pentagon with handles of all kinds, posed at random, of any size and at any position.
 struct Handled {
   Rest rest;
   Pose pose;
@@ -231,7 +235,7 @@ Handled random_handles(const Method& method, std::mt19937& random, bool outline)
   };
   Handled made;
   made.size = std::pow(10.0, uniform(-3, 6));
-  // So far that its own digits last for the map.
+  // Not so far away that too few digits are left for the map.
   const Complex offset =
       std::polar(std::min(1e6, made.size * std::pow(10.0, uniform(-1, 5))), uniform(0, 2 * kPi));
   const auto at = [&](double x, double y) { return offset + made.size / 100 * Complex(x, y); };
@@ -264,7 +268,7 @@ Handled random_handles(const Method& method, std::mt19937& random, bool outline)
 
 }  // namespace
 
-TEST_CASE("Contract: next to the boundary no method jumps, and no point ends the call") {
+TEST_CASE("Contract: next to the boundary no method jumps, and no point makes the call fail") {
   for (const unsigned seed : seeds_of("boundaries of all methods", {21, 22})) {
     for (const Method& method : methods())
       for (const bool outline : {false, true}) {
@@ -274,7 +278,7 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point ends the
         const Points corners = vertices_of(made.rest.cage);
         std::uniform_int_distribution<int> ulps(-3, 3);
         std::uniform_real_distribution<double> part(0.02, 0.98);
-        // Points that rounding can hardly tell from each other, the first of them well inside.
+        // Points that rounding can hardly distinguish. The first of them is well inside.
         std::vector<size_t> firsts;
         const auto cluster = [&](Complex z, Complex inwards) {
           firsts.push_back(made.rest.samples.size());
@@ -301,8 +305,8 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point ends the
         for (size_t k = 0; k + 1 < firsts.size(); ++k) {
           const bool corner = k % 5 == 0;
           const Index first = static_cast<Index>(firsts[k]);
-          // A few roundings apart, and what the map makes of that; at corners maps may be powers,
-          // of the distance and of its derivative.
+          // The points are a few roundings apart, and so are their images. At corners, maps and
+          // their derivatives may be powers of the distance.
           constexpr double kUlps = 64;
           const double rounding = kUlps * std::numeric_limits<double>::epsilon() *
                                   std::abs(made.rest.samples[static_cast<size_t>(first)]);
@@ -315,7 +319,8 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point ends the
             CHECK(std::abs(map.f[i] - map.f[first]) <= near);
             if (single) CHECK(std::abs(single->at(z).f - map.f[i]) <= near);
             CHECK(is_finite(map.fz[i]));
-            // Those of triangles, and at vertices of a finer boundary not bounded.
+            // ARAP has the derivatives of triangles, and at vertices of a finer boundary
+            // derivatives are unbounded.
             if (!corner && method.id != "arap" && !outline)
               CHECK(std::abs(map.fz[i] - map.fz[first]) <= 1e-3 * std::abs(map.fz[first]));
           }

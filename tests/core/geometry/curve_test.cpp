@@ -13,7 +13,7 @@ namespace {
 const Points kCubic{{0, 0}, {10, 40}, {60, -20}, {80, 30}};
 }
 
-TEST_CASE("Splitting and raising the degree leave a curve where it is") {
+TEST_CASE("Splitting a curve and raising its degree do not change it") {
   for (const double t : {0.1, 0.5, 0.83}) {
     const SplitCurve halves = split(kCubic, t);
     CHECK(halves.before.back() == halves.after.front());
@@ -27,7 +27,7 @@ TEST_CASE("Splitting and raising the degree leave a curve where it is") {
   CHECK_THROWS_AS(elevated(kCubic, 2), Error);
 }
 
-TEST_CASE("Fitting finds the curve that the samples came from") {
+TEST_CASE("Fitting recovers the curve from which the samples were taken") {
   Points samples;
   std::vector<double> parameters;
   for (int i = 0; i <= 20; ++i) {
@@ -38,7 +38,7 @@ TEST_CASE("Fitting finds the curve that the samples came from") {
   for (int m = 0; m < 4; ++m) CHECK(std::abs(again[m] - kCubic[m]) < 1e-10);
 }
 
-TEST_CASE("Inserting a vertex keeps the loop and erasing it heals the cut") {
+TEST_CASE("Inserting a vertex keeps the loop, and erasing it restores the segment") {
   Cage cage = polygon_cage(shapes::rectangle(100, 60));
   cage.segments[1] = {{100, 0}, {120, 20}, {90, 40}};
   const Cage before = cage;
@@ -68,7 +68,7 @@ TEST_CASE("A reversed cage is the same loop from the same vertex") {
   CHECK(signed_area(vertices_of(back)) == Approx(-signed_area(vertices_of(cage))));
 }
 
-TEST_CASE("A self-crossing is found with its place, a simple polygon has none") {
+TEST_CASE("A self-crossing is found with its position, and a simple polygon has none") {
   CHECK_FALSE(self_crossing(shapes::l_shape()));
   CHECK_FALSE(self_crossing(shapes::comb(30)));
   const Points bow{{0, 0}, {10, 10}, {10, 0}, {0, 10}};
@@ -93,7 +93,7 @@ TEST_CASE("Winding and turning numbers count turns") {
   CHECK(turning_number(square) == Approx(1));
 }
 
-TEST_CASE("A rest cage that cannot be used is refused with the reason") {
+TEST_CASE("A rest cage that cannot be used is rejected with the reason") {
   const auto message = [](const Cage& cage) -> std::string {
     try {
       check_rest_cage(cage);
@@ -119,7 +119,7 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   CHECK_THAT(message(polygon_cage(Points{
                  {0, 0}, {50, 10}, {100, 0}, {100, 90}, {60, 90}, {25, 5 * (1 + 4e-16)}, {0, 90}})),
              Catch::Contains("touches itself"));
-  // Needles: an angle of 2e-12 radians is none that a mesh could hold, nearly repeated points are.
+  // Needles: no mesh can represent an angle of 2e-12 radians, but nearly repeated points are fine.
   CHECK_THAT(message(polygon_cage(Points{{0, 0}, {1000, 1000}, {500, 500 + 1e-9}})),
              Catch::Contains("cusp at point 1"));
   CHECK_THAT(message(polygon_cage(Points{{3.46, 1.79}, {7.25, 1.8e-12}, {0, 0}, {0.25, 9e-13}})),
@@ -135,10 +135,10 @@ TEST_CASE("A rest cage that cannot be used is refused with the reason") {
   curved.segments[0] = {{0, 0}, {12, 4}, {-7, 4}};  // a loop
   CHECK_THAT(message(curved), Catch::Contains("segments 1 and 1 meet"));
   curved.segments[0] = {{0, 0}, {0, 0}, {3, 1}};
-  CHECK_THAT(message(curved), Catch::Contains("tangent handle on its point at (0, 0)"));
+  CHECK_THAT(message(curved), Catch::Contains("tangent handle on top of its point at (0, 0)"));
   curved.segments[0] = {{0, 0}, {5, 4}, {0, 4}};  // c'(1/2) = 0
   CHECK_THAT(message(curved), Catch::Contains("cusp at (2.5, 3)"));
-  // A leaf's tip: both curves leave along the same tangent.
+  // The tip of a leaf: both curves leave along the same tangent.
   Cage leaf;
   leaf.segments = {{{0, 0}, {10, 0}, {20, 10}}, {{30, 30}}, {{0, 40}, {-10, 20}, {20, 0}}};
   CHECK_THAT(message(leaf), Catch::Contains("cusp at point 1, (0, 0)"));

@@ -1,4 +1,4 @@
-// Which triangles are drawn last: those nearest to the highest place, through the mesh.
+// The triangles that are nearest to the highest point, through the mesh, are drawn last.
 #include "core/mesh/draw_order.h"
 #include "core/mesh/mesher.h"
 
@@ -15,7 +15,7 @@ Complex middle(const Mesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
 }
 
-/// Where each triangle stands in the order.
+/// The position of each triangle in the order.
 std::map<Triangle, size_t> turns_of(const std::vector<Triangle>& order) {
   std::map<Triangle, size_t> turns;
   for (size_t i = 0; i < order.size(); ++i) turns[order[i]] = i;
@@ -24,7 +24,7 @@ std::map<Triangle, size_t> turns_of(const std::vector<Triangle>& order) {
 
 }  // namespace
 
-TEST_CASE("The order has each triangle once, and is the mesh's own among equals") {
+TEST_CASE("The draw order has each triangle once, and keeps the mesh's order among equals") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
   CHECK(draw_order(mesh, {}) == mesh.triangles);
   const std::vector<Depth> level{{{50, 50}, 3}, {{250, 50}, 3}}, away{{{900, 900}, 7}};
@@ -37,7 +37,7 @@ TEST_CASE("The order has each triangle once, and is the mesh's own among equals"
   CHECK(order == all);
 }
 
-TEST_CASE("What is nearest to the higher place comes later") {
+TEST_CASE("Triangles nearest to the higher point are drawn later") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
   for (const int height : {1, -1}) {
     const std::vector<Depth> depths{{{50, 50}, 0}, {{250, 50}, height}};
@@ -56,8 +56,8 @@ TEST_CASE("What is nearest to the higher place comes later") {
   }
 }
 
-TEST_CASE("Near is meant through the mesh, not across a gap") {
-  // A U: its arms' ends are near each other in the plane and far along the shape.
+TEST_CASE("Nearest is measured through the mesh, not across a gap") {
+  // A U: the ends of its arms are near each other in the plane, but far apart along the shape.
   const Points u{{0, 0}, {110, 0}, {110, 300}, {60, 300}, {60, 50}, {50, 50}, {50, 300}, {0, 300}};
   const Mesh mesh = domain_mesh(u, {900});
   const std::vector<Depth> depths{{{85, 290}, 1}, {{25, 100}, 0}};

@@ -1,4 +1,4 @@
-// Maps between maps: shapes are kept, bounds hold, turns go the way that they were drawn.
+// In-between maps: shapes are kept, bounds hold, and rotations go in the expected direction.
 #include "core/mesh/inbetween.h"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ double area(const Mesh& mesh, const VectorXc& f) {
   return sum;
 }
 
-/// Along the lower edge.
+/// The length of the lower edge.
 double length(const Mesh& mesh, const VectorXc& f) {
   double sum = 0;
   for (size_t i = 0; i < mesh.boundary.size(); ++i) {
@@ -53,7 +53,7 @@ double largest_nu(const Inbetween& between, const VectorXc& f) {
 
 }  // namespace
 
-TEST_CASE("In-betweens: a bar bent by 270 degrees keeps area and length on the way") {
+TEST_CASE("In-betweens: a bar bent by 270 degrees keeps its area and length in between") {
   const auto mesh = bar_mesh();
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 1.5 * kPi);
@@ -65,20 +65,20 @@ TEST_CASE("In-betweens: a bar bent by 270 degrees keeps area and length on the w
     between.blend({a, b}, u, f);
     const VectorXc exact = rolled(*mesh, 1.5 * kPi * u), linear = (1 - u) * flat + u * bent;
     INFO("at " << u);
-    // The bent bar is 10.6 % larger; on the way the area goes from one to the other.
+    // The bent bar is 10.6 % larger. In between, the area goes from one value to the other.
     const double wanted = std::pow(area(*mesh, bent), u) * std::pow(area(*mesh, flat), 1 - u);
     CHECK(std::abs(area(*mesh, f) / wanted - 1) <= 0.025);
     CHECK(std::abs(area(*mesh, f) / area(*mesh, exact) - 1) <= 0.002);
     CHECK(std::abs(length(*mesh, f) / length(*mesh, exact) - 1) <= 0.01);
-    // The bar bent by part of the angle is what comes out, up to place.
+    // The result is the bar bent by part of the angle, up to its position.
     const VectorXc off = (f.array() - f.mean()) - (exact.array() - exact.mean());
     CHECK(off.cwiseAbs().maxCoeff() <= 0.01 * 600);
     least_linear = std::min(least_linear, area(*mesh, linear) / area(*mesh, flat));
   }
-  CHECK(least_linear < 0.45);  // what blending the vertices loses
+  CHECK(least_linear < 0.45);  // blending the vertices loses more than half
 }
 
-TEST_CASE("In-betweens: ends are exact, the place that stays does") {
+TEST_CASE("In-betweens: ends are exact, and a fixed point stays fixed") {
   const auto mesh = bar_mesh(600);
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0);
@@ -95,10 +95,10 @@ TEST_CASE("In-betweens: ends are exact, the place that stays does") {
   for (Index i = 0; i < f.size(); ++i)
     REQUIRE(std::abs(f[i] - (pivot + std::polar(1.0, 1.0) * (flat[i] - pivot))) <= 6);
   const VectorXd sizes = between.shape_of(f).logarithm.real();
-  CHECK(sizes.cwiseAbs().maxCoeff() <= 1e-9);  // a turn between turns
+  CHECK(sizes.cwiseAbs().maxCoeff() <= 1e-9);  // a rotation between rotations
 }
 
-TEST_CASE("In-betweens: whole turns go as they are expected") {
+TEST_CASE("In-betweens: whole turns go as expected") {
   const auto mesh = bar_mesh(600);
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 5 * kPi);
@@ -120,7 +120,7 @@ TEST_CASE("In-betweens: whole turns go as they are expected") {
 }
 
 TEST_CASE("In-betweens: bounded distortion stays bounded") {
-  // Harmonic maps by an affine map each and a bend.
+  // Two harmonic maps, one with a bend.
   const auto mesh = bar_mesh(1500);
   const Inbetween between(mesh);
   VectorXc wide(static_cast<Index>(mesh->vertices.size())), tall = wide;
@@ -148,7 +148,7 @@ TEST_CASE("In-betweens: bounded distortion stays bounded") {
   }
 }
 
-TEST_CASE("In-betweens: smooth motion passes keys without a stop, and rests at its ends") {
+TEST_CASE("In-betweens: smooth motion passes keys without stopping, and rests at its ends") {
   const auto mesh = bar_mesh(300);
   const Inbetween between(mesh);
   const Inbetween::Shape a = between.shape_of(rolled(*mesh, 0)),

@@ -1,4 +1,4 @@
-// The domain mesh: a partition of the polygon, whatever polygon it is.
+// The domain mesh is a partition of the polygon, whatever the polygon.
 #include "core/mesh/mesh.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ double triangle_area(const Mesh& mesh, const Triangle& t) {
                      mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-/// The theorem of every domain mesh: positive triangles whose areas sum to the polygon's, one
+/// The properties of every domain mesh: positive triangles whose areas sum to the polygon's, one
 /// closed boundary with the polygon's length, every cage vertex among the vertices, Euler's
 /// formula.
 void check_partition(const Points& polygon, const MeshOptions& options) {
@@ -47,7 +47,7 @@ void check_partition(const Points& polygon, const MeshOptions& options) {
 
 }  // namespace
 
-TEST_CASE("The domain mesh partitions ordinary polygons with about the wanted number of vertices") {
+TEST_CASE("The domain mesh partitions ordinary polygons with about the target number of vertices") {
   for (const Points& polygon : {shapes::rectangle(300, 200), shapes::l_shape(),
                                 shapes::star(32, 0.2, 3), shapes::star(100, 0.05, 4)}) {
     check_partition(polygon, {4000});
@@ -57,7 +57,7 @@ TEST_CASE("The domain mesh partitions ordinary polygons with about the wanted nu
   }
 }
 
-TEST_CASE("A caller's own triangles become the mesh that the mesher made of them") {
+TEST_CASE("A caller's own triangles give the same mesh as the mesher's") {
   const Cage cage = counter_clockwise(shapes::curved_star(7, 3, 0.1, 5));
   const Mesh made = domain_mesh(cage, {600});
   std::vector<Triangle> turned = made.triangles;
@@ -72,7 +72,7 @@ TEST_CASE("A caller's own triangles become the mesh that the mesher made of them
   for (const Triangle& t : own.triangles) CHECK(triangle_area(own, t) > 0);
 }
 
-TEST_CASE("Triangles that do not fill the cage are refused, and the message says why") {
+TEST_CASE("Triangles that do not fill the cage are rejected, and the message says why") {
   const Cage cage = polygon_cage(shapes::rectangle(4, 3));
   const Points corners = vertices_of(cage);
   const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
@@ -101,7 +101,7 @@ TEST_CASE("Triangles that do not fill the cage are refused, and the message says
   twice.push_back(0.5 * (corners[0] + corners[2]));
   refused(twice, {{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}, "more than two triangles");
   refused(twice, {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}}, "flat");
-  Cage round = cage;  // its chords leave out what bulges
+  Cage round = cage;  // its chords cut off the bulges
   for (Index i = 0; i < round.size(); ++i)
     round.segments[i].push_back(1.4 * (round.vertex(i) + round.vertex(i + 1)) / 2.0 -
                                 0.4 * Complex(2, 1.5));
@@ -158,7 +158,7 @@ TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles
     }
 }
 
-TEST_CASE("A point is located with its weights, on top where the mesh overlaps") {
+TEST_CASE("A point is located with its weights, in the top triangle where the mesh overlaps") {
   const Mesh mesh = domain_mesh(shapes::l_shape(), {500});
   const Complex z{57.3, 148.1};
   const auto found = locate(mesh, mesh.vertices, z);
@@ -170,7 +170,7 @@ TEST_CASE("A point is located with its weights, on top where the mesh overlaps")
   CHECK(locate(mesh, mirrored, std::conj(z)));
 }
 
-TEST_CASE("Derivative samples leave the cage vertices and nothing else") {
+TEST_CASE("Derivative samples differ from the mesh vertices only at cage vertices") {
   const Mesh mesh = domain_mesh(shapes::l_shape(), {500});
   const Points samples = derivative_samples(mesh);
   size_t moved = 0;
@@ -179,12 +179,12 @@ TEST_CASE("Derivative samples leave the cage vertices and nothing else") {
   for (const int v : mesh.cage_vertices) CHECK(winding_number(shapes::l_shape(), samples[v]) == 1);
 }
 
-TEST_CASE("A polygon that is no cage is refused") {
+TEST_CASE("A polygon that cannot be a cage is rejected") {
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}}), Error);
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {20, 20}}), Error);
 }
 
-TEST_CASE("A needle between edges that nearly touch is meshed or refused") {
+TEST_CASE("A needle between edges that nearly touch is meshed or rejected") {
   // Found by fuzzing: CGAL's invariants break between such edges.
   const std::vector<Points> needles = {{{-6130.000000003725, -9778.000000476837},
                                         {-3337.984375, -64803.984375},

@@ -1,4 +1,4 @@
-// The cone program against an independent solver, Ipopt, and against its own conditions.
+// Tests the cone program against an independent solver, Ipopt, and against its own guarantees.
 #include "core/solvers/cone_program.h"
 
 #include <IpIpoptApplication.hpp>
@@ -18,7 +18,7 @@ struct Instance {
   VectorXd start;
 };
 
-/// A small L_nu-like program: three cones, a fit in the norm of sums, random rows.
+/// A small L_nu-like program: three cones, an L1 fit, random rows.
 Instance random_instance(unsigned seed, int p, int q, int m, bool with_fit) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -143,7 +143,7 @@ class Program final : public Ipopt::TNLP {
   }
 
  private:
-  static constexpr double kRound = 1e-14;  ///< rounds the cones' tips for derivatives
+  static constexpr double kRound = 1e-14;  ///< rounds off the tips of the cones, for derivatives
   struct Values {
     double u, re, im;
   };
@@ -169,7 +169,7 @@ double ipopt_energy(const Instance& instance) {
   solver->Options()->SetIntegerValue("max_iter", 400);
   REQUIRE(solver->Initialize() == Ipopt::Solve_Succeeded);
   const auto status = solver->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(program)));
-  // It stops at the cones' tips now and then, where derivatives jump.
+  // It sometimes stops at the tips of the cones, where derivatives jump.
   if (status != Ipopt::Solve_Succeeded) return std::numeric_limits<double>::quiet_NaN();
   return energy_of(instance.system, instance.target, program->solution);
 }
@@ -189,7 +189,7 @@ ConeSolution from(const VectorXd& x) {
 
 }  // namespace
 
-TEST_CASE("Cone program: its minimum is Ipopt's") {
+TEST_CASE("Cone program: its minimum equals Ipopt's") {
   int compared = 0;
   for (unsigned seed = 1; seed <= 8; ++seed)
     for (const bool with_fit : {false, true}) {
@@ -209,7 +209,8 @@ TEST_CASE("Cone program: its minimum is Ipopt's") {
   CHECK(compared >= 10);
 }
 
-TEST_CASE("Cone program: every iterate is strictly feasible, and energies fall to the gap") {
+TEST_CASE(
+    "Cone program: every iterate is strictly feasible, and the gap bounds the excess energy") {
   const Instance instance = random_instance(7, 8, 8, 60, true);
   ConeSettings settings = exact();
   const double best =
@@ -221,7 +222,7 @@ TEST_CASE("Cone program: every iterate is strictly feasible, and energies fall t
     CHECK(is_feasible(instance.system, stopped.x));
     CHECK(stopped.iterations <= iterations);
     CHECK(stopped.energy >= best - 1e-7);
-    // The gap bounds the distance to the minimum once the gradient has gone.
+    // The gap bounds the distance to the minimum once the gradient vanishes.
     if (stopped.residual < 1e-6) CHECK(stopped.energy - best <= stopped.gap + 1e-5);
   }
 }
@@ -239,7 +240,7 @@ TEST_CASE("Cone program: a warm start takes fewer iterations to the same minimum
   CHECK(std::abs(warm.energy - cold.energy) <= 1e-7);
 }
 
-TEST_CASE("Cone program: rows that are left out of the Hessian change no minimum") {
+TEST_CASE("Cone program: leaving rows out of the Hessian does not change the minimum") {
   const Instance instance = random_instance(11, 8, 8, 100, false);
   ConeSettings settings = exact();
   const double all =
@@ -251,7 +252,7 @@ TEST_CASE("Cone program: rows that are left out of the Hessian change no minimum
   CHECK(std::abs(fewer.energy - all) <= 1e-7);
 }
 
-TEST_CASE("Cone program: only heights, or only discs") {
+TEST_CASE("Cone program: only heights, or only disks") {
   Instance box = random_instance(5, 6, 4, 30, false);
   box.system.re.resize(0, 30);
   box.system.im.resize(0, 30);
