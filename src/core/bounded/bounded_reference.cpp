@@ -1,4 +1,4 @@
-// The boundary is looked at from a little inside, where derivatives of references are not rough.
+// The reference is sampled a little inside the boundary, where its derivatives are smooth.
 #include "core/bounded/bounded_reference.h"
 
 #include "core/error.h"
@@ -8,7 +8,7 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kInnerSamples = 300;
-/// The distance is measured at every so many samples; the bounds hold at all of them.
+/// The distance is measured at every second sample; the bounds hold at all of them.
 constexpr size_t kFitStride = 2;
 
 }  // namespace
@@ -26,7 +26,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   fit_ = HolomorphicFit(basis, points_.boundary);
   Rest followed = used_by(method, rest);
   followed.parameters = parameters_of(rest, method);
-  followed.precision = Precision::full;  // the samples are few
+  followed.precision = Precision::full;  // there are few samples
   followed.samples = points_.boundary;
   for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
   followed.derivative_samples.clear();
@@ -43,7 +43,7 @@ void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basi
   const std::vector<int>& anchors = inner.empty() ? mesh.boundary : inner;
   const size_t step = std::max<size_t>(1, anchors.size() / kInnerSamples);
   for (size_t i = 0; i < anchors.size(); i += step) anchors_.push_back(anchors[i]);
-  if (inner.empty()) return;  // derivatives of references are rough on the boundary
+  if (inner.empty()) return;  // on the boundary, derivatives of references are not smooth
   for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
 }
 
@@ -68,14 +68,14 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   const Index m = static_cast<Index>(points_.boundary.size()),
               inner = static_cast<Index>(points_.inner.size());
   const VectorXc fz = map_.fz.head(m);
-  // The nearest holomorphic function tells the turns and the zeros.
+  // The nearest holomorphic function determines the winding number and the zeros.
   const auto [unknowns, fitted] = fit_(fz);
   const VectorXc& gamma = method_.harmonic ? fz : fitted;
   std::vector<Zero> found;
   zeros.clear();
   if (turns_of(gamma) != 0) {
     found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
-    // The loop of samples does not turn around those between it and the boundary.
+    // Zeros between the loop of samples and the boundary are not inside the loop.
     std::erase_if(
         found, [&](const Zero& zero) { return winding_number(points_.boundary, zero.place) == 0; });
     for (const Zero& zero : found) zeros.push_back(zero.place);

@@ -1,4 +1,5 @@
-// What a map without folds follows: another method's map, looked at along the boundary and inside.
+// The reference that a map without folds follows: another method's map, sampled along the boundary
+// and inside.
 #pragma once
 
 #include "core/bounded/bounded_space.h"
@@ -7,35 +8,36 @@
 
 namespace holomorph {
 
-/// The bounds that a rest's parameters of method `bounded` ask for.
+/// The bounds given by a rest's parameters of method `bounded`.
 Bounds bounds_of(const Parameters& values);
 
-/// Samples of a method's map where a BoundedSpace measures the distance to it.
+/// Samples a method's map at the points where a BoundedSpace measures the distance to it.
 class ReferenceSampler {
  public:
   static constexpr int kSamplesPerVertex = 6;  ///< of the basis
-  /// How far inside of the boundary's samples references are smooth, in the samples' distances.
+  /// How far inside the boundary's samples the references are smooth, in sample spacings.
   static constexpr double kInset = 1;
 
-  /// Prepares the method over the rest's cage and pins. All but the rest must outlive this.
+  /// Prepares the method for the rest's cage and pins. All arguments but the rest must outlive
+  /// this.
   ReferenceSampler(const Rest& rest, const Method& method, const BoundaryBasis& basis,
                    const MapOnMesh& mesh);
 
   const ReferencePoints& points() const { return points_; }
-  /// Whether the method looks at pins.
+  /// Whether the method uses pins.
   bool uses_pins() const { return method_.uses_pins; }
 
-  /// Samples the map of a pose. Throws Error as the method does, and when it is not finite.
+  /// Samples the map of a pose. Throws Error when the method does, and when the map is not finite.
   void deform(const Pose& pose, bool draft);
-  /// Whether that was the map that moves nothing, to the last bit.
+  /// Whether the sampled map is the identity, to the last bit.
   bool is_identity() const;
-  /// ln f_z along the boundary (algorithm 4), nu and Psi' everywhere; and the places of the zeros
-  /// that were found.
+  /// ln f_z along the boundary (Levi, Weber 2016, alg. 4), and nu and Psi' at all points. `zeros`
+  /// receives the positions of the zeros of f_z that were found.
   BoundedReference reference(Points& zeros) const;
-  /// Some of the mesh's vertices, one at least, and where the map takes them.
+  /// Indices of some of the mesh's vertices, at least one, and the images of these vertices.
   const std::vector<int>& anchors() const { return anchors_; }
   std::span<const Complex> anchor_places() const;
-  /// What the method had to say, such as a pin that it could not use.
+  /// The method's note, such as a pin that it could not use.
   const std::string& note() const { return map_.note; }
 
  private:
@@ -46,7 +48,7 @@ class ReferenceSampler {
   const MapOnMesh& on_mesh_;
   std::shared_ptr<const Mesh> mesh_;
   ReferencePoints points_;
-  std::vector<int> anchors_;  ///< the inner points; the boundary where there are none
+  std::vector<int> anchors_;  ///< inner vertices, or boundary vertices if there are none
   HolomorphicFit fit_;
   std::unique_ptr<Deformer> deformer_;
   SampledMap map_;

@@ -1,4 +1,4 @@
-// Unknowns are real: (Re, Im) of l's whitened coefficients, then of nu's.
+// The unknowns are real: (Re, Im) of the whitened coefficients of l, then of those of nu.
 #include "core/bounded/bounded_space.h"
 
 #include "core/error.h"
@@ -60,7 +60,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
   ConeTarget target;
   target.linear = VectorXd::Zero(system_.unknowns());
   if (system_.re.rows() > 0) {
-    // nu_g beyond the bound says no more than its direction.
+    // Where nu of the reference exceeds the bound, only its direction counts.
     const auto nu = distance_.target(reference.nu, reference.inner_nu, settings_.bounds.k);
     target.linear.tail(2 * n) = nu.linear;
     target.constant = nu.constant;
@@ -124,7 +124,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
                                    append_samples(basis_->whitened(basis_->values(points)), system);
                                  }};
   const VectorXd itself = unconstrained(reference);
-  constexpr double kNothing = 1e-9;  // a reference of the space that keeps the bounds is the answer
+  constexpr double kNothing = 1e-9;  // a reference in the space, within bounds, is the answer
   if (is_feasible(system_, itself) && energy_of(system_, target, itself) <= kNothing) {
     ConeSolution known;
     known.x = itself;

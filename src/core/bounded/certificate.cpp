@@ -1,4 +1,4 @@
-// F'' = (1 / 2 pi i) sum of jump_j / (z_j - z), so that |F''| and |F'''| have simple bounds.
+// F'' = (1 / 2 pi i) sum of jump_j / (z_j - z), which gives simple bounds on |F''| and |F'''|.
 #include "core/bounded/certificate.h"
 
 #include <algorithm>
@@ -10,10 +10,11 @@ namespace holomorph {
 
 void Bounds::check_usable() const {
   if (!(k >= 0) || !(k < 1))
-    throw Error(ErrorKind::bad_input, "the bound on angles, k, must be at least 0 and below 1");
+    throw Error(ErrorKind::bad_input, "the angle bound k must be at least 0 and less than 1");
   if (!(sigma > 0) || !(sigma < Sigma) || !std::isfinite(Sigma))
     throw Error(ErrorKind::bad_input,
-                "the smallest stretch must be above 0 and below the largest one");
+                "the smallest stretch must be positive and less than the largest stretch, which "
+                "must be finite");
 }
 
 Bounds Bounds::tightened(double share) const {
@@ -27,7 +28,8 @@ const char* bound_name(Bound bound) {
 }
 
 LogMap scaled(LogMap map, Complex factor) {
-  // Cauchy coordinates sum to one, conj(Psi) turns along.
+  // Cauchy coordinates sum to one, so a constant is added to all coefficients of l. conj(Psi) is
+  // multiplied by the factor, too.
   map.l.array() += std::log(factor);
   map.w *= map.second == LogMap::Second::nu ? std::conj(factor) / factor : std::conj(factor);
   return map;
@@ -48,10 +50,11 @@ Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, c
 
 namespace {
 
-/// What a piece of the boundary sees of the polygon's vertices.
+/// The influence of the polygon's vertices on a piece of the boundary: weights of the slopes'
+/// jumps.
 struct Sight {
-  VectorXc second;        ///< F'' at the middle from the slopes' jumps
-  VectorXd near, nearer;  ///< bounds of |F''| and |F'''| from their moduli
+  VectorXc second;        ///< give F'' at the piece's midpoint
+  VectorXd near, nearer;  ///< with the moduli of the jumps, bound |F''| and |F'''| on the piece
 };
 
 Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
@@ -70,7 +73,7 @@ Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
   return sight;
 }
 
-/// How far a piece's points are from its middle.
+/// A bound on the distance of a piece's points from its midpoint.
 double reach_of(const BoundaryPiece& piece) {
   return 0.5 * piece.length + piece.bend / 8;
 }
@@ -106,7 +109,8 @@ Certifier::Certifier(const BoundaryBasis& basis)
 }
 
 // With s the slope of the coefficients along an edge and L = log (z_{e+1} - z) / (z_e - z):
-// 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the last two cancel in the sum.
+// 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the terms without L cancel in the
+// sum.
 Certifier::Values Certifier::at(Complex z, const Function& l, const Function& w) const {
   const Points& polygon = basis_.polygon();
   const size_t n = polygon.size();
@@ -135,20 +139,20 @@ class Certifier::Proof {
         bounds_(bounds),
         log_Sigma_(std::log(bounds.Sigma)) {}
 
-  /// A piece with the functions' values at its ends and bounds of |l''| and |w''| on it.
+  /// A piece with the functions' values at its ends and bounds on |l''| and |w''| along it.
   struct Leaf {
     BoundaryPiece piece;
     Values start, end;
     double second_l = 0, second_w = 0;
   };
 
-  /// Proves the bounds on a leaf, halving it up to `depth` times; notes where that fails.
+  /// Proves the bounds on a leaf, halving it up to `depth` times. Records where that fails.
   void prove(const Leaf& leaf, int depth) {
     const auto failed = open_bound(leaf);
     if (!failed) return;
     const BoundaryPiece& piece = leaf.piece;
     if (result.unproved.empty()) result.failed = *failed;
-    // What an end breaks no halving proves.
+    // Where an end violates a bound, halving cannot help.
     const auto broken = broken_end(leaf);
     if (broken || depth == 0) {
       const Complex unproved = broken ? *broken : middle_of(piece);
@@ -157,7 +161,7 @@ class Certifier::Proof {
         result.unproved.push_back(unproved);
       return;
     }
-    // What bounds |F''| on a piece bounds it on its halves.
+    // Bounds on |F''| on a piece also hold on its halves.
     const Cage& domain = certifier_.basis_.domain();
     const double middle = 0.5 * (piece.from + piece.to);
     Leaf first = leaf, second = leaf;
@@ -172,8 +176,8 @@ class Certifier::Proof {
   Certificate result;
 
  private:
-  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8, with |F'| from the chord's slope, which F'
-  /// equals on average.
+  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8, where |F'| is bounded using the chord's
+  /// slope, which is the mean of F'.
   static double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
     double sum = second * piece.length * piece.length;
     if (piece.bend > 0)
@@ -182,20 +186,20 @@ class Certifier::Proof {
     return sum / 8;
   }
 
-  /// A bound that the leaf's ends and second derivatives do not prove.
+  /// A bound that the values at the leaf's ends and the second derivatives do not prove, if any.
   std::optional<Bound> open_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
     if (second_ == LogMap::Second::nu)
       return first_of(open_bound_of_nu(leaf.start, dl, dw), open_bound_of_nu(leaf.end, dl, dw));
-    // |f_z| = e^u lies below its chord, by no more than Delta u^2 / 8 max e^u.
+    // |f_z| = e^u lies below its chord by at most (Delta u)^2 / 8 max e^u.
     const double from = leaf.start.l.real(), to = leaf.end.l.real(),
                  below = (to - from) * (to - from) / 8 * std::exp(std::max(from, to));
     return first_of(open_bound_of_psi(leaf.start, dl, dw, below),
                     open_bound_of_psi(leaf.end, dl, dw, below));
   }
 
-  /// An end that breaks a bound itself.
+  /// An end of the leaf that itself violates a bound, if any.
   std::optional<Complex> broken_end(const Leaf& leaf) const {
     const auto is_broken = [&](const Values& at) {
       return second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0).has_value()
@@ -215,7 +219,8 @@ class Certifier::Proof {
     return a ? a : b;
   }
 
-  /// The bound that is not kept where the functions may be so far from these values.
+  /// A bound that may be violated where l and w differ from these values by up to dl and dw, if
+  /// any.
   std::optional<Bound> open_bound_of_nu(const Values& at, double dl, double dw) const {
     const double u = at.l.real(), w = std::abs(at.w) + dw;
     if (!(w <= bounds_.k)) return Bound::k;

@@ -1,10 +1,11 @@
-// A proof that a map keeps its bounds everywhere, from the boundary's samples.
+// A proof, from samples of the boundary, that a map keeps its bounds everywhere.
 //
 // ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
-// superharmonic: bounds that hold on the boundary hold inside. Between two samples l and nu leave
-// the chord of their values by at most an eighth of the largest second derivative, and the bounds
-// are convex in (Re l, |nu|). After Levi, Weber 2016, with second derivatives in closed form. The
-// same with Psi' for nu, where |f_z| leaves its chord by another eighth.
+// superharmonic. Bounds that hold on the boundary therefore hold inside. Between two samples, l and
+// nu deviate from the chord of their values by at most an eighth of their largest second
+// derivative, and the bounds are convex in (Re l, |nu|). This follows Levi and Weber (2016), with
+// second derivatives in closed form. The same holds with Psi' in place of nu, except that |f_z|
+// also deviates from its chord, by at most an eighth of its own second derivative.
 #pragma once
 
 #include <optional>
@@ -13,27 +14,29 @@
 
 namespace holomorph {
 
-/// k = |f_zbar / f_z| <= k and sigma <= |f_z| - |f_zbar|, |f_z| + |f_zbar| <= Sigma.
+/// |f_zbar / f_z| <= k, |f_z| - |f_zbar| >= sigma and |f_z| + |f_zbar| <= Sigma.
 struct Bounds {
   double k = 0.7, sigma = 0.2, Sigma = 5;
 
   /// Throws Error unless 0 <= k < 1 and 0 < sigma < Sigma.
   void check_usable() const;
-  /// Narrowed by a share, so that what is solved for can be proved: k and ln of both sigmas.
+  /// Bounds narrowed by a fraction, in k and in ln of the stretches. A map that is solved for these
+  /// can be proved to keep the original ones.
   Bounds tightened(double share) const;
   /// The Re l that is farthest from both stretch bounds.
   double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }
 };
 
 /// The derivatives of a harmonic map f = Phi + conj(Psi) without folds: f_z = Phi' = e^l, and
-/// conj(f_zbar) = Psi' = w e^l or w itself. l and w are coefficients over a BoundaryBasis' polygon.
+/// conj(f_zbar) = Psi' is w e^l or w itself. l and w are coefficients at the vertices of a
+/// BoundaryBasis' polygon.
 struct LogMap {
   enum class Second { nu, psi };  ///< what w is: Psi' / Phi' (the space L_nu), or Psi' (L_psi)
   VectorXc l, w;
   Second second = Second::nu;
 };
 
-/// The map times a factor.
+/// The map multiplied by a factor.
 LogMap scaled(LogMap map, Complex factor);
 
 /// Phi' and Psi' at points.
@@ -41,23 +44,23 @@ struct Derivatives {
   VectorXc phi, psi;
 };
 
-/// Those of a map, from l and w at the points.
+/// Phi' and Psi' of a map, from the values of l and w at the points.
 Derivatives derivatives_of(const LogMap& map, const VectorXc& l, const VectorXc& w);
-/// Phi'' and Psi'', from the first derivatives and l, w, l' and w' at the points.
+/// Phi'' and Psi'' of a map, from the first derivatives, w, l' and w' at the points.
 Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, const VectorXc& w,
                                   const VectorXc& l1, const VectorXc& w1);
 
-/// The three bounds, in the order of the cone programs' cones; and a name for messages.
+/// The three bounds, in the order of the cones in the cone programs, and their names in messages.
 enum class Bound { Sigma, sigma, k };
 const char* bound_name(Bound bound);
 
-/// What a proof found.
+/// The result of a proof.
 struct Certificate {
   bool holds = false;
-  Bound failed = Bound::Sigma;  ///< the first one that could not be proved, and where
-  Complex where;
-  /// Points of the boundary where a bound is broken, or that are in the middle of a smallest piece
-  /// on which it could not be proved.
+  Bound failed = Bound::Sigma;  ///< the first bound that could not be proved
+  Complex where;                ///< where it could not be proved
+  /// Boundary points at which a bound is violated, and midpoints of the smallest pieces on which a
+  /// bound could not be proved.
   Points unproved;
 };
 
@@ -66,8 +69,8 @@ class Certifier {
   /// Cost: pieces times polygon vertices. The basis must outlive this.
   explicit Certifier(const BoundaryBasis& basis);
 
-  /// Tries to prove the bounds for all pieces, each halved up to `depth` times. Cost: products with
-  /// four matrices of pieces x vertices, and a few microseconds for each halving.
+  /// Tries to prove the bounds on all pieces, halving each up to `depth` times. Cost: products with
+  /// four matrices of pieces x vertices, plus a few microseconds for each halving.
   Certificate certify(const LogMap& map, const Bounds& bounds, int depth = 6) const;
 
   const MatrixXc& coordinates() const { return values_; }  ///< C at the basis' samples
@@ -76,8 +79,8 @@ class Certifier {
   struct Values {
     Complex l, w;
   };
-  /// A holomorphic function: coefficients, their slopes along the polygon's edges, and the slopes'
-  /// jumps at its vertices.
+  /// A holomorphic function: its coefficients, their slopes along the polygon's edges, the jumps of
+  /// the slopes at the vertices, and the moduli of the jumps.
   struct Function {
     VectorXc values, slopes, jumps;
     VectorXd moduli;
@@ -88,8 +91,8 @@ class Certifier {
 
   const BoundaryBasis& basis_;
   MatrixXc values_;         ///< C at samples
-  MatrixXc second_;         ///< F'' at the pieces' middles from the jumps
-  MatrixXd near_, nearer_;  ///< bounds of |F''| and |F'''| on the pieces from their moduli
+  MatrixXc second_;         ///< F'' at the midpoints of the pieces, from the jumps
+  MatrixXd near_, nearer_;  ///< bounds on |F''| and |F'''| on the pieces, from the moduli
 };
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
-// Where a proof fails the functions leave their samples' chord: another sample binds them there.
+// A proof fails where the functions deviate from the chords between samples. Another sample
+// constrains them there.
 #include "core/bounded/certified_program.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace holomorph {
 
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions) {
-  constexpr double kNothing = 1e-2;  // multipliers left over from the interior
+  constexpr double kNothing = 1e-2;  // smaller multipliers remain from the interior point method
   std::optional<Bound> hardest;
   double most = kNothing;
   for (const ConeSolution* solution : solutions)
@@ -20,7 +21,7 @@ std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution
 
 namespace {
 
-/// A start that lies inside a system, from x towards its center if need be.
+/// The start, moved towards the center as far as necessary to be strictly feasible.
 ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& center) {
   const VectorXd x = start.x;
   for (double share = 0.02; !is_feasible(system, start.x) && share <= 1; share *= 2)
@@ -64,7 +65,7 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
     best.cuts.insert(best.cuts.end(), unproved.begin(), unproved.end());
     take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
   }
-  // The center is certified, and on the way there every enclosure shrinks.
+  // The center is certified, and every enclosure shrinks on the way there.
   const VectorXd x = best.solution.x;
   for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
     best.blend = share;

@@ -1,4 +1,4 @@
-// A cone program whose answer is a map, and the proof that this map keeps its bounds.
+// A cone program whose solution is a map, and the proof that this map keeps its bounds.
 #pragma once
 
 #include <functional>
@@ -8,42 +8,43 @@
 
 namespace holomorph {
 
-/// A map that keeps bounds, how it was found, and the proof.
+/// A map that keeps its bounds, how it was found, and the proof.
 struct BoundedMap {
   LogMap map;
   Certificate certificate;
   ConeSolution solution;
-  int rounds = 0;      ///< of added samples
+  int rounds = 0;      ///< of adding samples
   Points cuts;         ///< all samples that were added
-  int iterations = 0;  ///< of all rounds
-  double blend = 0;    ///< how far towards the center of the bounds it was moved, to be proved
+  int iterations = 0;  ///< total over all rounds
+  double blend = 0;    ///< fraction of the way to the bounds' center, as far as the proof required
 };
 
-/// The bound that the solutions' energies would gain most from if it were wider; none when no bound
-/// is in the way.
+/// The bound whose widening would reduce the solutions' energies most; empty when no bound is
+/// active.
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions);
 
-/// The program at the boundary's samples, and what its unknowns mean. All references must outlive
-/// this.
+/// A program at the boundary's samples, and the meaning of its unknowns. All references must
+/// outlive this.
 struct CertifiedProgram {
   const Certifier& certifier;
-  const Bounds& bounds;  ///< to be proved; the program's own are a little narrower
+  const Bounds& bounds;  ///< to be proved; the program's own bounds are a little narrower
   const ConeSystem& system;
-  const VectorXd& center;  ///< feasible, and certified by all means
+  const VectorXd& center;  ///< feasible, and always certified
   std::function<LogMap(const VectorXd& x)> map_of;
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
 
-  /// Solves from a feasible start, with cuts that are likely to be needed. What cannot be proved is
-  /// cut off by added samples, then moved towards the center, as far as that itself if need be.
-  /// Cost: that of the program, and again of each round.
+  /// Solves from a feasible start, with added samples `cuts` that are likely to be needed. Where
+  /// the proof fails, more samples are added and the program is solved again. If this does not
+  /// suffice, the solution is moved towards the center, and if necessary all the way. Cost: that of
+  /// the program, and again for each round.
   BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
                     const ConeSolution& start, const Points& cuts = {}) const;
-  /// The same with the solution of the program with these cuts known.
+  /// The same, given the solution of the program with these cuts.
   BoundedMap proved(const ConeTarget& target, const ConeSettings& settings, ConeSolution solution,
                     const Points& cuts = {}) const;
 
-  /// The cuts to go on with in a drag: as long as they are few.
+  /// The cuts with which a drag continues; none when there are too many.
   static Points cuts_of(const BoundedMap* warm) {
     constexpr size_t kMost = 60;
     return warm && warm->cuts.size() <= kMost ? warm->cuts : Points{};

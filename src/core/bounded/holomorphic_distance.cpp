@@ -1,4 +1,4 @@
-// Real forms of complex least squares.
+// Complex least squares in real form.
 #include "core/bounded/holomorphic_distance.h"
 
 #include "core/error.h"
@@ -20,7 +20,7 @@ HolomorphicDistance::HolomorphicDistance(const BoundaryBasis& basis, const Refer
   }
 }
 
-/// What a square at one of these rows counts.
+/// The weight of one squared difference at these rows.
 double HolomorphicDistance::share(const MatrixXc& rows) const {
   return weight_ * (inner_.rows() > 0 ? 0.5 : 1) / static_cast<double>(rows.rows());
 }

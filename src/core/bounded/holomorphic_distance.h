@@ -1,26 +1,26 @@
-// How far a holomorphic function is from given values: half of the mean square, half of that along
-// the boundary and half inside.
+// The distance of a holomorphic function from given values: half the mean square difference, with
+// equal weights for the boundary and the inside.
 #pragma once
 
 #include "core/cauchy/boundary_basis.h"
 
 namespace holomorph {
 
-/// Where a reference is looked at: at or near the boundary's samples, and inside.
+/// Where a reference is sampled: at or near the boundary's samples, and inside.
 struct ReferencePoints {
   Points boundary, inner;
 };
 
 class HolomorphicDistance {
  public:
-  /// `weight` times the distance; without inner points at the boundary's alone. Cost: a product of
-  /// points and unknowns^2.
+  /// The distance is multiplied by `weight`. Without inner points it is measured at the boundary
+  /// alone. Cost: a product of points and unknowns^2.
   HolomorphicDistance(const BoundaryBasis& basis, const ReferencePoints& points, double weight);
 
-  /// P of x'Px / 2 for x = (Re, Im) of whitened unknowns.
+  /// The matrix P of x'Px / 2, where x = (Re, Im) of the whitened unknowns.
   const MatrixXd& quadratic() const { return quadratic_; }
-  /// p and c of x'Px / 2 + p'x + c for values at the points. Moduli above `most` say no more than
-  /// their direction, values that are not finite nothing.
+  /// p and c of x'Px / 2 + p'x + c for values at the points. Moduli above `most` are reduced to
+  /// `most`; values that are not finite count as 0.
   struct Target {
     VectorXd linear;
     double constant = 0;

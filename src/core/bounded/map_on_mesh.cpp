@@ -1,4 +1,4 @@
-// Along the tree: first derivatives by the trapezoidal rule, second ones for its correction.
+// Integrates along a tree of mesh edges by the trapezoidal rule, corrected with second derivatives.
 #include "core/bounded/map_on_mesh.h"
 
 #include "core/bounded/path_integral.h"

@@ -1,4 +1,4 @@
-// Maps without folds, integrated at a mesh's vertices.
+// Maps without folds at the vertices of a mesh, by integration.
 #pragma once
 
 #include "core/bounded/certificate.h"
@@ -9,7 +9,7 @@ namespace holomorph {
 
 class MapOnMesh {
  public:
-  /// Cost: two products of vertices x polygon vertices, precomputed. Both must outlive this.
+  /// Precomputes two matrices of vertices x polygon vertices. Both arguments must outlive this.
   MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh);
 
   /// The map up to a constant, f = Phi + conj(Psi), and its derivatives at the vertices.
@@ -19,16 +19,18 @@ class MapOnMesh {
   };
   /// Cost: four products with vertices x polygon vertices.
   Values values(const LogMap& map) const;
-  /// The same f to rounding. Cost: 12 rows of the basis for each of the mesh's edges at least.
+  /// The same f, accurate to rounding. Cost: at least 12 rows of the basis for each edge of the
+  /// tree.
   VectorXc integrated(const LogMap& map) const;
-  /// Phi alone.
+  /// Phi alone, at the vertices.
   VectorXc phi(const VectorXc& l) const;
-  /// Psi at places, one row each, of the functions whose coefficients are the columns.
+  /// Psi at the given locations, one row for each. Column j is for Psi' with the coefficients in
+  /// column j.
   MatrixXc psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const;
 
-  /// The antiderivative of a function of the basis, 0 in the middle of the mesh.
+  /// The antiderivative of a function of the basis at the vertices, 0 in the middle of the mesh.
   VectorXc antiderivative(const VectorXc& coefficients) const;
-  /// A function of the basis at the vertices.
+  /// The values of a function of the basis at the vertices.
   VectorXc function(const VectorXc& coefficients) const { return product(values_, coefficients); }
 
  private:

@@ -1,4 +1,5 @@
-// Panels are looked at some thousands at a time: the coordinates of all would fill the memory.
+// Points are evaluated a few thousand at a time: the coordinates of all of them would fill the
+// memory.
 #include "core/bounded/path_integral.h"
 
 #include <algorithm>
@@ -11,14 +12,15 @@ namespace {
 constexpr size_t kAtOnce = 2048;
 constexpr int kNodes = 12;
 
-/// The ends of a line's panels, as shares of it.
+/// The ends of a line's panels, as fractions of the line.
 std::vector<double> panels_of(const Points& polygon, const Line& line) {
   const double length = std::abs(line.to - line.from);
-  constexpr int kMost = 2000;  // along a boundary that is a thousandth of the line away
+  constexpr int kMost = 2000;  // enough along a boundary a thousandth of the line's length away
   std::vector<double> ends{0};
   while (ends.back() < 1 && static_cast<int>(ends.size()) < kMost) {
     const Complex here = line.from + ends.back() * (line.to - line.from);
-    // A panel's middle is at least half a panel nearer to the polygon than its start may be far.
+    // A panel is 0.7 times as long as its start is far from the polygon, so its midpoint is farther
+    // from the polygon than half a panel.
     const double room = nearest_on_polygon(polygon, here).distance, step = 0.7 * room / length;
     ends.push_back(step > 0 ? std::min(1.0, ends.back() + step) : 1);
   }

@@ -1,4 +1,4 @@
-// The map of given derivatives along straight lines, to rounding.
+// Integrates the derivatives of a map along straight lines, to rounding.
 #pragma once
 
 #include "core/bounded/certificate.h"
@@ -6,14 +6,14 @@
 
 namespace holomorph {
 
-/// A straight line inside the domain.
+/// A straight line segment inside the domain.
 struct Line {
   Complex from, to;
 };
 
-/// What f = Phi + conj(Psi) grows by along each line. Gauss-Legendre panels are no longer than they
-/// are far from the basis' polygon, outside of which its functions are not defined: the error is
-/// that of rounding. Cost: 12 rows of the basis for each panel.
+/// The increment of f = Phi + conj(Psi) along each line. Each Gauss-Legendre panel is shorter than
+/// its distance from the basis' polygon, outside which the functions are not defined. The error is
+/// therefore that of rounding. Cost: 12 rows of the basis for each panel.
 VectorXc growth_along(const BoundaryBasis& basis, const LogMap& map, std::span<const Line> lines);
 
 /// Phi' and conj(Psi') at points.

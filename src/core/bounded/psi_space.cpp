@@ -1,4 +1,4 @@
-// Unknowns of Psi' are real: (Re, Im) of its whitened coefficients.
+// The unknowns of Psi' are real: (Re, Im) of its whitened coefficients.
 #include "core/bounded/psi_space.h"
 
 #include "core/error.h"
@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kRoom = 0.01;  ///< of the bounds on stretch, for Psi'
+constexpr double kRoom = 0.01;  ///< fraction of the stretch bounds that is left for Psi'
 
 BoundedSettings first_step(BoundedSettings settings) {
   settings.bounds.check_usable();
@@ -90,7 +90,7 @@ void PsiSpace::append_discs(const Points& points, const VectorXc& l, ConeSystem&
 BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference& reference,
                              const VectorXc& wanted, const BoundedMap* warm) const {
   const VectorXc& l = conformal.map.l;
-  // With a proved l all discs are open, everywhere on the boundary.
+  // When l is proved, the disks have positive radii everywhere on the boundary.
   if (settings_.bounds.k == 0 || !conformal.certificate.holds) return conformal;
   ConeSystem system = discs_;
   system.cones = discs((conformal_.certifier().coordinates() * l).real());

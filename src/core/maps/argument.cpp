@@ -1,5 +1,5 @@
-// Winding numbers over triangles are sums of increments over edges, so that they add up to the
-// boundary's.
+// The winding number of a triangle is the sum of the increments along its edges, so the winding
+// numbers of all triangles add up to that of the boundary.
 #include "core/maps/argument.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace holomorph {
 namespace {
 
-/// arg(b / a) in (-pi, pi], the exact opposite from b to a.
+/// arg(b / a) in (-pi, pi]; exactly the negative of increment(b, a).
 double increment(Complex a, Complex b) {
   return std::atan2(cross(a, b), dot(a, b));
 }
 
-/// The increment along an undirected edge, found from its lower vertex to its higher.
+/// The increment along an edge, always computed from its lower vertex index to its higher one.
 double edge_increment(const VectorXc& values, int from, int to) {
   return from < to ? increment(values[from], values[to]) : -increment(values[to], values[from]);
 }
@@ -43,8 +43,8 @@ std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
 
 namespace {
 
-/// The samples where a zero's jump may be: the nearest one, and the nearest one across the domain,
-/// with a stretch of the boundary between them on both sides.
+/// The samples at which a zero's jump may be placed: the one nearest to the zero and the nearest
+/// one across the domain, which is more than a twentieth of the boundary away in both directions.
 std::vector<Index> jump_places(std::span<const Complex> samples, Complex zero) {
   const Index m = static_cast<Index>(samples.size());
   const auto distance = [&](Index i) { return std::norm(samples[static_cast<size_t>(i)] - zero); };
@@ -79,7 +79,9 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
   VectorXd steps(m);
   for (Index i = 0; i < m; ++i) {
     if (values[i] == Complex(0) || !is_finite(values[i]))
-      throw Error(ErrorKind::failed, "the reference map has no direction at a boundary sample",
+      throw Error(ErrorKind::failed,
+                  "the reference map's derivative is zero or not finite at a boundary sample; move "
+                  "the handles near it",
                   samples[static_cast<size_t>(i)]);
     steps[i] = increment(values[i], values[(i + 1) % m]);
   }
@@ -89,7 +91,7 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
     places.push_back(jump_places(samples, zero.place));
     turns -= zero.multiplicity;
   }
-  std::vector<Index> order(static_cast<size_t>(m));  // for zeros that are not in the list
+  std::vector<Index> order(static_cast<size_t>(m));  // of jumps for unlisted zeros
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::sort(order, {}, [&](Index i) { return std::norm(values[i]); });
   for (size_t i = 0; turns != 0; ++i) {
@@ -97,8 +99,9 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
     steps[order[i % order.size()]] -= 2 * kPi * sign;
     turns -= sign;
   }
-  // Which side of a narrow part a jump is on decides which way the part is turned: the way that
-  // turns all of the boundary least, when it is clearly less than with the nearest sides.
+  // The side of a narrow part on which a jump lies decides the direction in which the part turns.
+  // Take the combination of sides with the smallest variance of theta, but prefer the nearest sides
+  // unless the gain is clear.
   constexpr size_t kMostChoices = 6;
   constexpr double kClearly = 0.9;
   VectorXd best;

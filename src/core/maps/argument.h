@@ -1,29 +1,32 @@
-// The continuous argument of a function with zeros, along a boundary (Levi, Weber 2016, alg. 4).
+// The continuous argument, along a boundary, of a function that has zeros inside (Levi, Weber 2016,
+// alg. 4).
 #pragma once
 
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
 
-/// A zero of a function, as the argument principle sees it: the center of a triangle, and how often
-/// the values wind around 0 along the triangle's edges.
+/// A zero of a function, found by the argument principle: the center of a triangle, and the winding
+/// number around 0 of the values along the triangle's edges.
 struct Zero {
   Complex place;
   int multiplicity = 1;
 };
 
-/// Zeros of the function with these values at mesh.vertices. A zero on an edge is counted in one of
-/// its triangles: each edge's increment is found once. Cost: linear.
+/// Zeros of the function with these values at mesh.vertices. A zero on an edge is counted in
+/// exactly one of the edge's triangles, because both triangles use the same increment. Cost:
+/// linear.
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 
-/// How often values along a closed loop turn around 0.
+/// The winding number around 0 of the values along a closed loop.
 int turns_of(const VectorXc& values);
 
-/// The argument along a closed boundary, from increments between neighboring samples, less 2 pi
-/// per zero at the sample nearest to it, or across the domain from there when that turns the
-/// boundary clearly less: so it is a function again, the sum of all increments is 0. Zeros that are
-/// missing in the list (or too many in it) are made up for where |value| is least. Throws Error
-/// when a value is 0 or not finite. Cost: samples times zeros, times up to 64 choices of sides.
+/// The argument of the values along a closed boundary, summed from the increments between
+/// neighboring samples. For each zero, 2 pi is subtracted at the sample nearest to the zero, or at
+/// the nearest sample across the domain when the argument then varies clearly less. The sum of all
+/// increments is therefore 0, and the argument is single-valued. If the list has too few or too
+/// many zeros, the jumps that this requires are placed where |value| is smallest. Throws Error when
+/// a value is 0 or not finite. Cost: samples times zeros, times up to 64 combinations of sides.
 VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& values,
                            const std::vector<Zero>& zeros);
 

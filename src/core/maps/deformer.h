@@ -1,7 +1,7 @@
-// The whole public face of the maps: what a method is given (Rest, Pose) and what it answers.
+// The public interface of the maps: the input of a method (Rest, Pose) and its output (SampledMap).
 //
-// Adding a method is one file in methods/ and one row of the table in methods.cpp; menus, sliders,
-// JSON fields, contract tests and benchmarks iterate over the table.
+// To add a method, write one file in methods/ and one row of the table in methods.cpp. Menus,
+// sliders, JSON fields, contract tests and benchmarks iterate over the table.
 #pragma once
 
 #include <map>
@@ -15,11 +15,12 @@
 
 namespace holomorph {
 
-/// Values of a method's parameters by key; a missing key has the specification's default.
+/// Values of a method's parameters by key. A missing key stands for the default in its
+/// ParameterSpec.
 using Parameters = std::map<std::string, double>;
 
-/// One parameter of a method: what a slider, a JSON field and the help need to know. A choice's
-/// value is the number of one of its options; files hold the option's id.
+/// One parameter of a method: what sliders, JSON fields and the help need to know about it. The
+/// value of a choice is the index of one of its options; files store the option's id.
 struct ParameterSpec {
   struct Option {
     std::string id, label;
@@ -33,16 +34,17 @@ struct ParameterSpec {
     std::string key;
     double value = 0;
   };
-  std::optional<Condition> used_when = {};  ///< another parameter's value that it takes effect with
-  std::vector<Option> options = {};         ///< of a choice
+  /// The parameter takes effect only while another parameter has this value.
+  std::optional<Condition> used_when = {};
+  std::vector<Option> options = {};  ///< for Type::choice
 };
 
 enum class Precision {
-  single,  ///< operators in float: for the picture (1e-6 of the displacement)
-  full     ///< operators in double: for numbers that are written out
+  single,  ///< operators in float, for display (error 1e-6 of the displacement)
+  full     ///< operators in double, for numbers that are written out
 };
 
-/// A point handle at rest; `has_frame` says that its pose prescribes an angle and a scale too.
+/// A point handle at rest. With `has_frame`, its pose also prescribes an angle and a scale.
 struct RestPin {
   Complex position;
   bool has_frame = false;
@@ -56,76 +58,77 @@ struct PosePin {
   bool operator==(const PosePin&) const = default;
 };
 
-/// What a corner's boundary angles are besides the posed cage's own: turns in radians, unwrapped.
+/// Rotations at a corner, in radians and unwrapped, that are added to the boundary angles of the
+/// posed cage.
 struct PoseCorner {
-  double before = 0.0, after = 0.0;  ///< of the edges that end and start there
-  /// Of the edge from here to the next corner, 0 to 1: with 1 its image is as straight as it was,
-  /// with 0 it bends so that corners keep their angles.
+  double before = 0.0, after = 0.0;  ///< of the edge that ends there and the one that starts there
+  /// Tension of the edge from here to the next corner, 0 to 1. At 1 the edge's image is as straight
+  /// as the edge at rest; at 0 it bends so that the corners keep their angles.
   double tension = 1.0;
   bool operator==(const PoseCorner&) const = default;
 };
 
-/// Everything that forces precomputation. Value type.
+/// The inputs whose changes require precomputation. Value type.
 struct Rest {
-  Cage cage;  ///< straight or curved, each segment of at least its posed counterpart's degree
+  Cage cage;  ///< straight or curved; the degree of each segment is at least that of its posed one
   std::vector<RestPin> pins;
-  std::vector<Points> strokes = {};      ///< open curves, two different points each at least
-  Points outline = {};                   ///< closed; where the cage's shape is to go, or none
-  std::vector<Index> corners = {};       ///< the cage's vertices with angles, in order; none: all
-  std::vector<BrushDab> stiffness = {};  ///< of the picture; none: the same everywhere
-  Points samples;                        ///< where the map is wanted, inside or on the cage
-  /// Where f_z and f_zbar are wanted, one per sample; empty: at samples. Methods whose derivatives
-  /// are finite on the boundary give them at samples.
+  std::vector<Points> strokes = {};      ///< open curves, each with at least two different points
+  Points outline = {};                   ///< closed target of the cage's shape; empty: none
+  std::vector<Index> corners = {};       ///< cage vertices with angles, in order; empty: all
+  std::vector<BrushDab> stiffness = {};  ///< of the picture; empty: uniform
+  Points samples;                        ///< where the map is evaluated, inside or on the cage
+  /// Where f_z and f_zbar are evaluated, one point per sample; empty: at `samples`. Methods whose
+  /// derivatives are finite on the boundary always evaluate them at `samples`.
   Points derivative_samples;
-  /// The cage's triangles, for methods that integrate or minimize over them.
+  /// The triangulated cage, for methods that integrate or minimize over its triangles.
   std::shared_ptr<const Mesh> mesh;
   Parameters parameters;
-  /// Parameters of other methods by id, for those that follow another one.
+  /// Parameters of other methods by id, for methods that follow another method.
   std::map<std::string, Parameters> other_parameters = {};
   Precision precision = Precision::single;
   bool operator==(const Rest&) const = default;
 };
 
-/// Everything that moves. Value type; as many segments, control points, pins, strokes and corners
-/// as the Rest.
+/// The inputs that change while handles are moved. Value type. It has as many segments, control
+/// points, pins, strokes and corners as the Rest.
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
-  std::vector<Points> strokes = {};  ///< where those of the rest go, run through the same way
+  std::vector<Points> strokes = {};  ///< targets of the rest's strokes, in the same direction
   std::vector<PoseCorner> corners = {};
   bool operator==(const Pose&) const = default;
 };
 
-/// A map at the samples of its Rest, with both Wirtinger derivatives
-/// f_z = (f_x - i f_y) / 2 and f_zbar = (f_x + i f_y) / 2 when they were asked for (else empty).
+/// A map at the samples of its Rest, with both Wirtinger derivatives f_z = (f_x - i f_y) / 2 and
+/// f_zbar = (f_x + i f_y) / 2 if they were requested (else empty).
 struct SampledMap {
   enum class Status { exact, iterating, certified, infeasible };
   VectorXc f, fz, fzbar;
   Status status = Status::exact;
   std::string note;  ///< what the user should know, such as a pin that could not be used
   int iterations = 0;
-  /// Of methods whose convergence is worth watching: after each iteration of the whole solve, the
-  /// first one before any.
+  /// For methods whose convergence is worth watching: the energy before the first iteration of the
+  /// whole solve and after each iteration.
   std::vector<double> energies;
-  Points zeros;  ///< where the derivative of a map that was projected vanishes, at rest
-  /// The cage's vertices whose angles are held at the least possible one.
+  Points zeros;  ///< rest positions of the zeros of f_z of a map that was projected
+  /// Cage vertices whose angles are clamped to the smallest possible angle.
   std::vector<Index> limited_corners;
-  bool ignores_pins = false;  ///< the method uses pins, but had no use for these
+  bool ignores_pins = false;  ///< the method uses pins, but did not use these
 };
 
-/// What is wanted of a map besides its values.
+/// What to compute besides the values of a map, and how.
 struct EvalOptions {
   bool derivatives = false;
-  /// While something is dragged: methods that iterate may go on from their last answer and stop
-  /// early. Without it the map depends on rest and pose alone.
+  /// Set while something is dragged: iterative methods may continue from their last result and stop
+  /// early. Without it, the map depends on rest and pose alone.
   bool draft = false;
-  /// The map after so many iterations, of methods that give energies; others take no notice.
+  /// The map after this many iterations, for methods that report energies. Other methods ignore it.
   std::optional<int> iteration = {};
 
   bool operator==(const EvalOptions&) const = default;
 };
 
-/// A pose's map at single points; just outside the cage the inner map goes on.
+/// The map of a pose at single points. Just outside the cage, the map is continued from inside.
 class PointMap {
  public:
   struct Value {
@@ -135,31 +138,32 @@ class PointMap {
   virtual Value at(Complex z) const = 0;
 };
 
-/// What was precomputed from a Rest. Answers poses until the rest changes.
+/// The precomputed data of a Rest. Computes the maps of its poses until the rest changes.
 class Deformer {
  public:
   virtual ~Deformer() = default;
 
-  /// The map of a pose. Throws Error when the pose does not fit the rest or is not finite.
+  /// The map of a pose. Throws Error when the pose does not match the rest or is not finite.
   /// Cost for linear methods: one product with an operator of samples x controls.
   virtual SampledMap deform(const Pose& pose, EvalOptions options) = 0;
 
-  /// For methods linear in the pose: f = samples + matrix * controls(pose), so that a vertex shader
-  /// can apply the operator itself. Null when the method is not linear or works in full precision.
+  /// For methods that are linear in the pose: f = samples + matrix * controls(pose), so that a
+  /// vertex shader can apply the operator itself. Null when the method is not linear or works in
+  /// full precision.
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
 
-  /// The posed cage that alone, by method `cage`, gives this pose's map. None where there is no
-  /// such cage.
+  /// The posed cage with which method `cage` alone gives the map of this pose. Empty when there is
+  /// no such cage.
   virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
-  /// The pose's map at any point, to rounding when the rest is in full precision (methods that
-  /// integrate along the mesh: to the error of that). Null when the method knows its map at samples
-  /// only.
+  /// The map of a pose at any point, accurate to rounding when the rest is in full precision, or to
+  /// the integration error for methods that integrate along the mesh. Null when the method knows
+  /// its map only at the samples.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 
-/// Parameters under a name, such as "strict"; what is missing has its default.
+/// Named parameter values, such as "strict". Missing parameters have their defaults.
 struct Preset {
   std::string label;
   Parameters parameters;
@@ -171,22 +175,22 @@ struct Method {
   std::vector<ParameterSpec> parameters;
   bool uses_pins = false;
   bool harmonic = true;  ///< f_z and conj(f_zbar) are holomorphic
-  bool similar = true;   ///< a similarity of all handles gives that similarity
-  /// What `prepare` calls with a rest that has been checked.
+  bool similar = true;   ///< if all handles move by a similarity, the map is that similarity
+  /// Called by `prepare` with a checked rest.
   std::unique_ptr<Deformer> (*make)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
   bool uses_strokes = false, uses_outline = false, uses_corners = false, uses_stiffness = false;
   bool needs_mesh = false;
-  bool follows_others = false;  ///< its map is near that of another method, with its parameters
+  bool follows_others = false;  ///< its map approximates another method's, with its parameters
 
-  /// Precomputes. `previous` is this method's last deformer or null; what its rest and the new one
-  /// have in common need not be computed again. Throws Error for a rest that cannot be used.
+  /// Precomputes a deformer. `previous` is this method's last deformer or null; what its rest has
+  /// in common with `rest` need not be computed again. Throws Error for a rest that cannot be used.
   std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) const;
 };
 
 /// The table of methods, in menu order.
 const std::vector<Method>& methods();
-/// The row with this id; throws Error naming the ids that exist.
+/// The row with this id. Throws Error that lists the existing ids.
 const Method& method_named(const std::string& id);
 
 /// What an edit or a tool needs a method for.
@@ -196,18 +200,18 @@ const Method& usual_method(MethodUse use);
 /// The method whose map is meant: the one that a method follows, or itself.
 const Method& followed_method(const Method& method, const Parameters& values);
 
-/// Without the handles that the method has no use for.
+/// The rest or the pose without the handles that the method does not use.
 Rest used_by(const Method& method, Rest rest);
 Pose used_by(const Method& method, Pose pose);
 
-/// What a rest holds for a method that its own one follows.
+/// The parameters in a rest for the method that the rest's own method follows.
 Parameters parameters_of(const Rest& rest, const Method& followed);
 
-/// The parameter's value, its default when missing.
+/// The parameter's value, or its default when it is missing.
 double parameter(const Method& method, const Parameters& values, const std::string& key);
-/// Whether a parameter has any effect beside the others' values.
+/// Whether a parameter has any effect, given the values of the others.
 bool is_used(const Method& method, const Parameters& values, const ParameterSpec& spec);
-/// The id of the option that a choice has.
+/// The id of the selected option of a choice.
 std::string choice(const Method& method, const Parameters& values, const std::string& key);
 
 }  // namespace holomorph

@@ -60,7 +60,7 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
 
 LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f) {
   const auto corner = [&](size_t k) { return mesh.vertices[static_cast<size_t>(t[k % 3])]; };
-  LinearDerivatives at{};  // times four areas
+  LinearDerivatives at{};  // f_z and f_zbar times four times the triangle's area
   for (size_t a = 0; a < 3; ++a) {
     const Complex opposite = corner(a + 2) - corner(a + 1);
     at.fz += -kI * std::conj(opposite) * f[t[a]];

@@ -1,4 +1,4 @@
-// What a map does to lengths, angles and areas, and whether it folds.
+// How a map distorts lengths, angles and areas, and whether it folds.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -6,33 +6,34 @@
 
 namespace holomorph {
 
-/// Distortion at the samples of a map: sigma_max = |f_z| + |f_zbar|, sigma_min = |f_z| - |f_zbar|.
+/// Distortion at the samples of a map, with sigma_max = |f_z| + |f_zbar| and sigma_min = |f_z| -
+/// |f_zbar|.
 struct Distortion {
-  Eigen::VectorXd k;        ///< angle: |f_zbar| / |f_z|, 0 for conformal, 1 where it collapses
-  Eigen::VectorXd area;     ///< log2 of sigma_max * sigma_min; -inf where orientation is lost
+  Eigen::VectorXd k;        ///< angle: |f_zbar| / |f_z|; 0 where conformal, 1 where degenerate
+  Eigen::VectorXd area;     ///< log2 of sigma_max * sigma_min; -inf unless orientation-preserving
   Eigen::VectorXd stretch;  ///< max(sigma_max, 1 / sigma_min)
 };
-/// Needs the map's derivatives. Cost: linear.
+/// Requires a map that was sampled with its derivatives. Cost: linear.
 Distortion distortion_of(const SampledMap& map);
 
-/// How many of a mesh's triangles are turned over, or nowhere, with vertices at f.
+/// The number of triangles that are flipped, degenerate or not finite when the vertices are at f.
 int flipped_triangles(const Mesh& mesh, const VectorXc& f);
 
-/// Measures of a whole map on a mesh.
+/// Measurements of a whole map on a mesh.
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;
   Points zeros;               ///< centers of the rest triangles around which f_z winds
-  double turning_number = 0;  ///< of the image of the boundary
+  double turning_number = 0;  ///< of the boundary's image
   bool simple_boundary = true;
   int flipped_triangles = 0;
-  /// No zeros of f_z, turning number one, no flipped triangle: no fold was found. A measurement at
-  /// the samples, not a proof.
+  /// Whether no fold was found: f_z has no zeros, the turning number is one, and no triangle is
+  /// flipped. This is a measurement at the samples, not a proof.
   bool locally_injective() const;
 };
 /// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle
-/// on every triangle. Cost: linear, but for the crossing test of the boundary.
+/// on every triangle. Cost: linear, except for the crossing test of the boundary.
 MapReport report_of(const Mesh& mesh, const SampledMap& map);
-/// The same of the map that is f at the mesh's vertices and linear in each triangle: k and sigma
+/// The same for the map that is f at the mesh's vertices and linear in each triangle. k and sigma
 /// are the extremes over the triangles.
 MapReport report_of_linear(const Mesh& mesh, const VectorXc& f);
 
@@ -42,8 +43,8 @@ struct LinearDerivatives {
 };
 LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f);
 
-/// f_z and f_zbar at a mesh's vertices of the map that is f there and linear in each triangle:
-/// means over the triangles around each vertex, by area. Cost: linear.
+/// f_z and f_zbar at a mesh's vertices, for the map that is f there and linear in each triangle:
+/// area-weighted means over the triangles around each vertex. Cost: linear.
 struct VertexDerivatives {
   VectorXc fz, fzbar;
 };

@@ -38,7 +38,7 @@ HeatScale heat_scale(View view, const Eigen::VectorXd& values, bool automatic) {
   for (const double value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
   if (low > high) return scale;
-  if (scale.diverging) {  // no change stays in the middle
+  if (scale.diverging) {  // keep 0, which means no change, in the middle
     high = std::max({std::abs(low), std::abs(high), 1e-3});
     low = -high;
   } else {

@@ -1,7 +1,7 @@
 // Heat maps: which quantity a view shows, its range, and the colors.
 //
-// Sequential maps follow viridis (matplotlib, CC0), the diverging one ColorBrewer's RdBu; both are
-// readable with every common color-vision deficiency.
+// The sequential color map is viridis (matplotlib, CC0), the diverging one is ColorBrewer's RdBu.
+// Both are readable with every common color-vision deficiency.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ enum class View { image, angle, area, stretch, checker };
 
 inline constexpr std::array<const char*, 5> kViewNames{"image", "angle", "area", "stretch",
                                                        "checker"};
-/// The view of this name; throws Error listing the names.
+/// The view with this name. Throws Error that lists the valid names.
 View view_named(const std::string& name);
 
-/// Whether a view shows a quantity of the map and so needs derivatives.
+/// Whether a view shows a quantity of the map, which requires derivatives.
 inline bool is_heat(View view) {
   return view == View::angle || view == View::area || view == View::stretch;
 }
@@ -32,17 +32,17 @@ struct HeatScale {
   std::string label;
 };
 
-/// What a view shows per sample: k; log2 of the area; log2 of the largest stretch. Folded samples
-/// are at +-infinity or one.
+/// The quantity that a view shows at each sample: k, log2 of the area, or log2 of the largest
+/// stretch. At folded samples, k is at least 1 and the others are infinite.
 Eigen::VectorXd heat_values(View view, const Distortion& distortion);
 
-/// The fixed scale of a view, or one that spans the finite values when `automatic`.
+/// The fixed scale of a view or, when `automatic`, a scale that spans the finite values.
 HeatScale heat_scale(View view, const Eigen::VectorXd& values, bool automatic);
 
 using Color = std::array<float, 3>;
 /// The color at `t` in [0, 1] (clamped).
 Color heat_color(double t, bool diverging);
-/// Position of a value on a scale, clamped to [0, 1]; not-a-number counts as the far end.
+/// Position of a value on a scale, clamped to [0, 1]. NaN is at 1.
 double heat_position(const HeatScale& scale, double value);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// A chord turns around w as its arc does unless w lies between the two.
+// A chord turns around w by the same angle as its arc unless w lies between the two.
 #include "core/maps/image_winding.h"
 
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace holomorph {
 namespace {
 
-/// What the map's rounding is at most, near w.
+/// An upper bound on the map's rounding error near w.
 double rounding_at(Complex w, Complex f) {
   return 1e-13 * (std::abs(w) + std::abs(f));
 }
@@ -15,7 +15,7 @@ double rounding_at(Complex w, Complex f) {
 /// sum of the squared chord and the squared bulge.
 constexpr double kFar = 9;
 
-/// Whether w is farther from the piece's chord than its arc may be.
+/// Whether w is farther from the piece's chord than the arc's image can be.
 bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
   return nearest_on_segment(piece.from, piece.to, w).distance >
          piece.bulge + rounding_at(w, piece.from);
@@ -64,8 +64,9 @@ std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int dept
   return *before + *after;
 }
 
-// The polygon of the chords winds as often as it crosses the ray from w to the right; arcs that w
-// is not clear of turn by more or less than their chords.
+// The winding number of the polygon of chords is the signed number of times it crosses the ray from
+// w to the right. Arcs that w is not clear of may turn by more or less than their chords; that
+// difference is added.
 std::optional<int> ImageWinding::turns(std::span<const Piece> loop, Complex w) const {
   int crossings = 0;
   double more = 0;

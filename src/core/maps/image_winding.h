@@ -1,7 +1,7 @@
-// How a map's image of an arc turns around a point, exactly enough to count preimages.
+// The angle by which the image of an arc turns around a point, accurate enough to count preimages.
 //
-// The image of a loop turns around w once for each preimage of w inside the loop (the argument
-// principle), with its sign where a map is not holomorphic.
+// By the argument principle, the image of a loop winds around w once for each preimage of w inside
+// the loop. If the map is not holomorphic, each preimage counts with the sign of its orientation.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace holomorph {
 
-/// A straight line in a map's domain, or a part of one of its boundary's segments.
+/// A straight line segment in a map's domain, or a part of one of the boundary's segments.
 struct Arc {
   Complex from, to;
   Index segment = -1;
@@ -20,11 +20,11 @@ struct Arc {
 
 class ImageWinding {
  public:
-  /// Both must outlive this.
+  /// `cage` and `map` must outlive this.
   ImageWinding(const Cage& cage, const PointMap& map) : cage_(cage), map_(map) {}
 
-  /// An arc, the image of its ends and by how much its image may differ from their chord: twice of
-  /// what it does at three points.
+  /// An arc, the images of its ends, and an estimate of how far the arc's image deviates from their
+  /// chord: twice the largest deviation at three points.
   struct Piece {
     Arc arc;
     Complex from, to;
@@ -33,14 +33,15 @@ class ImageWinding {
   /// Cost: five evaluations of the map.
   Piece piece(const Arc& arc) const;
 
-  /// The angle in radians by which f - w turns along a piece; none when w is on its image as well
-  /// as rounding can tell. Pieces are halved until w is clear of them. Cost: none when w is not
-  /// near, four evaluations for each halving.
+  /// The angle in radians by which f - w turns along a piece; empty when w lies on the piece's
+  /// image to within rounding. Pieces are halved until w is clear of them. Cost: no evaluations of
+  /// the map when w is not near, seven for each halving.
   std::optional<double> turn(const Piece& piece, Complex w) const { return turn(piece, w, 0); }
-  /// The same along a closed loop, in whole turns.
+  /// The number of whole turns of f - w along a closed loop; empty as above.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
 
-  /// The point of an arc at a share between 0 and 1, and the two arcs that it cuts it into.
+  /// The point at the fraction `share` of an arc, 0 to 1, and the two arcs into which it cuts the
+  /// arc.
   Complex point(const Arc& arc, double share) const;
   std::array<Arc, 2> cut(const Arc& arc, double share) const;
 

@@ -1,5 +1,5 @@
-// Next to corners of a basis on the boundary, where derivatives have poles, a few specks always
-// turn; they are no fold.
+// Derivatives have poles at the corners of a basis on the boundary, and a few tiny triangles next
+// to them are always flipped. They do not count as folds.
 #include "core/maps/injectivity.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace holomorph {
 namespace {
 
-/// The parts that are turned over, the largest first, each by the middle of its largest triangle;
-/// none when all of them together are less than can be seen.
+/// The flipped regions, the largest first, each represented by the center of its largest triangle.
+/// Empty when all of them together are too small to be seen.
 Points visible_folds(const Mesh& mesh, const VectorXc& f) {
-  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // of the whole, and of one part
+  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative area of all regions, of one
   double turned = 0, total = 0;
   std::vector<std::pair<double, const Triangle*>> over;
   for (const Triangle& t : mesh.triangles) {
@@ -25,7 +25,7 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
     over.push_back({-twice, &t});
   }
   if (turned <= kVisible * total) return {};
-  // Triangles with a vertex in common are of one part.
+  // Triangles that share a vertex belong to the same region.
   std::vector<int> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
@@ -54,7 +54,8 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
   return places;
 }
 
-/// |f_z| - |f_zbar| of the linear map of a triangle, z being its place at rest.
+/// |f_z| - |f_zbar| of the linear map of a triangle with the edges z1 and z2 at rest and f1 and f2
+/// posed.
 double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
   const Complex twice_area = z1 * std::conj(z2) - z2 * std::conj(z1);
   const Complex fz = (f1 * std::conj(z2) - f2 * std::conj(z1)) / twice_area,
@@ -83,7 +84,7 @@ Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
     total += area;
   }
   if (parts.empty()) return {};
-  // A heap: only the least of them are looked at.
+  // A heap suffices, because only the smallest values are needed.
   const auto later = [](const Part& a, const Part& b) { return a.stretch > b.stretch; };
   std::ranges::make_heap(parts, later);
   for (double left = kSpecks * total; parts.size() > 1 && parts.front().area < left;) {
@@ -95,8 +96,8 @@ Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
   return {parts.front().stretch, (f[i] + f[j] + f[k]) / 3.0};
 }
 
-/// The vertices of a closed polygon without which it would be off by more than a tolerance, first
-/// and farthest ones among them (Douglas, Peucker 1973).
+/// A closed polygon simplified to within a tolerance (Douglas, Peucker 1973). It keeps the first
+/// vertex and the one farthest from it.
 class Drawn {
  public:
   Drawn(const Points& polygon, double tolerance) : polygon_(polygon), tolerance_(tolerance) {

@@ -1,4 +1,4 @@
-// What can be seen of a map on a mesh: whether, and where, the picture lies over itself.
+// Visible folds and overlaps of a map on a mesh: whether there are any, and where.
 #pragma once
 
 #include <optional>
@@ -8,24 +8,28 @@
 namespace holomorph {
 
 struct Injectivity {
-  /// How often the boundary's image turns, drawn to 3e-4 of its size: 1, and 1 more for each zero
-  /// of f' of a conformal map, around which the picture folds; -1 for a picture on its back.
-  /// Smaller loops, as corners of outlines leave them, cannot be seen.
+  /// Turning number of the boundary's image after simplification to 3e-4 of its size. It is 1
+  /// without folds and -1 for a mirrored picture. For a conformal map, each zero of f' adds 1, and
+  /// the picture folds around it. Smaller loops, such as those left at corners of outlines, are not
+  /// visible and do not count.
   double turning_number = 1;
-  /// Where the picture is turned over, posed: a place for each part, the largest part first; none
-  /// when all of them are less than 1e-4 of its area. If nothing is turned over and the boundary
-  /// still turns more than once, where most is pressed to nothing: near a zero of f'.
+  /// Posed positions of the flipped regions, one for each, the largest region first; empty when all
+  /// of them together are less than 1e-4 of the picture's area. If nothing is flipped but the
+  /// turning number is not 1, the position where the picture is compressed most, which is near a
+  /// zero of f'.
   Points folds_at;
-  /// The least |f_z| - |f_zbar| of the triangles, but for a thousandth of the picture: the factor
-  /// of the most shrunken direction; below 0 where it is turned over.
+  /// The smallest |f_z| - |f_zbar| of the triangles, ignoring the worst thousandth of the picture:
+  /// the scale factor in the most compressed direction. It is negative where the picture is
+  /// flipped.
   double least_stretch = 1;
-  /// Where the boundary's image crosses itself: parts may lie over each other without a fold.
+  /// Where the boundary's image crosses itself. Parts may then overlap without a fold.
   std::optional<Complex> crossing;
 
   bool folds() const { return !folds_at.empty() || std::abs(turning_number - 1) > 0.01; }
 };
 
-/// Of the map that takes the mesh's vertices to f. Cost: linear, and n log n in the boundary.
+/// Analyzes the map that takes the mesh's vertices to f. Cost: linear, plus n log n in the
+/// boundary.
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// A grid over the posed triangles finds the starts; a step of Newton's method is shortened until it
-// brings the point nearer.
+// A grid over the posed triangles provides the starting points of Newton's method. A step is halved
+// until it reduces the residual.
 #include "core/maps/inverse.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 1e-4;  ///< of the control points' box: twice the error of `flattened`
-constexpr double kSame = 1e-7;  ///< of the size: nearer to each other, preimages are one
+constexpr double kNear = 1e-4;  ///< of the control points' box; twice the error of `flattened`
+constexpr double kSame = 1e-7;  ///< of the size; preimages closer than this are the same
 constexpr double kOn = 1e-12;
 constexpr double kBranch = 1e-5;
-constexpr double kOnCurve = 8;  ///< roundings that a mesh's boundary is off its curve
+constexpr double kOnCurve = 8;  ///< distance of mesh boundary from its curve, in rounding errors
 
 int oriented(const std::vector<Preimage>& found) {
   int sum = 0;
@@ -55,7 +55,7 @@ void InverseMap::for_each_cell(const Box& box, Visit visit) {
     for (size_t c = low % columns; c <= high % columns; ++c) visit(cells_[r * columns + c]);
 }
 
-/// Twice over the triangles: how many a cell has, then which.
+/// Two passes over the triangles: the first counts those in each cell, the second stores them.
 void InverseMap::fill_cells() {
   const auto box_of_triangle = [&](int t) {
     Box box;
@@ -74,7 +74,7 @@ void InverseMap::fill_cells() {
   for (int t = 0; t < count; ++t)
     for_each_cell(box_of_triangle(t),
                   [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
-  constexpr double kSheared = 0.7;  // abs(f_zbar) / abs(f_z) of a triangle next to a fold
+  constexpr double kSheared = 0.7;  // above this |f_zbar| / |f_z|, a fold may be near
   const VectorXc f =
       Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
   for (int t = 0; t < count; ++t) {
@@ -131,14 +131,14 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
   at.residual = std::abs(w - value.f);
   const double scale = std::abs(w) + size_, enough = 1e-15 * scale, good = 1e-11 * scale;
   for (int step = 0; step < 40 && at.residual > enough; ++step) {
-    // f_z d + f_zbar conj(d) = w - f.
+    // Solve f_z d + f_zbar conj(d) = w - f for the step d.
     const Complex miss = w - value.f;
     const double area = std::norm(value.fz) - std::norm(value.fzbar);
     Complex move = (std::conj(value.fz) * miss - value.fzbar * std::conj(miss)) / area;
     if (!is_finite(move)) return false;
     if (std::abs(move) > 0.1 * size_) move *= 0.1 * size_ / std::abs(move);
     bool nearer = false;
-    const int halves = at.residual <= good ? 1 : 8;  // rounding is not fought
+    const int halves = at.residual <= good ? 1 : 8;  // near rounding, halving does not help
     for (int half = 0; half < halves && !nearer; ++half, move *= 0.5) {
       const PointMap::Value next = map_.at(at.z + move);
       if (!(std::abs(w - next.f) < at.residual)) continue;
@@ -154,7 +154,8 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
   return at.residual <= good;
 }
 
-/// Between a curve and a chord of the mesh there may be no map to start from.
+/// The start, moved towards the center of its boundary triangle while it lies outside a curved
+/// cage. Between a curve and the mesh's chord, the map may not be defined.
 Complex InverseMap::pulled_inside(Complex start, int triangle) const {
   if (triangle < 0) return start;
   const auto [a, b, c] = mesh_.triangles[triangle];
@@ -172,7 +173,8 @@ void InverseMap::add(Complex w, Complex start, int triangle, std::vector<Preimag
   if (is_in_inner_triangle(preimage) || is_inside(preimage.z)) found.push_back(preimage);
 }
 
-/// Whether a preimage is in its own triangle and that is away from the boundary: then it is inside.
+/// Whether a preimage lies in its own triangle and no vertex of that triangle is on the boundary.
+/// Such a preimage is inside the cage.
 bool InverseMap::is_in_inner_triangle(const Preimage& preimage) const {
   if (preimage.triangle < 0) return false;
   const auto [i, j, k] = mesh_.triangles[preimage.triangle];
@@ -186,7 +188,8 @@ bool InverseMap::is_inside(Complex z) const {
   const Points& outline = flat_.points;
   const NearestPoint near = nearest_on_polygon(outline, z);
   if (near.distance > near_) return winding_number(outline, z) != 0;
-  // On the boundary rounding decides: a little inwards counts.
+  // On the boundary the result depends on rounding, so a point also counts if it is inside after a
+  // tiny step inwards.
   const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
   return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
 }
@@ -196,7 +199,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   const std::optional<int> wanted = winding(w);
   std::vector<Preimage> found = quickly(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
-  // Points slightly outside were counted. On the boundary itself the count is not defined.
+  // Points slightly outside may have been counted. On the boundary itself the count is undefined.
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
     if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
@@ -210,10 +213,10 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   return off(all) < off(found) ? all : found;
 }
 
-/// From the triangles whose images are around w, or near it.
+/// Starts from the triangles whose images contain w or are near it.
 std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) const {
   std::vector<Preimage> found;
-  constexpr double kSlack = 0.3;  // a triangle's image is not the image's triangle
+  constexpr double kSlack = 0.3;  // a triangle's image is not exactly a triangle
   constexpr int kAll = std::numeric_limits<int>::max();
   const auto try_cell = [&](size_t cell, double slack, int enough) {
     for (int i = cells_[cell].count; i-- > 0 && static_cast<int>(found.size()) < enough;) {
@@ -234,7 +237,8 @@ std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) 
   };
   try_cell(cell, 1e-9, kAll);
   if (is_enough()) return found;
-  // Between the mesh's edge and the map's, or where triangles are too coarse: look around.
+  // w may lie between the images of the mesh's boundary and of the cage, or the triangles may be
+  // too coarse here. Try the neighboring cells.
   const int column = static_cast<int>(cell) % columns_, row = static_cast<int>(cell) / columns_;
   const int enough = may_fold ? kAll : wanted ? std::max(std::abs(*wanted), 1) : 1;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
@@ -265,7 +269,7 @@ std::optional<int> InverseMap::turns(const Region& region, Complex w) const {
   return winding_.turns(loop, w);
 }
 
-/// Triangle by triangle by the argument principle, those near w first.
+/// Searches triangle by triangle with the argument principle, starting with triangles near w.
 std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
   std::vector<Preimage> found;
   std::vector<std::pair<double, int>> order;
@@ -277,7 +281,7 @@ std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
     order.emplace_back(std::abs(w - box.center()) / std::max(slack, 1e-300), static_cast<int>(t));
   }
   std::ranges::sort(order);
-  constexpr double kFarthest = 8;  // of a triangle's reach: its image is not as large
+  constexpr double kFarthest = 8;  // times a triangle's size; its image does not extend that far
   for (const auto& [distance, t] : order) {
     if (distance > 1 && (distance > kFarthest || oriented(found) == wanted)) break;
     const auto [a, b, c] = mesh_.triangles[t];
@@ -291,7 +295,7 @@ std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
   return found;
 }
 
-/// What Newton's method finds in a region from a few starts.
+/// The preimages in a region that Newton's method finds from a few starting points.
 std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const {
   const Complex a = region[0].from, b = region[1].from, c = region[2].from;
   const double area = cross(b - a, c - a), sign = area < 0 ? -1 : 1;
@@ -314,7 +318,7 @@ std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const 
   return here;
 }
 
-/// The preimages in a region around which the image turns so often.
+/// Adds the preimages in a region whose boundary's image winds around w `count` times.
 void InverseMap::search_region(const Region& region, int count, Complex w, int depth,
                                std::vector<Preimage>& found) const {
   const std::vector<Preimage> here = inside(region, w);
@@ -325,7 +329,7 @@ void InverseMap::search_region(const Region& region, int count, Complex w, int d
   const Complex a = region[0].from, b = region[1].from, c = region[2].from;
   const double size = std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
   constexpr int kDeepest = 40;
-  // Cut in four; elsewhere where a cut would go through a preimage.
+  // Cut into four parts. If a cut passes through a preimage, cut at another fraction.
   for (const double share : {0.5, 0.43, 0.59, 0.37}) {
     if (size < kBranch * size_ || depth == kDeepest) break;
     std::array<std::array<Arc, 2>, 3> halves;

@@ -1,8 +1,8 @@
-// Where a point of the posed picture comes from: all preimages of a map.
+// All preimages of a point under a map: where a point of the posed picture comes from.
 //
-// Lin, Chen 2024, 4.3 integrate around the boundary, to first order. Here the posed mesh tells
-// where preimages are, the boundary's image how many, and Newton's method on the map itself does
-// the rest.
+// Lin and Chen (2024, section 4.3) integrate around the boundary by a first-order rule. Here the
+// posed mesh locates the preimages, the winding number of the boundary's image counts them, and
+// Newton's method on the map itself refines them.
 #pragma once
 
 #include <memory>
@@ -12,42 +12,43 @@
 
 namespace holomorph {
 
-/// A point z of the rest with f(z) = w, and |f(z) - w|.
+/// A point z of the rest with f(z) = w, and the residual |f(z) - w|.
 struct Preimage {
   Complex z;
   double residual = 0;
-  int triangle = -1;    ///< of the mesh; later ones are drawn on top
-  int orientation = 1;  ///< -1 where the map turns the plane over
+  int triangle = -1;    ///< its index in the mesh; triangles with larger indices are drawn on top
+  int orientation = 1;  ///< -1 where the map reverses orientation
 };
 
 class InverseMap {
  public:
-  /// `positions` are the map at the mesh's vertices. Both the mesh and the map must outlive this.
+  /// `positions` are the values of the map at the mesh's vertices. The mesh and the map must
+  /// outlive this.
   /// Cost: linear in the triangles.
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
-  InverseMap(const InverseMap&) = delete;  // its parts refer to each other
+  InverseMap(const InverseMap&) = delete;  // its members refer to each other
   InverseMap& operator=(const InverseMap&) = delete;
 
-  /// All preimages of w inside the cage, the one drawn on top first; empty when there is none. For
-  /// w off the boundary's image they are as many as it winds around w, counted with their
-  /// orientation: all there are where the map is holomorphic, branch points as often as sheets meet
-  /// there. Residuals are mostly a few rounding errors, at most 1e-11 of the cage's size and of
-  /// |w|. Cost: about ten evaluations of the map, up to a few thousand where sheets are smaller
-  /// than triangles.
+  /// All preimages of w inside the cage, the one drawn on top first; empty when there are none. For
+  /// w off the boundary's image, their orientations add up to the winding number of that image
+  /// around w. Where the map is holomorphic, these are all preimages, and a branch point is listed
+  /// once for each sheet that meets there. Residuals are usually a few rounding errors, and at most
+  /// 1e-11 times the sum of the cage's size and |w|. Cost: about ten evaluations of the map, up to
+  /// a few thousand where sheets are smaller than triangles.
   std::vector<Preimage> at(Complex w) const;
 
-  /// How often the boundary's image winds around w; none when w is on it, as well as rounding can
-  /// tell.
+  /// The winding number of the boundary's image around w; empty when w lies on that image to within
+  /// rounding.
   std::optional<int> winding(Complex w) const;
 
  private:
   struct Cell {
     int first = 0, count = 0;
-    bool on_boundary = false;  ///< whether the boundary's image may be between it and its chords
-    bool may_fold = false;     ///< whether triangles here are turned over, or nearly flat
+    bool on_boundary = false;  ///< whether the boundary's image or its chords may pass through it
+    bool may_fold = false;     ///< whether triangles here are flipped or strongly sheared
   };
-  /// Three arcs around a part of the domain.
+  /// Three arcs that enclose a part of the domain.
   using Region = std::array<Arc, 3>;
 
   template <class Visit>
@@ -73,18 +74,18 @@ class InverseMap {
   Points positions_;
   const PointMap& map_;
   ImageWinding winding_;
-  Points boundary_;                          ///< the mesh's, posed
+  Points boundary_;                          ///< the mesh's boundary, posed
   std::vector<ImageWinding::Piece> pieces_;  ///< of the boundary
-  std::vector<int> piece_at_;                ///< that starts at a vertex, or -1
+  std::vector<int> piece_at_;                ///< by vertex: the piece that starts there, or -1
   double reach_ = 0;                         ///< the longest posed edge of the boundary
-  double near_ = 0;                          ///< how near to the boundary the exact test decides
+  double near_ = 0;                          ///< closer to the boundary, the exact test is used
   FlatCage flat_;
   double size_ = 1;
   std::vector<char> outer_;  ///< the mesh's boundary_marks
   Box box_;
   int columns_ = 1, rows_ = 1;
   std::vector<Cell> cells_;
-  std::vector<int> triangles_;  ///< cell by cell
+  std::vector<int> triangles_;  ///< their indices, cell by cell
 };
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// One number, the shift of one start against the other, tried at all of 200 places.
+// The only unknown is the shift between the two starting points; all of 200 values are tried.
 #include "core/outline/equal_shares.h"
 
 namespace holomorph {
@@ -6,8 +6,8 @@ namespace {
 
 constexpr Index kShifts = 200;
 
-/// Equal shares of both lengths, the source's start being `shift` / kShifts of the target's length
-/// after the target's.
+/// Equal fractions of both lengths. The source's start goes to the point that is `shift` / kShifts
+/// of the target's length after the target's start.
 Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
   const double offset = target.length() * static_cast<double>(shift) / kShifts;
   return {{{0, 0.5 * source.length()},
@@ -22,7 +22,7 @@ Complex mean(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// By how much a curve has turned at equal shares of its length, once around.
+/// The angle by which a curve has turned at equally spaced points, once around.
 std::vector<double> turning(const Polyline& curve) {
   const Points points = at_equal_lengths(curve, kShifts);
   const auto way = [&](Index i) {

@@ -1,4 +1,4 @@
-// Halving, first by what the map does, then by the neighbors' lengths.
+// Pieces are halved first according to the map, then according to the lengths of their neighbors.
 #include "core/outline/graded_cuts.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class Cutter {
          const CutRules& rules)
       : image_(image), longest_(longest), rules_(rules) {}
 
-  /// Appends what cuts the piece between `from` and `to`, both left out.
+  /// Appends the cuts of the piece between `from` and `to`, without these two.
   void halve(double from, Complex image_from, double to, Complex image_to,
              std::vector<double>& cuts) const {
     const double middle = 0.5 * (from + to);
@@ -46,7 +46,7 @@ class Cutter {
   const CutRules& rules_;
 };
 
-/// Halves pieces that are longer than their neighbors by more than kBalance.
+/// Halves pieces that are more than kBalance times as long as a neighbor.
 std::vector<double> balanced(std::vector<double> cuts, double period, size_t most) {
   for (bool changed = true; changed && cuts.size() < most;) {
     changed = false;

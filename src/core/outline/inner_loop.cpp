@@ -1,4 +1,4 @@
-// Steps of the argument are halved until each is certain.
+// Steps along the loop are halved until the change of the argument is unambiguous on each.
 #include "core/outline/inner_loop.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ Points in_steps(const Points& loop, double longest) {
   return points;
 }
 
-/// Whether a step from one value to the next may be a turn and more.
+/// Whether the argument may change by a full turn or more from one value to the next.
 bool is_uncertain(Complex from, Complex to) {
   constexpr double kRatio = 4;
   const Complex ratio = to / from;
@@ -50,7 +50,7 @@ bool is_uncertain(Complex from, Complex to) {
 }
 
 struct EdgeSample {
-  Complex from, to;  ///< places
+  Complex from, to;  ///< positions
   Complex value_from, value_to;
 };
 

@@ -1,4 +1,4 @@
-// Loops just inside of a polygon, and zeros of a holomorphic function inside of them.
+// Loops just inside a polygon, and the zeros of a holomorphic function inside a loop.
 #pragma once
 
 #include <functional>
@@ -7,14 +7,16 @@
 
 namespace holomorph {
 
-/// A polygon at this distance inside a simple, counter-clockwise one, its vertices at most three
-/// distances apart: mitres at convex corners, arcs around the others. Nearer, down to a 256th of
-/// the distance, where the loop would cross itself.
+/// A polygon at this distance inside a simple, counter-clockwise one, with miters at convex corners
+/// and arcs around the others. Its vertices are at most three times the distance apart. While the
+/// loop would cross itself, the distance is halved, up to 20 times.
 Points inner_loop(const Points& polygon, double distance);
 
-/// How often a function turns around 0 along a loop, by its values at the loop's vertices, and by
-/// more of them between neighbors that turn by more than half a radian: the zeros inside (argument
-/// principle). Cost: mostly `at`, called up to twenty times.
+/// The number of zeros of a function inside a loop, by the argument principle: its winding number
+/// around 0 along the loop. `values` are the function's values at the loop's vertices. `at`
+/// supplies more values between neighbors whose arguments differ by more than half a radian or
+/// whose moduli differ by more than a factor of four. Cost: mostly that of `at`, which is called up
+/// to twenty times.
 int zeros_inside(const Points& loop, const VectorXc& values,
                  const std::function<VectorXc(const Points&)>& at);
 

@@ -1,4 +1,4 @@
-// Curves are cut by de Casteljau's algorithm: they stay what they are.
+// Curves are cut by de Casteljau's algorithm, which does not change their shape.
 #include "core/outline/outline_basis.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A cage cut into more segments, as the maps onto outlines need them, and what is known of it at
-// points of its boundary.
+// A cage cut into more segments for the maps onto outlines, and Cauchy coordinates at points of its
+// boundary.
 #pragma once
 
 #include "core/geometry/cage.h"
@@ -10,15 +10,15 @@ namespace holomorph {
 /// Increasing parameters for each segment of a cage.
 using Cuts = std::vector<std::vector<double>>;
 
-/// The parameters at arc lengths of the flattened cage, whose points `line` has.
+/// The cage's parameters at arc lengths along the flattened cage. `line` has the points of `flat`.
 Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
              std::vector<double> lengths);
 
-/// The cage cut there. All its own vertices are kept; pieces are longer than `least` of their
-/// segment.
+/// The cage cut at these parameters. All its own vertices are kept. Cuts that would leave a piece
+/// of at most `least` in parameters are skipped.
 Cage cut(const Cage& cage, const Cuts& cuts, double least);
 
-/// Cauchy coordinates at points of the boundary, by the faster path where it is as exact.
+/// Cauchy coordinates at points of the boundary, by the faster path where it is equally accurate.
 MatrixXc coordinates_at(const Cage& cage, std::span<const BoundaryPoint> points, int order);
 
 }  // namespace holomorph

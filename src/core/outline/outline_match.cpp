@@ -1,4 +1,4 @@
-// Rows once, then targets and map in turn.
+// The rows are factored once. Then the targets and the map are updated in turn.
 #include "core/outline/outline_match.h"
 
 #include <algorithm>
@@ -15,14 +15,16 @@ namespace {
 
 constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
-constexpr double kInset = 7e-4;      ///< of the loop that zeros are counted in, in diagonals
-constexpr double kSoftInset = 5e-3;  ///< where angles may give way: corners are flattened roughly
+constexpr double kInset = 7e-4;      ///< of the loop in which zeros are counted, in diagonals
+constexpr double kSoftInset = 5e-3;  ///< the same with stiffness: corners are flattened roughly
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
-constexpr double kFar = 0.02;  ///< from the start that a basis was made for, in turns of the target
+/// A start that differs from that of the basis by this fraction of the target's length requires
+/// another basis.
+constexpr double kFar = 0.02;
 
-/// A frame of the shape's own: its first vertex at 0, its first chord along the real axis, its
-/// perimeter 1. What is computed there does not depend on where the drawing stands.
+/// The shape's own frame: its first vertex is at 0, its first chord is along the real axis, and its
+/// perimeter is 1. Results computed in this frame do not depend on the drawing's position.
 Similarity frame_of(const Cage& cage) {
   const Complex way = cage.vertex(1) - cage.vertex(0);
   return {1.0 / (way / std::abs(way) * perimeter(flattened(cage).points)), cage.vertex(0), 0};
@@ -46,14 +48,15 @@ MatrixXc with_conjugate(const MatrixXc& c, bool soft) {
   return both;
 }
 
-/// Counter-clockwise. Throws Error as check_outline does.
+/// The outline in counter-clockwise order. Throws Error as check_outline does.
 Points checked(Points points) {
   check_outline(points);
   if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
   return points;
 }
 
-/// How far two correspondences of the same outlines lie apart, in turns of the target.
+/// The largest difference between two correspondences of the same outlines, as a fraction of the
+/// target's length.
 double difference(const Correspondence& a, const Correspondence& b) {
   double most = 0;
   for (const double s : a.lengths.x) {
@@ -122,7 +125,7 @@ void OutlineFit::follow(const Points& pinned) {
     if (difference(start, built_) > kFar) build(start);
     begin(start, wanted);
     run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
-    // One pin chooses; more of them may want what no conformal map does.
+    // A single pin selects a conformal map. Several pins may ask for what no conformal map does.
     if (pins_.size() == 1 && may_refine() && !is_met()) follow_start(start);
     return;
   }
@@ -187,9 +190,10 @@ OutlineMatch OutlineFit::after(int iteration) const {
   return match;
 }
 
-// Vertices uniform in 0.3 of the source's length and 0.7 of the target's; but for the cage's
-// own, which stay, so that each of its segments is cut into parts of its own, and for those that
-// come to the target's corners: f' is a power there.
+// Vertices are uniform in 0.3 times the source's relative arc length plus 0.7 times the target's.
+// The cage's own vertices are kept, so that each of its segments is cut separately. The vertices
+// nearest to preimages of the target's corners are moved there, because f' is a power at these
+// points.
 void OutlineFit::set_up_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto share = [&](double s) {
@@ -224,7 +228,7 @@ void OutlineFit::set_up_basis(const Correspondence& start) {
     if (nearest != cuts.end()) *nearest = once;
   }
   const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
-  constexpr double kLeast = 1e-3;  // of a segment: shorter pieces are none
+  constexpr double kLeast = 1e-3;  // of a segment; shorter pieces are not cut off
   now_.basis = cut(cage_, places, kLeast);
   now_.given_basis = cut(given_, places, kLeast);
 }
@@ -235,7 +239,7 @@ void OutlineFit::set_up_samples() {
   sizes_.clear();
   for (Index e = 0; e < now_.basis.size(); ++e) {
     const Complex way = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
-    // A curve has as many unknowns as its degree, so it gets as many times the places.
+    // A curve has as many unknowns as its degree, and a proportional number of samples.
     const int degree = now_.basis.degree(e), count = kSamplesPerUnknown * degree;
     for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});
     for (int k = 0; k < degree; ++k) {
@@ -271,7 +275,7 @@ std::vector<FitTerm> OutlineFit::terms() {
     MatrixXc rows = MatrixXc::Zero(static_cast<Index>(middles_.size()), 2 * n);
     rows.rightCols(n) = unit_ * coordinates_at(now_.basis, middles_, 1).conjugate();
     terms.push_back({std::move(rows), settings_.stiffness});
-    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
+    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // fixes the constant common to both
     constant.rightCols(n).setConstant(1 / static_cast<double>(n));
     terms.push_back({std::move(constant)});
   }
@@ -307,8 +311,9 @@ Points OutlineFit::held(const Points& pinned) const {
   for (Complex& z : inside) {
     if (winding_number(target_.points(), z) != 0) continue;
     const Complex nearest = target_.nearest(z).point;
-    // A little inside, less where the outline is thin: of the places around, the deepest one. They
-    // turn from ring to ring, so that a needle narrower than the ways between is found, too.
+    // Take the deepest point of a small ring around the nearest point, smaller where the outline is
+    // thin. The directions rotate from ring to ring, so that even a needle narrower than the gaps
+    // between them is found.
     double depth = 0, step = 0.05 * target_.diagonal();
     for (int ring = 0; ring < kMostHalvings && depth == 0; ++ring, step /= 2)
       for (int k = 0; k < kWays; ++k) {
@@ -341,24 +346,25 @@ VectorXc OutlineFit::start_targets(const Correspondence& start) const {
 
 void check_outline(std::span<const Complex> outline) {
   if (outline.size() < 3)
-    throw Error(ErrorKind::bad_input, "the outline needs three points at least");
+    throw Error(ErrorKind::bad_input, "the outline needs at least three points");
   for (const Complex& z : outline)
     if (!std::isfinite(z.real()) || !std::isfinite(z.imag()))
       throw Error(ErrorKind::bad_input, "the outline has a point that is not finite");
   for (size_t i = 0; i < outline.size(); ++i)
     if (outline[i] == outline[(i + 1) % outline.size()])
       throw Error(ErrorKind::bad_input,
-                  "the outline has the same point twice at " + point_text(outline[i]), outline[i]);
+                  "the outline repeats a point; delete one of the two at " + point_text(outline[i]),
+                  outline[i]);
   if (const auto crossing = self_crossing(outline)) {
     const Complex where = crossing->point;
     throw Error(ErrorKind::bad_input, "the outline crosses itself near " + point_text(where),
                 where);
   }
-  if (signed_area(outline) == 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
+  if (signed_area(outline) == 0) throw Error(ErrorKind::bad_input, "the outline encloses no area");
 }
 
 OutlineMatch matched(const OutlineTask& task, const OutlineSettings& settings) {
-  check(task.pins.size() == task.pinned.size(), "outline: a place for each pin");
+  check(task.pins.size() == task.pinned.size(), "outline: one target for each pin");
   OutlineFit fit(task.source, task.outline, task.pins, settings);
   fit.solve(task.pinned);
   return fit.after(fit.iterations());

@@ -1,5 +1,5 @@
-// The conformal or nearly conformal map that takes one shape's outline onto another one: iterative
-// closest conformal maps (Segall, Ben-Chen 2016).
+// The conformal or nearly conformal map that takes the outline of one shape onto another outline:
+// iterative closest conformal maps (Segall, Ben-Chen 2016).
 #pragma once
 
 #include <algorithm>
@@ -13,78 +13,81 @@
 
 namespace holomorph {
 
-/// An outline is met when the two-sided Hausdorff distance is below this share of its diameter.
+/// An outline counts as matched when the two-sided Hausdorff distance is below this fraction of its
+/// diameter.
 inline constexpr double kOutlineMet = 0.01;
 
 struct OutlineSettings {
-  /// The published method: vertices at equal arc lengths, no smoothing, zeroth-order steps from an
-  /// arc-length start. Otherwise: vertices where the conformal map of the insides needs them, which
-  /// is the start, too, and steps of the first order.
+  /// The published method: vertices at equal arc lengths, no smoothing, and zeroth-order steps from
+  /// an arc-length start. Otherwise, the conformal map between the interiors is the start and
+  /// determines where vertices are needed, and the steps are of first order (eq. 13).
   bool published = false;
-  int vertices = 200;        ///< about so many along the outline, more when the cage has more
+  int vertices = 200;        ///< approximate number along the outline; more if the cage has more
   double smoothness = 0.01;  ///< alpha_h: weight of mean |h^2 f''|^2
   double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; 0: f_zbar = 0
   double pin_weight = 0.1;   ///< beta
-  /// How much turning the picture counts in the start, against mean squares of ln of the stretch.
+  /// Weight of the picture's squared rotation in the choice of the start, relative to the mean
+  /// square of ln of the stretch.
   double upright = 1;
   int most_iterations = 30;
 };
 
-/// Shapes and places; all of them may be of either orientation.
+/// The two shapes, each of either orientation, and the pins.
 struct OutlineTask {
   Cage source;
   Points outline;       ///< closed
-  Points pins, pinned;  ///< at rest and wanted
+  Points pins, pinned;  ///< positions at rest, and targets
 };
 
 /// f = C phi + conj(C) psi, with C over the basis; psi is empty for conformal maps.
 struct OutlineMatch {
   Cage basis;  ///< the source cut into more segments
   VectorXc phi, psi;
-  double rms = 0;          ///< of the source boundary's distances from the outline
-  double hausdorff = 0;    ///< the largest distance either way
-  double pins_missed = 0;  ///< the largest distance of a pin from where it was wanted
-  int pins_held = 0;       ///< that were wanted outside of the outline, and are held just inside
-  /// The number of zeros of f_z, by the argument principle, at least a thousandth of the shape's
-  /// size inside (five thousandths with stiffness). The picture folds around each zero, and each
-  /// adds one to the turning number. Where a corner is flattened, the exact f_z is 0 at the corner
-  /// itself.
+  double rms = 0;          ///< of the distances of the source boundary's image from the outline
+  double hausdorff = 0;    ///< two-sided distance of that image and the outline
+  double pins_missed = 0;  ///< the largest distance of a pin's image from its target
+  int pins_held = 0;       ///< number of targets outside the outline, which are held just inside
+  /// The number of zeros of f_z, by the argument principle, that are at least a thousandth of the
+  /// shape's size inside (five thousandths with stiffness). The picture folds around each zero, and
+  /// each zero adds one to the turning number. Where a corner is flattened, the exact f_z is 0 at
+  /// the corner itself.
   int zeros = 0;
   int iterations = 0;
-  std::vector<double>
-      energies;  ///< after each iteration, the first one before any; in units of L^2
+  /// Energies before the first iteration and after each one, in units of L^2.
+  std::vector<double> energies;
 };
 
-/// What does not depend on where pins are wanted, and the last solution.
+/// Everything that does not depend on the pins' targets, and the last solution.
 class OutlineFit {
  public:
-  /// Throws Error when the outline is open, crosses itself, encloses nothing or has less than three
-  /// points. Cost: for 200 vertices about 50 ms.
+  /// Throws Error when the outline has fewer than three points, has a point that is not finite,
+  /// repeats a point, crosses itself or encloses no area. Cost: for 200 vertices about 50 ms.
   OutlineFit(const Cage& source, const Points& outline, const Points& pins,
              const OutlineSettings& settings);
   OutlineFit(const OutlineFit&) = delete;
   OutlineFit& operator=(const OutlineFit&) = delete;
 
-  /// Cost: for 200 vertices 5 ms an iteration, and 60 ms for a basis where there are pins. Where
-  /// the outline is not met (by 0.8 % of its diameter), or f' has zeros, the conformal map itself
-  /// is followed with as many vertices as it needs: 0.1 to 1 s.
+  /// Solves from scratch for these targets of the pins. If the result misses the outline by more
+  /// than 0.8 % of its diameter, or if f' has zeros, the conformal map itself is followed with as
+  /// many vertices as it needs. Cost: for 200 vertices 5 ms per iteration, plus 60 ms for a basis
+  /// if there are pins; 0.1 to 1 s where the conformal map is followed.
   void solve(const Points& pinned);
-  /// The same, roughly: four iterations at most, from a start near the last one where there are
-  /// pins, else from the last solution.
+  /// The same with less accuracy: at most four iterations, from a start near the last one if there
+  /// are pins, else from the last solution.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return now_.given_basis; }
-  /// How many bases there have been: pins that go far need another one.
+  /// How many bases have been built. Pins that move far require another basis.
   int builds() const { return builds_; }
-  /// How many iterations the last call made.
+  /// The number of iterations of the last call.
   int iterations() const {
     return static_cast<int>(before_.iterates.size() + now_.iterates.size()) - 1;
   }
-  /// The map after so many of them.
+  /// The map after this many of them.
   OutlineMatch after(int iteration) const;
 
  private:
-  /// Relative decrease of the energy that ends the iteration.
+  /// The iteration ends when the relative decrease of the energy falls below this.
   static constexpr double kSettled = 1e-3;
 
   void build(const Correspondence& start);
@@ -95,11 +98,11 @@ class OutlineFit {
   VectorXc graded_targets() const;
   bool may_refine() const;
   bool is_met() const;
-  /// How badly the last map serves: zeros, and distances in multiples of what is accepted.
+  /// The defects of the last map: zeros, and distances relative to the accepted ones.
   struct Misses {
     int zeros = 0;
     double outline = 0, pins = 0;
-    /// One at most when the outline is met.
+    /// At most one when the outline is matched.
     double total() const { return zeros + outline + std::max(pins - 1, 0.0); }
   };
   Misses misses() const;
@@ -108,7 +111,7 @@ class OutlineFit {
   struct FitRow {
     double weight;
     Index row;
-    bool is_bend;  ///< of f'' at a middle, else of f at a sample
+    bool is_bend;  ///< a row of f'' at a midpoint; else of f at a sample
   };
   void add_ridge(MatrixXc& left, VectorXc& right) const;
   VectorXd image_sizes() const;
@@ -117,7 +120,8 @@ class OutlineFit {
   void set_up_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
-  /// Where pins can be: those wanted outside are just inside of the nearest place.
+  /// Targets that pins can reach: those outside the outline are moved just inside its nearest
+  /// point.
   Points held(const Points& pinned) const;
   VectorXc pin_targets(const Points& pinned) const;
   void project(const VectorXc& values, VectorXc& targets);
@@ -125,41 +129,41 @@ class OutlineFit {
   void run(AlternatingFit::Mode mode, double settled, int most);
 
   OutlineSettings settings_;
-  Cage given_;        ///< the source where it stands
-  Similarity frame_;  ///< of the source's own; all that follows is in it
+  Cage given_;        ///< the source as given
+  Similarity frame_;  ///< the source's own frame; all members below are in it
   Cage cage_;
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
-  Points loop_;     ///< just inside the source, where zeros are counted
+  Points loop_;     ///< just inside the source; zeros inside this loop are counted
   double unit_;     ///< L
-  Complex center_;  ///< what is fitted is f less this
-  /// None for the published method, and for strips too long for it.
+  Complex center_;  ///< f minus this is what is fitted
+  /// Null for the published method, and for strips that are too long for it.
   std::unique_ptr<ConformalStart> start_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
-  std::vector<double> cut_lengths_;  ///< of a graded basis' vertices
+  std::vector<double> cut_lengths_;  ///< arc lengths of a graded basis' vertices
   std::vector<Index> hints_;
-  Correspondence built_;  ///< what the basis was made for
+  Correspondence built_;  ///< the one that the basis was built for
   int builds_ = 0;
   bool refined_ = false;  ///< whether the basis is the graded one
   std::optional<AlternatingFit> fit_;
-  /// A basis and the maps over it that have been found.
+  /// A basis and the maps over it that were found.
   struct Stage {
-    Cage basis, given_basis;             ///< the source's cut self, in its own frame and as given
+    Cage basis, given_basis;             ///< the cut source, in its own frame and as given
     MatrixXc at_samples;                 ///< C at the samples
-    PlanarMatrix<double> slopes_inside;  ///< C' along the loop inside
+    PlanarMatrix<double> slopes_inside;  ///< C' along `loop_`
     std::vector<VectorXc> iterates;
     std::vector<double> energies;
   };
   Stage now_;
-  Stage before_;  ///< the usual fit, when another basis has replaced it; else empty
+  Stage before_;  ///< the usual fit, if another basis has replaced it; else empty
 };
 
-/// Solved from nothing.
+/// The solution of a task, from scratch.
 OutlineMatch matched(const OutlineTask& task, const OutlineSettings& settings);
 
-/// What OutlineFit would refuse an outline for.
+/// Throws Error for the outlines that OutlineFit rejects.
 void check_outline(std::span<const Complex> outline);
 
 }  // namespace holomorph

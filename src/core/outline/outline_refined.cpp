@@ -1,5 +1,5 @@
-// Where the usual fit misses the outline or folds: the conformal map itself, on vertices graded by
-// what it does, by one weighted least-squares fit.
+// Where the usual fit misses the outline or folds, one weighted least-squares fit follows the
+// conformal map itself, on vertices that are graded according to that map.
 #include <algorithm>
 
 #include "core/outline/graded_cuts.h"
@@ -11,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-constexpr double kAccepted = 0.8 * kOutlineMet;  ///< distances are measured at samples
-constexpr double kFinest = 0.01;  ///< smoothness: with more, corners are to be rounded
+constexpr double kAccepted = 0.8 * kOutlineMet;  ///< with a margin for sampling
+constexpr double kFinest = 0.01;  ///< with more smoothness, corners are meant to be rounded
 
 }  // namespace
 
@@ -30,8 +30,8 @@ OutlineFit::Misses OutlineFit::misses() const {
   return {match.zeros, match.hausdorff / accepted, match.pins_missed / accepted};
 }
 
-// A map that was iterated stays where it is the better one. Leaving the picture upright is a wish:
-// where that map is not met, the one that is stretched least may be.
+// The iterated map is kept if it is better. Keeping the picture upright is optional: where the
+// upright map cannot be matched, the least stretched one may be.
 void OutlineFit::refine() {
   const Misses before = misses();
   before_ = now_;
@@ -62,8 +62,8 @@ std::vector<double> OutlineFit::vertex_lengths() const {
   return lengths;
 }
 
-// As graded_cuts has them, all the cage's vertices and what goes to the target's corners among
-// them.
+// The vertices are those of graded_cuts. They include all the cage's vertices and the preimages of
+// the target's corners.
 void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   const double length = source_.length(), close = 1e-9 * length;
   std::vector<double> kept = vertex_lengths();
@@ -85,10 +85,10 @@ void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   rules.longest *= degree;
   rules.bent *= degree;
   rules.most /= degree;
-  constexpr double kLeastCurve = 1e-5;  // shorter pieces would bend by rounding
+  constexpr double kLeastCurve = 1e-5;  // rounding would bend shorter pieces
   if (degree > 1) rules.least = kLeastCurve;
   const Thickness thickness(source_);
-  constexpr double kOfThickness = 1.5;  // so that pieces stay short beside the other side
+  constexpr double kOfThickness = 1.5;  // keeps pieces short relative to the local thickness
   cut_lengths_ = graded_cuts(
       kept, [&](double s) { return target_.at(start(s)); },
       [&](double s) { return kOfThickness * thickness(s); }, rules);
@@ -100,8 +100,9 @@ void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   cut_lengths_.push_back(length);
 }
 
-// Targets are where the correspondence has them, and misses are weighed by the sizes of the images
-// around: where those are small f' is, too, and has no zeros if it is right to a share of itself.
+// The correspondence gives the targets. Misses are weighted by the inverse sizes of the images
+// around them: where the images are small, f' is small, too, and it has no zeros if its relative
+// error is small.
 void OutlineFit::follow_start(const Correspondence& start) {
   built_ = start;
   ++builds_;
@@ -128,8 +129,9 @@ void OutlineFit::follow_start(const Correspondence& start) {
   now_.energies = {mean_square_miss() / (unit_ * unit_)};
 }
 
-/// What is holomorphic outside has no Cauchy integral inside: curves have enough freedom for that.
-/// Weak rows hold their control points to where the correspondence has the nearest vertices.
+/// Boundary values of a function that is holomorphic outside have the Cauchy integral 0 inside, and
+/// curves have enough freedom to add such values. Weak rows therefore tie the control points to the
+/// images of boundary points near them under the correspondence.
 void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
   constexpr double kWeak = 1e-4;
   const Index rows = left.rows(), n = left.cols();
@@ -150,7 +152,7 @@ void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
 
 /// The lengths of the images of the basis' pieces.
 VectorXd OutlineFit::image_sizes() const {
-  constexpr double kLeast = 1e-13;  // of the target: what rounding leaves
+  constexpr double kLeast = 1e-13;  // of the target's diagonal; anything smaller is rounding
   VectorXd sizes(now_.basis.size());
   const auto image = [&](Index e) {
     return target_.at(built_(cut_lengths_[static_cast<size_t>(e)]));
@@ -160,11 +162,11 @@ VectorXd OutlineFit::image_sizes() const {
   return sizes;
 }
 
-/// Rows for the samples and for f'', heaviest first, as least_squares needs them.
+/// Rows for the samples and for f'', in order of decreasing weight, as least_squares requires.
 std::vector<OutlineFit::FitRow> OutlineFit::fit_rows(const VectorXd& sizes) const {
   std::vector<FitRow> rows;
   const Index n = sizes.size();
-  constexpr size_t kStride = 2;  // of the samples: as good as all of them, in half the time
+  constexpr size_t kStride = 2;  // every second sample: the same quality in half the time
   for (size_t i = 0; i < samples_.size(); i += kStride) {
     const Index e = samples_[i].segment;
     const double size = samples_[i].t == 0 ? std::min(sizes[e], sizes[(e + n - 1) % n]) : sizes[e];

@@ -1,4 +1,4 @@
-// Between corners, samples are at equal steps of the integral of one over the wanted spacing.
+// Between corners, samples are at equal steps of the integral of 1 / spacing.
 #include "core/outline/outline_samples.h"
 
 #include <algorithm>
@@ -8,11 +8,12 @@ namespace holomorph {
 namespace {
 
 constexpr Index kThicknessPoints = 600;
-constexpr double kThicknessShare = 0.5;  ///< of the radius of the largest disk that touches
+constexpr double kThicknessShare = 0.5;  ///< spacing over the radius of the largest touching disk
 
 struct CornerPlace {
   double length = 0, sharpness = 0;  ///< |pi / interior angle - 1|
-  double least = 0;  ///< where a convex corner's power is lost to rounding, in lengths
+  /// Within this fraction of the length from a convex corner, its power is lost to rounding.
+  double least = 0;
 };
 
 std::vector<CornerPlace> corners_from(const Polyline& outline, double start) {
@@ -30,7 +31,7 @@ std::vector<CornerPlace> corners_from(const Polyline& outline, double start) {
   return corners;
 }
 
-/// The wanted distance between samples.
+/// The desired distance between samples.
 class Spacing {
  public:
   Spacing(const Polyline& outline, Index count, double least)
@@ -44,13 +45,13 @@ class Spacing {
     double spacing = std::min(most_, kThicknessShare * thickness_(length));
     spacing = std::min(spacing, share(before) * (length - before.length));
     spacing = std::min(spacing, share(after) * (after.length - length));
-    constexpr double kEverywhere = 1e-5;  // this near, the map to the disk is always followed
+    constexpr double kEverywhere = 1e-5;  // the map to the disk is always followed to this spacing
     const double lost = std::min(std::max(before.least, after.least), kEverywhere) * length_;
     return std::max({spacing, least_, lost});
   }
 
  private:
-  /// Of the distance from a corner.
+  /// The spacing as a fraction of the distance from a corner.
   static double share(const CornerPlace& corner) {
     constexpr double kOfRightAngle = 0.3, kFinest = 0.12;
     if (corner.sharpness <= 0) return INFINITY;
@@ -61,10 +62,10 @@ class Spacing {
   double length_, most_, least_;
 };
 
-/// Appends the lengths from one corner, or from the start, to the next one, which is left out.
+/// Appends the lengths from one corner, or from the start, to the next corner, which is excluded.
 void append(const Spacing& spacing, const CornerPlace& from, const CornerPlace& to,
             std::vector<double>& lengths) {
-  constexpr double kStep = 0.25;  // of the spacing, for the integral
+  constexpr double kStep = 0.25;  // step of the integration, as a fraction of the spacing
   std::vector<double> at{from.length}, sum{0};
   while (at.back() < to.length) {
     const double h = spacing(at.back(), from, to),

@@ -1,4 +1,5 @@
-// The disk's own map is given by three pairs of arc lengths, improved by Nelder and Mead's simplex.
+// Three pairs of arc lengths define the automorphism of the disk. They are improved by the
+// Nelder-Mead simplex method.
 #include "core/outline/outline_start.h"
 
 #include <algorithm>
@@ -15,29 +16,30 @@
 namespace holomorph {
 namespace {
 
-/// Points of each outline, more where it is thin; and the least distance between them, of the
-/// length.
+/// The number of points of each outline (more where it is thin), and the least distance between
+/// them as a fraction of the length.
 struct Sampling {
   Index points;
   double least;
 };
 constexpr Sampling kUsual{600, 1e-5}, kSharp{1000, 1e-9};
-constexpr Index kSearched = 120;  ///< equally spaced places of each that the search looks at
+constexpr Index kSearched = 120;  ///< equally spaced points of each outline used by the search
 constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
-/// An outline seen from the disk: angles of arc lengths, and back.
+/// An outline and its Riemann map: the angle on the circle for each arc length, and the inverse.
 struct Seen {
   const Polyline* line;
   RiemannMap map;
   PeriodicCurve angle_at, length_at;
   std::vector<double> lengths;         ///< equally spaced
-  Points places = {}, on_circle = {};  ///< of those: in the plane, and e^(i angle)
+  Points places = {}, on_circle = {};  ///< points at these lengths: in the plane, and e^(i angle)
 
   double length() const { return line->length(); }
 
-  /// In the disk; what is outside the outline is just inside its nearest place.
+  /// The image of z in the disk. A point outside the outline goes just inside the image of the
+  /// nearest boundary point.
   Complex in_disk(Complex z) const {
     constexpr double kMost = 1 - 1e-9, kInside = 0.98;
     if (winding_number(line->points(), z) != 0) {
@@ -49,8 +51,8 @@ struct Seen {
   }
 };
 
-/// The inner point where a function of it and of its distance from the outline is largest, by
-/// finer and finer grids.
+/// The interior point that maximizes a function of the point and of its distance from the outline,
+/// found on successively finer grids.
 template <class Merit>
 Complex best_inside(const Polyline& outline, const Merit& merit) {
   const Box box = box_of(outline.points());
@@ -68,11 +70,11 @@ Complex best_inside(const Polyline& outline, const Merit& merit) {
         if (here > most && winding_number(outline.points(), z) != 0) most = here, best = z;
       }
   }
-  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses nothing");
+  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses no area");
   return best;
 }
 
-/// The center of a polygon's area.
+/// The centroid of a polygon's area.
 Complex centroid(const Points& polygon) {
   Complex sum = 0;
   double area = 0;
@@ -84,8 +86,8 @@ Complex centroid(const Points& polygon) {
   return polygon[0] + sum / area;
 }
 
-/// The arc length of the boundary's place nearest to a point. A deepest point has several: the
-/// first one, so that rounding does not choose.
+/// The arc length of the boundary point nearest to z. A deepest point has several nearest points;
+/// the first one is taken, so that the choice does not depend on rounding.
 double nearest_length(const Polyline& outline, Complex z) {
   constexpr double kEqual = 1 + 1e-6;
   const double least = outline.nearest(z).distance;
@@ -98,8 +100,9 @@ double nearest_length(const Polyline& outline, Complex z) {
   return 0;
 }
 
-/// Starts a list of arc lengths, once around, where the zipper is best: near the middle, and with a
-/// long step, because all else is as good as its first step is long.
+/// Rotates a list of arc lengths, once around, so that it starts where the zipper is most accurate:
+/// near the center and with a long step. The longer the first step, the more accurate all the
+/// others.
 std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& outline,
                                    Complex center) {
   constexpr double kNear = 1.4, kLonger = 1.001;
@@ -136,7 +139,8 @@ Seen seen(const Polyline& outline, Sampling sampling) {
   return result;
 }
 
-/// The map of the disk to itself that takes three points of the circle to three others, on angles.
+/// The automorphism of the disk that takes three points of the circle to three others, all given by
+/// their angles.
 class DiskMap {
  public:
   DiskMap(const std::array<double, 3>& from, const std::array<double, 3>& to) {
@@ -148,7 +152,7 @@ class DiskMap {
   Complex operator()(Complex z) const {
     return (m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1));
   }
-  /// Of a point of the circle.
+  /// The angle of the image of a point of the circle.
   double angle(Complex z) const {
     const Complex above = m_(0, 0) * z + m_(0, 1), below = m_(1, 0) * z + m_(1, 1);
     return std::arg(above * std::conj(below));
@@ -171,7 +175,7 @@ class DiskMap {
   Eigen::Matrix2cd m_;
 };
 
-/// In the unit disk, squared.
+/// The squared hyperbolic distance of two points of the unit disk.
 double hyperbolic_square(Complex z, Complex w) {
   constexpr double kFarthest = 1 - 1e-9;
   const double rho = std::abs((z - w) / (1.0 - std::conj(w) * z));
@@ -183,11 +187,11 @@ double hyperbolic_square(Complex z, Complex w) {
 
 struct ConformalStart::Search {
   Seen source, target;
-  double upright = 0;                 ///< weight of the turn's square
+  double upright = 0;                 ///< weight of the squared rotation
   Points given_pins;                  ///< in the plane
   std::vector<Complex> pins, pinned;  ///< in the disks of source and target
 
-  /// Where three arc lengths of the source go.
+  /// Three arc lengths of the source and their images on the target.
   struct Pairs {
     std::array<double, 3> from, to;
   };
@@ -202,7 +206,7 @@ struct ConformalStart::Search {
     return {from, to};
   }
 
-  /// Where places of one circle go on the other outline, in their order.
+  /// The arc lengths, on the other outline, of the images of points of one circle, in order.
   static std::vector<double> lengths_on(const Seen& to, const DiskMap& map,
                                         const Points& on_circle) {
     std::vector<double> lengths;
@@ -214,13 +218,13 @@ struct ConformalStart::Search {
     return lengths;
   }
 
-  /// The mean square of ln of the relative stretch between equal steps and these.
+  /// The mean square of ln of the relative stretch from equal steps to the steps of `lengths`.
   static double stretch(const std::vector<double>& lengths, double total) {
     double sum = 0;
     for (size_t i = 0; i < lengths.size(); ++i) {
       const double step =
           (i + 1 < lengths.size() ? lengths[i + 1] : lengths[0] + total) - lengths[i];
-      constexpr double kLeast = 1e-15;  // of a turn: points that coincide
+      constexpr double kLeast = 1e-15;  // of the whole length, for points that coincide
       const double log =
           std::log(std::max(step / total, kLeast) * static_cast<double>(lengths.size()));
       sum += log * log;
@@ -228,8 +232,7 @@ struct ConformalStart::Search {
     return sum / static_cast<double>(lengths.size());
   }
 
-  /// The mean square of ln of the relative stretch, along either outline, and the turn's; infinite
-  /// for pairs in the wrong order.
+  /// The cost described at ConformalStart's constructor; infinite for pairs in the wrong order.
   double cost(const Pairs& pairs) const {
     for (size_t k = 0; k < 3; ++k) {
       const double gap =
@@ -246,7 +249,7 @@ struct ConformalStart::Search {
            upright * turned * turned + kPinWeight * missed;
   }
 
-  /// Nelder and Mead's simplex in the three target lengths.
+  /// Minimizes the cost over the three target lengths by the Nelder-Mead simplex method.
   Pairs refined(const Pairs& start) const {
     struct SimplexVertex {
       Eigen::Vector3d x;
@@ -284,7 +287,8 @@ struct ConformalStart::Search {
     return pairs;
   }
 
-  /// By how much a picture is turned of whose boundary the searched places go there.
+  /// The angle by which the picture is rotated when the search points of its boundary go to these
+  /// arc lengths.
   double turn(const std::vector<double>& lengths) const {
     Complex from_sum = 0, to_sum = 0, both = 0;
     const double n = static_cast<double>(lengths.size());
@@ -295,7 +299,7 @@ struct ConformalStart::Search {
     return std::arg(both - std::conj(from_sum) * to_sum / n);
   }
 
-  /// Three thirds of the source to three thirds of the target, from different places.
+  /// Pairs that take thirds of the source to thirds of the target, from different starting points.
   std::vector<Pairs> by_thirds() const {
     std::vector<Pairs> starts;
     for (int offset = 0; offset < kOffsets; ++offset)
@@ -310,7 +314,7 @@ struct ConformalStart::Search {
     return starts;
   }
 
-  /// The disk's maps that take a pin to its place, by their turn.
+  /// The automorphisms of the disk that take a pin to its target, with different rotations.
   std::vector<Pairs> through_pin(Complex pin, Complex place) const {
     std::vector<Pairs> starts;
     for (int shift = 0; shift < kShifts; ++shift) {
@@ -353,12 +357,12 @@ struct ConformalStart::Search {
   }
 
   void want(const Points& places) {
-    check(places.empty() || places.size() == pins.size(), "outline start: a place for each pin");
+    check(places.empty() || places.size() == pins.size(), "outline start: one target for each pin");
     pinned.clear();
     for (const Complex& z : places) pinned.push_back(target.in_disk(z));
   }
 
-  /// Through all places that either outline is sampled at.
+  /// The correspondence through all sample points of both outlines.
   Correspondence correspondence() const {
     const DiskMap map = disk_map(chosen), back = map.inverse();
     std::vector<double> from = source.angle_at.x;
@@ -373,7 +377,7 @@ struct ConformalStart::Search {
           source.length(), from);
       add(target.angle_at.x[i], target.length(), to);
     }
-    // Each list by itself: the map is increasing, and rounding is not.
+    // Sort each list by itself: the map is increasing, but rounding may not preserve the order.
     std::ranges::sort(from);
     std::ranges::sort(to);
     return {{std::move(from), std::move(to), source.length(), target.length()},
@@ -422,7 +426,7 @@ bool ConformalStart::sharpen() {
     search_->source = std::move(source);
     search_->target = std::move(target);
   } catch (const Error&) {
-    return false;  // Vertices coincide on the way; coarser ones did not.
+    return false;  // the finer vertices coincide in the zipper; the coarser ones did not
   }
   search_->see_pins();
   return true;

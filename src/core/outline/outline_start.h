@@ -1,7 +1,8 @@
-// Where the points of one outline go on another one under the conformal map of their insides that
-// stretches the boundary least: the start of outline matching.
+// The start of outline matching: the correspondence between two outlines under the conformal map of
+// their interiors that stretches the boundary least.
 //
-// Both are mapped to the disk; what is left is one of the disk's own maps, with three parameters.
+// Both interiors are mapped to the unit disk. The remaining unknown is an automorphism of the disk,
+// which has three parameters.
 #pragma once
 
 #include <memory>
@@ -11,17 +12,18 @@
 
 namespace holomorph {
 
-/// The inner point that is farthest from a closed polyline, to rounding where one is.
+/// The interior point farthest from a closed polyline, accurate to rounding where it is unique.
 Complex deepest_point(const Polyline& outline);
 
-/// A deep point, and of those almost as deep a central one: all of a strip's axis is as deep.
+/// A central point among those that are almost as deep as the deepest point. (All points on the
+/// axis of a strip are equally deep.)
 Complex middle_point(const Polyline& outline);
 
-/// An increasing map from arc lengths of one closed curve to those of another one, one turn to one
-/// turn.
+/// An increasing map from the arc lengths of one closed curve to those of another. One turn of the
+/// source goes to one turn of the target.
 struct Correspondence {
-  PeriodicCurve lengths;  ///< the target's of the source's
-  double badness = 0;     ///< root of what was minimized
+  PeriodicCurve lengths;  ///< the target's arc lengths as a function of the source's
+  double badness = 0;     ///< square root of the minimized cost
 
   double source_length() const { return lengths.x_period; }
   double target_length() const { return lengths.y_period; }
@@ -31,37 +33,40 @@ struct Correspondence {
   Correspondence inverse() const { return {lengths.through_inverse(), badness}; }
 };
 
-/// The conformal maps of one outline's inside to another's: both seen from the disk, and which of
-/// the disk's own maps is between them.
+/// A conformal map from the interior of one outline to that of another: the Riemann maps of both,
+/// and the automorphism of the disk between them.
 class ConformalStart {
  public:
-  /// Both closed, simple and counter-clockwise, and outliving this; pins inside the source. What is
-  /// minimized is the mean square of ln of the relative stretch along both outlines, plus `upright`
-  /// times the square of the angle by which the picture is turned (with 0, how the two stand does
-  /// not matter), plus 1000 times the squares of the hyperbolic distances of the pins' images from
-  /// where they are wanted. Throws Error when an outline touches itself. Cost: about 20 ms.
+  /// Both outlines must be closed, simple and counter-clockwise, and must outlive this. The pins
+  /// are inside the source. The cost to be minimized is the mean square of ln of the relative
+  /// stretch along both outlines, plus `upright` times the squared angle by which the picture is
+  /// rotated (with 0, the orientation of the drawings does not matter), plus 1000 times the squared
+  /// hyperbolic distances of the pins' images from their targets. Throws Error when an outline
+  /// touches itself. Cost: about 20 ms.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
   ~ConformalStart();
   ConformalStart(const ConformalStart&) = delete;
   ConformalStart& operator=(const ConformalStart&) = delete;
 
-  /// Whether places of one of the outlines cannot be told apart on the disk's circle any more, as
-  /// those at the ends of strips twelve times as long as wide: no start can be found then.
+  /// Whether many points of one of the outlines coincide on the disk's boundary to within rounding,
+  /// such as those at the ends of strips twelve times as long as wide. No start can be found then.
   bool is_crowded() const;
-  /// Whether a hundredth of one of the outlines is seen from its deepest point within 5e-13 of the
-  /// whole turn: rounding may spoil the map there.
+  /// Whether some hundredth of one of the outlines covers less than 5e-13 of the disk's boundary.
+  /// Rounding may spoil the map there.
   bool is_near_crowded() const;
-  /// With pins wanted there, or without any. Cost: 3 to 25 ms.
+  /// The best correspondence for these targets of the pins, or without pins. Cost: 3 to 25 ms.
   Correspondence best(const Points& pinned = {});
-  /// Makes finer maps to the disk, which see corners that go to long parts of the other outline.
-  /// Returns false, and changes nothing, where rounding does not allow it. Cost: about 100 ms.
+  /// Computes finer maps to the disk, which resolve corners that go to long parts of the other
+  /// outline. Returns false and changes nothing where rounding does not allow this. Cost: about 100
+  /// ms.
   bool sharpen();
-  /// The last one again, by the maps that there are. Cost: 1 ms.
+  /// The last correspondence, recomputed with the present maps to the disk. Cost: 1 ms.
   Correspondence last(const Points& pinned = {});
-  /// Without pins and however the picture is turned: what is stretched least. Cost as above.
+  /// The correspondence with the least stretch, without pins and for any rotation of the picture.
+  /// Cost: that of `best`.
   Correspondence least_stretched();
-  /// The same, on from the last one, which there must be; about 4 ms.
+  /// Like `best`, but continues from the last correspondence, which must exist. Cost: about 4 ms.
   Correspondence follow(const Points& pinned);
 
  private:

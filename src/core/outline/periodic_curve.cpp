@@ -1,4 +1,4 @@
-// Slopes are weighted harmonic means of those of the chords on both sides.
+// The slope at a point is a weighted harmonic mean of the slopes of the two chords there.
 #include "core/outline/periodic_curve.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-/// The slope between two chords that are `before` and `after` wide, with these rises.
+/// The slope between two chords with the widths `before` and `after` and these rises.
 double slope_between(double before, double rise_before, double after, double rise_after) {
   if (!(before > 0 && after > 0 && rise_before > 0 && rise_after > 0)) return 0;
   const double first = 2 * after + before, second = after + 2 * before;

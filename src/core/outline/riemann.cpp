@@ -1,4 +1,5 @@
-// Points of the boundary are real once their arc is open: those seen from inside are negative.
+// Boundary points become real once their arc is opened. On the side of the interior they are
+// negative.
 #include "core/outline/riemann.h"
 
 #include <limits>
@@ -10,9 +11,9 @@
 namespace holomorph {
 namespace {
 
-/// The root in the upper half-plane; of a positive number the one with the sign of `side`.
-/// std::sqrt's care for overflow costs twice the time of all the rest: it is asked where it
-/// matters.
+/// The root in the upper half-plane; for a positive number, the root with the sign of `side`. The
+/// overflow handling of std::sqrt takes twice as long as everything else, so std::sqrt is called
+/// only where this matters.
 Complex upper_root(Complex w, double side) {
   const double size = std::sqrt(w.real() * w.real() + w.imag() * w.imag()),
                larger = std::sqrt(0.5 * (size + std::abs(w.real())));
@@ -34,7 +35,7 @@ Complex RiemannMap::straightened(const Arc& arc, Complex z) {
 }
 
 void RiemannMap::OpenPoints::open(const Arc& arc) {
-  constexpr double kFar = 1e100;  // where c is nothing next to it
+  constexpr double kFar = 1e100;  // beyond this, c is negligible
   double before = 0, before_straight = 0, before_below = 0;
   for (size_t i = 0; i < at.size(); ++i) {
     const bool infinite = std::isinf(at[i]), last = i + 1 == at.size();
@@ -72,10 +73,10 @@ Complex RiemannMap::open(const Arc& arc, Complex z) {
 
 RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex center) {
   const size_t n = polygon.size();
-  check(n >= 3, "Riemann map: a polygon of three vertices");
+  check(n >= 3, "Riemann map: a polygon with at least three vertices");
   first_ = polygon[0];
   second_ = polygon[1];
-  // Vertices that are still inside, and on the axis those that are done.
+  // Vertices that are still inside, and those already opened, which are on the real axis.
   std::vector<Complex> inside;
   for (size_t i = 2; i < n; ++i) inside.push_back(first_root(polygon[i]));
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -104,7 +105,7 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex center) {
   set_angles(done);
 }
 
-// The first vertex is at infinity, the others are squares on the negative axis.
+// The first vertex is at infinity. The others are on the negative real axis, as negative squares.
 void RiemannMap::set_angles(const OpenPoints& points) {
   const Index n = static_cast<Index>(points.at.size());
   const double first = points.at[0], u = center_.real(), v = center_.imag();
@@ -137,7 +138,7 @@ Complex RiemannMap::first_root(Complex z) const {
   return w.imag() < 0 ? -w : w;
 }
 
-/// Keeps 0 and takes a point of the upper half-plane to i.
+/// The map that fixes 0 and takes a point of the upper half-plane to i.
 RiemannMap::Arc RiemannMap::centering(Complex z) {
   return {z.imag() / std::norm(z), z.real() / std::norm(z), 0};
 }

@@ -1,8 +1,10 @@
-// Riemann maps of polygons by their boundary: the geodesic zipper (Marshall, Rohde 2007).
+// Riemann maps of polygons, computed along the boundary: the geodesic zipper (Marshall, Rohde
+// 2007).
 //
-// The domain is opened along its boundary arc by arc, each a geodesic of what is left of the plane,
-// until it is the upper half-plane. After each arc the center goes back to i and the end of the
-// boundary so far to 0, so that only what the center hardly sees is lost to rounding.
+// The boundary is opened arc by arc, each a geodesic of the remaining part of the plane, until the
+// domain is the upper half-plane. After each arc, the center is moved back to i and the end of the
+// opened boundary to 0. Rounding therefore affects only parts of the boundary with a very small
+// harmonic measure from the center.
 #pragma once
 
 #include <span>
@@ -13,28 +15,28 @@ namespace holomorph {
 
 class RiemannMap {
  public:
-  /// For the inside of a simple polygon in counter-clockwise order, three vertices at least, of
-  /// which each edge is one arc: the finer the polygon, the nearer the map to that of a smooth
-  /// curve through the vertices. `center` is the inner point that goes to 0. Throws Error where the
-  /// polygon's vertices coincide. Cost: half of vertices^2 square roots.
+  /// For the interior of a simple polygon in counter-clockwise order with at least three vertices.
+  /// Each edge is one arc: the finer the polygon, the closer the map is to that of a smooth curve
+  /// through the vertices. `center` is the interior point that goes to 0. Throws Error where the
+  /// polygon's vertices coincide. Cost: vertices^2 / 2 square roots.
   RiemannMap(std::span<const Complex> polygon, Complex center);
 
-  /// To the unit disk; for points inside. Cost: one square root for each vertex.
+  /// The image in the unit disk of a point inside. Cost: one square root for each vertex.
   Complex at(Complex z) const;
-  /// Where the polygon's vertices go on the unit circle: arguments, increasing, the first one in
-  /// (-pi, pi], the last one less than 2 pi above it.
+  /// Arguments of the images of the polygon's vertices on the unit circle. They increase; the first
+  /// is in (-pi, pi], the last is less than 2 pi above it.
   const VectorXd& angles() const { return angles_; }
-  /// The steps from each vertex's angle to the next one's, precise however small they are.
+  /// The differences from each vertex's angle to the next one's, accurate however small they are.
   const VectorXd& steps() const { return steps_; }
 
  private:
   struct Arc {
     double scale = 1, inverse_b = 0;  ///< z -> scale z / (1 - z / b) straightens the arc
-    double c = 0;                     ///< and this is its height
+    double c = 0;                     ///< the height of the straightened arc
   };
-  /// Boundary points that are open, on the real axis in their order, the last one at 0, and the
-  /// differences between neighbors: those stay exact where the points themselves cannot be told
-  /// apart.
+  /// Opened boundary points, in order on the real axis with the last one at 0, and the differences
+  /// between neighbors. The differences stay accurate even where the points themselves coincide to
+  /// within rounding.
   struct OpenPoints {
     std::vector<double> at, steps;
     void open(const Arc& arc);
@@ -49,7 +51,7 @@ class RiemannMap {
   Complex first_, second_;  ///< vertices
   std::vector<Arc> arcs_;
   Arc last_;        ///< takes the first vertex to infinity
-  Complex center_;  ///< in the half-plane
+  Complex center_;  ///< its image in the half-plane
   VectorXd angles_, steps_;
 };
 

@@ -1,4 +1,4 @@
-// Locally injective harmonic maps: the nearest ones to known maps, and the proof of their bounds.
+// Locally injective harmonic maps: those nearest to known maps, and the proof of their bounds.
 #include <catch2/catch.hpp>
 
 #include "bench/known_maps.h"
@@ -16,10 +16,11 @@ using known_maps::Known;
 using known_maps::Projection;
 
 TEST_CASE("Bounded: the energies of the specification's maps") {
-  // nu is measured on the boundary there; sampling differs, and so the last per cent.
+  // The specification measures nu on the boundary. Its sampling differs, and so does the last
+  // percent.
   struct Row {
     Known known;
-    double l2, l2_digit, l1, l1_digit;  ///< and half of their last digits
+    double l2, l2_digit, l1, l1_digit;  ///< energies, each with half a unit of its last digit
   };
   constexpr double kSampling = 0.01;
   for (const Row& row : {Row{known_maps::squared(), 0.836, 5e-4, 1.28, 5e-3},
@@ -36,7 +37,8 @@ TEST_CASE("Bounded: the energies of the specification's maps") {
     }
 }
 
-TEST_CASE("Bounded: what is certified holds ten times more densely, on the boundary and inside") {
+TEST_CASE(
+    "Bounded: certified bounds hold at ten times denser samples, on the boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
     for (const Known& known : known_maps::all()) {
       const Projection projection(known, bounds, Norm::l1);
@@ -46,14 +48,14 @@ TEST_CASE("Bounded: what is certified holds ten times more densely, on the bound
       const Points points = known_maps::dense_points(*projection.basis, projection.mesh);
       CHECK(known_maps::violation(*projection.basis, map.map, points, bounds) <= 0);
       CHECK(map.blend <= 1e-3);
-      // On from there, as in a drag.
+      // Continue from this solution, as in a drag.
       map = projection.space->nearest(projection.reference, &map);
       CHECK(map.certificate.holds);
       CHECK(known_maps::violation(*projection.basis, map.map, points, bounds) <= 0);
     }
 }
 
-TEST_CASE("Bounded: maps that keep the bounds are their own nearest") {
+TEST_CASE("Bounded: a map that keeps the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
   for (const double shear : {0.0, 0.3}) {
     const Known known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
@@ -70,14 +72,14 @@ TEST_CASE("Bounded: maps that keep the bounds are their own nearest") {
   }
 }
 
-TEST_CASE("Bounded: a certificate is refused where a bound breaks between the samples") {
+TEST_CASE("Bounded: a certificate is refused where a bound is violated between the samples") {
   const auto basis =
       std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 50, 100);
   const Certifier certifier(*basis);
   LogMap map{VectorXc::Zero(basis->size()), VectorXc::Zero(basis->size())};
   CHECK(certifier.certify(map, {}).holds);
   CHECK_FALSE(certifier.certify(map, {0.7, 1.1, 5}).holds);
-  // Two coefficients are raised: nu peaks beside a polygon vertex, between two samples.
+  // Two coefficients are raised, so nu peaks next to a polygon vertex, between two samples.
   map.w[7] = 0.9;
   map.w[8] = 0.75;
   const Points samples = basis->samples();
@@ -96,7 +98,8 @@ TEST_CASE("Bounded: a certificate is refused where a bound breaks between the sa
   CHECK(certifier.certify(map, {peak + 0.01, 0.01, 20}).holds);
 }
 
-TEST_CASE("Bounded: a certificate of Psi' is refused where a bound breaks between the samples") {
+TEST_CASE(
+    "Bounded: a certificate of Psi' is refused where a bound is violated between the samples") {
   const auto basis =
       std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 50, 100);
   const Certifier certifier(*basis);
@@ -111,13 +114,13 @@ TEST_CASE("Bounded: a certificate of Psi' is refused where a bound breaks betwee
   const double peak = (basis->values(dense) * map.w).cwiseAbs().maxCoeff();
   REQUIRE(peak > seen);
   const double between = 0.5 * (seen + peak);
-  // |f_z| is 1: each bound has its turn.
+  // |f_z| is 1, so each bound can be tested separately.
   CHECK(certifier.certify(map, {between, 0.01, 20}).failed == Bound::k);
   CHECK_FALSE(certifier.certify(map, {between, 0.01, 20}).holds);
   CHECK_FALSE(certifier.certify(map, {0.99, 1 - between, 20}).holds);
   CHECK_FALSE(certifier.certify(map, {0.99, 0.01, 1 + between}).holds);
   CHECK(certifier.certify(map, {peak + 0.01, 0.99 - peak, 1.01 + peak}).holds);
-  // The same with |f_z| scaled, and turned with the map.
+  // The same with the map scaled and rotated.
   for (const Complex factor : {Complex(2), std::polar(0.5, 1.1)}) {
     const double s = std::abs(factor);
     const LogMap turned = scaled(map, factor);
@@ -126,9 +129,9 @@ TEST_CASE("Bounded: a certificate of Psi' is refused where a bound breaks betwee
   }
 }
 
-TEST_CASE("Bounded: a certificate of Psi' knows that |f_z| lies below its chord") {
-  // l grows so steeply along the bar that e^l is far below its chord between two samples; Psi' is
-  // nearly as large as it may be at both.
+TEST_CASE("Bounded: a certificate of Psi' accounts for |f_z| lying below its chord") {
+  // l grows so steeply along the square that e^l is far below its chord between two samples. Psi'
+  // is nearly as large as it may be at both.
   const auto basis = std::make_shared<const BoundaryBasis>(
       polygon_cage(Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 25, 50);
   const Certifier certifier(*basis);
@@ -141,7 +144,8 @@ TEST_CASE("Bounded: a certificate of Psi' knows that |f_z| lies below its chord"
   }
   const double low = std::exp(-0.5 * kSteep), high = std::exp(0.5 * kSteep);
   CHECK(certifier.certify(map, {0.5, 0.9 * low, 1.1 * high}).holds);
-  // The largest chord of e^l over a piece leaves it by this much: a constant Psi' between the two.
+  // Over a piece, the chord of e^l exceeds e^l by at most this factor. A constant Psi' lies between
+  // the two.
   const double piece = std::abs(basis->pieces()[0].end - basis->pieces()[0].start);
   const double sag = std::exp(0.5 * kSteep * piece) / 2 + std::exp(-0.5 * kSteep * piece) / 2;
   REQUIRE(sag > 1.02);
@@ -150,8 +154,8 @@ TEST_CASE("Bounded: a certificate of Psi' knows that |f_z| lies below its chord"
   CHECK_FALSE(certifier.certify(map, {0.49, 0.4 * low, 1.1 * high}).holds);
 }
 
-TEST_CASE("Bounded: what goes on from another frame's map ends as near as what starts anew") {
-  constexpr double kShare = 1e-2, kGap = 1e-3;  // of the drafts' settings
+TEST_CASE("Bounded: a warm start from another frame's map ends as near as a cold start") {
+  constexpr double kShare = 1e-2, kGap = 1e-3;  // the settings of drafts
   for (const known_maps::Known& known : known_maps::all()) {
     Projection from(known, {}, known_maps::Norm::l1), to(known, {}, known_maps::Norm::l1);
     to.reference.log_fz.array() += Complex(0.3, 0.8);
@@ -168,7 +172,7 @@ TEST_CASE("Bounded: what goes on from another frame's map ends as near as what s
   }
 }
 
-TEST_CASE("Bounded: bounds that cannot be are refused") {
+TEST_CASE("Bounded: impossible bounds are refused") {
   const auto basis =
       std::make_shared<const BoundaryBasis>(polygon_cage(known_maps::bar()), 25, 100);
   for (const Bounds& bounds : {Bounds{1, 0.2, 5}, Bounds{-0.1, 0.2, 5}, Bounds{0.5, 0, 5},
@@ -176,7 +180,8 @@ TEST_CASE("Bounded: bounds that cannot be are refused") {
     CHECK_THROWS_AS(BoundedSpace(basis, {basis->samples(), {}}, {bounds}), Error);
 }
 
-TEST_CASE("A boundary basis reproduces holomorphic functions and surrounds its domain") {
+TEST_CASE(
+    "Boundary basis: it reproduces holomorphic functions, and its polygon surrounds the domain") {
   for (const Cage& cage : {polygon_cage(shapes::l_shape()), shapes::curved_star(9, 3, 0.25, 3),
                            reversed(polygon_cage(shapes::comb(4)))}) {
     const BoundaryBasis basis(cage, 60, 360);
@@ -199,7 +204,7 @@ TEST_CASE("A boundary basis reproduces holomorphic functions and surrounds its d
   }
 }
 
-TEST_CASE("The argument along a boundary is continuous and closes, zeros or not") {
+TEST_CASE("Boundary argument: it is continuous and closes, with listed zeros and without") {
   const Mesh mesh = domain_mesh(known_maps::circle(40), {600});
   const Points samples = known_maps::circle(200);
   const auto two = [](Complex z) { return (z - 0.3) * (z - 0.3) * (z + Complex(0.2, 0.5)); };
@@ -226,9 +231,9 @@ TEST_CASE("The argument along a boundary is continuous and closes, zeros or not"
   CHECK_THROWS_AS(boundary_argument(samples, VectorXc::Zero(200), {}), Error);
 }
 
-TEST_CASE("The argument turns a part of the domain the shorter way around a zero") {
-  // From the bar's left to its right the argument grows by 100 degrees below the zero and falls by
-  // 260 above it; the zero is nearer to the lower side.
+TEST_CASE("Boundary argument: around a zero, a part of the domain turns the shorter way") {
+  // From the bar's left to its right, the argument grows by 100 degrees below the zero and falls by
+  // 260 degrees above it. The zero is nearer to the lower side.
   const double bend = 80 * kPi / 180;
   const auto g = [&](Complex z) { return (z - Complex(3, -0.2)) * std::exp(-kI * bend * z / 6.0); };
   const BoundaryBasis basis(polygon_cage(known_maps::bar()), 50, 300);
@@ -243,7 +248,7 @@ TEST_CASE("The argument turns a part of the domain the shorter way around a zero
   CHECK(right / rights - left / lefts == Approx(100 * kPi / 180).margin(0.2));
 }
 
-TEST_CASE("The tree integrates along a mesh to the order of its rule") {
+TEST_CASE("Mesh tree: it integrates along a mesh to the order of its rule") {
   const auto f = [](Complex z) { return std::sin(2.0 * z) + z * z; };
   const auto f1 = [](Complex z) { return 2.0 * std::cos(2.0 * z) + 2.0 * z; };
   const auto f2 = [](Complex z) { return -4.0 * std::sin(2.0 * z) + 2.0; };
@@ -259,7 +264,7 @@ TEST_CASE("The tree integrates along a mesh to the order of its rule") {
             .cwiseAbs()
             .maxCoeff();
     CHECK(error < 1e-4);
-    if (last > 0) CHECK(error < last / 30);  // fourth order: 16 times as many, a quarter as long
+    if (last > 0) CHECK(error < last / 30);  // fourth order, with edges a quarter as long
     last = error;
   }
 }

@@ -1,4 +1,4 @@
-// The spaces L_psi and H: pins that are met, sizes that are kept, and the proof of the bounds.
+// The spaces L_psi and H: pins reach their targets, sizes are kept, and the bounds are proved.
 #include <catch2/catch.hpp>
 
 #include "bench/known_maps.h"
@@ -18,7 +18,8 @@ BoundedMap two_steps(const PsiSpace& space, const BoundedReference& reference) {
   return space.nearest(space.conformal(reference), reference, {});
 }
 
-/// Half the mean squares of |f_z| and Psi' against a reference's, on the boundary alone.
+/// Half the mean square differences of |f_z| and Psi' from those of a reference, on the boundary
+/// alone.
 double distance_in_h(const Projection& projection, const BoundedReference& reference,
                      const LogMap& map) {
   const MatrixXc c = projection.basis->values(projection.points.boundary);
@@ -30,7 +31,8 @@ double distance_in_h(const Projection& projection, const BoundedReference& refer
 
 }  // namespace
 
-TEST_CASE("L_psi and H: what is certified holds ten times more densely, boundary and inside") {
+TEST_CASE(
+    "L_psi and H: certified bounds hold at ten times denser samples, on the boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
     for (const Known& known : known_maps::all()) {
       const Projection projection(known, bounds, known_maps::Norm::l1);
@@ -46,7 +48,7 @@ TEST_CASE("L_psi and H: what is certified holds ten times more densely, boundary
     }
 }
 
-TEST_CASE("L_psi and H: maps that keep the bounds are their own nearest") {
+TEST_CASE("L_psi and H: a map that keeps the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
   const Known known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
                     [=](Complex) { return 0.3 * std::conj(slope); }};
@@ -57,13 +59,13 @@ TEST_CASE("L_psi and H: maps that keep the bounds are their own nearest") {
         two_steps(space, convex ? space.convexified(projection.reference) : projection.reference);
     const MatrixXc c = projection.basis->values(projection.mesh.vertices);
     const auto [phi, psi] = derivatives_of(map.map, c * map.map.l, c * map.map.w);
-    // As exact as the programs are solved.
+    // To the accuracy with which the programs are solved.
     CHECK((phi.array() - slope).abs().maxCoeff() <= 5e-3);
     CHECK((psi.array() - 0.3 * slope).abs().maxCoeff() <= 5e-3);
   }
 }
 
-TEST_CASE("H: its convex distance is below that of every map within the bounds") {
+TEST_CASE("H: its convex distance is at most that of every map within the bounds") {
   bool nearer = false;
   for (const Known& known : known_maps::all()) {
     const Bounds bounds{0.5, 0.5, 1.5};
@@ -85,7 +87,7 @@ TEST_CASE("H: its convex distance is below that of every map within the bounds")
                  of_psi = distance_in_h(projection, g, two_steps(space, g).map);
     CHECK(of_h <= of_psi + kGap);
     nearer = nearer || of_h < of_psi - 10 * kGap;
-    CHECK(lowest > 1e-4);  // all six leave these bounds
+    CHECK(lowest > 1e-4);  // all six references violate these bounds
     for (Index i = 0; i < h.psi.size(); ++i) {
       const double r = std::exp(h.log_fz[i].real()), size = std::abs(h.psi[i]);
       REQUIRE(size <= bounds.k * r);
@@ -96,8 +98,8 @@ TEST_CASE("H: its convex distance is below that of every map within the bounds")
   CHECK(nearer);
 }
 
-TEST_CASE("L_psi: pins are met where the bounds allow it, the better the more they weigh") {
-  // f = z + conj(0.3 z + 0.1 z^2) takes the pins where they are wanted; the reference is z.
+TEST_CASE("L_psi: pins reach their targets where the bounds allow it, closer with more weight") {
+  // f = z + conj(0.3 z + 0.1 z^2) takes the pins to their targets. The reference is z.
   const Known identity{"z", shapes::l_shape(), [](Complex) { return Complex(1); },
                        [](Complex) { return Complex(0); }};
   const double size = box_of(identity.domain).diagonal();

@@ -25,7 +25,7 @@ SampledMap sampled(const Points& points, F f, Fz fz, Fzbar fzbar) {
 
 }  // namespace
 
-TEST_CASE("Distortion of an affine map is its singular values'") {
+TEST_CASE("Distortion: an affine map's measures follow from its singular values") {
   const Complex a{1.5, 0.5}, b{0.3, -0.2};
   const auto map = sampled(
       {{0, 0}, {3, 4}}, [&](Complex z) { return a * z + b * std::conj(z); },
@@ -42,7 +42,8 @@ TEST_CASE("Distortion of an affine map is its singular values'") {
   CHECK(d.k[0] == Approx((sigma[0] - sigma[1]) / (sigma[0] + sigma[1])));
 }
 
-TEST_CASE("The zeros of the derivative, the turning number and flips are found") {
+TEST_CASE(
+    "Map report: zeros of the derivative, the turning number and flipped triangles are found") {
   const Mesh mesh = domain_mesh(shapes::star(40, 0.05, 6), {2000});
   const Complex zero{215, 190};
   const auto square = sampled(
@@ -82,7 +83,7 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
     CHECK(found.folds() == (std::abs(a) < std::abs(b)));
     CHECK(found.turning_number == Approx(found.folds() ? -1 : 1));
   }
-  // z^3 + 3 r z presses everything to nothing near its branch points.
+  // z^3 + 3 r z compresses the picture almost to a point near its branch points.
   VectorXc f(static_cast<Index>(mesh.vertices.size()));
   for (Index i = 0; i < f.size(); ++i) {
     const Complex z = mesh.vertices[static_cast<size_t>(i)] - Complex(20, 15);
@@ -96,10 +97,10 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
                  std::abs(found.folds_at[0] + Complex(0, 2 * 216))) < 120);
 }
 
-TEST_CASE("Injectivity: loops that cannot be seen are no folds, others are") {
+TEST_CASE("Injectivity: visible loops are folds, loops too small to be seen are not") {
   const Mesh mesh = domain_mesh(shapes::rectangle(400, 300), {3000});
   for (const double reach : {2.0, 120.0}) {
-    // A corner is turned over.
+    // A corner is flipped.
     VectorXc f(static_cast<Index>(mesh.vertices.size()));
     for (Index i = 0; i < f.size(); ++i) {
       const Complex z = mesh.vertices[static_cast<size_t>(i)];

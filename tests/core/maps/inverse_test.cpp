@@ -13,7 +13,7 @@ using shapes::curved_star;
 
 namespace {
 
-/// A map from a rest to a pose, with what its inverse needs.
+/// A map from a rest to a pose, with everything that its inverse needs.
 struct Warp {
   Cage rest, pose;
   Mesh mesh;
@@ -55,7 +55,7 @@ Points inner_points(const Cage& cage, int count, unsigned seed, double near_boun
 
 }  // namespace
 
-TEST_CASE("Inverse: every point of a random map comes back, next to the boundary, too") {
+TEST_CASE("Inverse: every point of a random map is recovered, also next to the boundary") {
   int points = 0, failed = 0;
   double worst = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -69,7 +69,7 @@ TEST_CASE("Inverse: every point of a random map comes back, next to the boundary
       double best = 1e300;
       for (const Preimage& p : found) best = std::min(best, std::abs(p.z - z));
       ++points;
-      // Where the map is flat its inverse is steep.
+      // Where the map has a small derivative, its inverse has a large one.
       const double steep = 1 / std::max(std::abs(warp.map->at(z).fz), 1e-3);
       if (best > 1e-9 * steep)
         ++failed;
@@ -96,7 +96,7 @@ TEST_CASE("Inverse: curved to curved and back is the identity to 1e-9") {
   }
 }
 
-TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
+TEST_CASE("Inverse: no preimage outside, and all preimages where the picture overlaps itself") {
   // A long bar bent by 400 degrees overlaps itself.
   Points bar, bent;
   for (int i = 0; i <= 40; ++i) bar.push_back({20.0 * i, 0});
@@ -124,7 +124,7 @@ TEST_CASE("Inverse: none outside, and all where the picture lies over itself") {
   CHECK(warp.inverse->at({NAN, 0}).empty());
 }
 
-TEST_CASE("Inverse: points of the boundary come back, on concave outlines, too") {
+TEST_CASE("Inverse: points of the boundary are recovered, also on concave outlines") {
   for (const bool clockwise : {false, true}) {
     Cage rest = polygon_cage(shapes::l_shape()), pose = rest;
     pose.segments[2][0] += Complex(20, 10);
@@ -141,7 +141,7 @@ TEST_CASE("Inverse: points of the boundary come back, on concave outlines, too")
   }
 }
 
-TEST_CASE("Inverse: far from the origin rounding swallows nothing") {
+TEST_CASE("Inverse: far from the origin, no preimage is lost to rounding") {
   Cage rest = polygon_cage(shapes::l_shape()), pose = rest;
   for (Cage* cage : {&rest, &pose})
     for (Points& segment : cage->segments)
@@ -153,7 +153,7 @@ TEST_CASE("Inverse: far from the origin rounding swallows nothing") {
   CHECK(warp.inverse->at({0, 0}).empty());
 }
 
-TEST_CASE("Inverse: the identity's is the identity") {
+TEST_CASE("Inverse: the inverse of the identity is the identity") {
   const Warp warp(curved_star(6, 3, 0.3, 5), curved_star(6, 3, 0.3, 5));
   for (const Complex z : inner_points(warp.rest, 100, 1, 0.5)) {
     const auto found = warp.inverse->at(z);
@@ -164,14 +164,15 @@ TEST_CASE("Inverse: the identity's is the identity") {
 
 namespace {
 
-/// How often a map's boundary winds around w, by very many points; none close to it.
+/// The winding number around w of the boundary's image, from very many points; empty when w is too
+/// close to it.
 std::optional<int> wound(const Warp& warp, Complex w) {
   double turn = 0;
   constexpr int kSteps = 20000;
   for (Index e = 0; e < warp.rest.size(); ++e) {
     Complex last = warp.map->at(warp.rest.vertex(e)).f;
     for (int k = 1; k <= kSteps; ++k) {
-      // Denser towards the vertices, where the derivative is not bounded.
+      // Denser towards the vertices, where the derivative is unbounded.
       const double x = static_cast<double>(k) / kSteps, t = x * x * x * (10 - 15 * x + 6 * x * x);
       const Complex next =
           warp.map->at(k == kSteps ? warp.rest.vertex(e + 1) : position_of(warp.rest, {e, t})).f;
@@ -196,7 +197,7 @@ TEST_CASE("Inverse: a sheet that lies within a triangle at the boundary is found
   CHECK(nearest <= 1e-9);
 }
 
-TEST_CASE("Inverse: preimages are as many as the boundary's image winds around, with overlaps") {
+TEST_CASE("Inverse: the number of preimages is the winding number of the boundary's image") {
   for (const unsigned seed : seeds_of("preimages", {31, 32, 33})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -221,7 +222,7 @@ TEST_CASE("Inverse: preimages are as many as the boundary's image winds around, 
       INFO("seed " << seed << ", round " << round << ": " << wrong << " of " << queries);
       CHECK(queries > 30);
       CHECK(wrong == 0);
-      // The winding number itself, independently.
+      // Check the winding number itself independently.
       for (int k = 0; k < 2; ++k) {
         const Complex z = inner_points(rest, 1, random(), 1)[0], w = warp.map->at(z).f;
         if (const auto judged = wound(warp, w)) CHECK(warp.inverse->winding(w) == judged);
@@ -230,10 +231,8 @@ TEST_CASE("Inverse: preimages are as many as the boundary's image winds around, 
   }
 }
 
-TEST_CASE(
-    "Inverse: by every method with maps at single points, a point comes back next to the "
-    "boundary") {
-  constexpr double kAccurate = 1e-11;  // of the size and of |w|: what the header promises
+TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered") {
+  constexpr double kAccurate = 1e-11;  // of the size plus |w|, as the header states
   for (const unsigned seed : seeds_of("inverses of all methods", {41}))
     for (const Method& method : methods())
       for (const bool curved : {false, true}) {
@@ -258,7 +257,7 @@ TEST_CASE(
         for (const Complex z : inner_points(rest.cage, 40, random(), 0.7)) {
           const PointMap::Value there = at->at(z);
           const double squeezed = std::abs(std::abs(there.fz) - std::abs(there.fzbar));
-          if (squeezed < 0.05) continue;  // next to a fold two preimages are nearly one
+          if (squeezed < 0.05) continue;  // next to a fold, two preimages nearly coincide
           const auto found = inverse.at(there.f);
           double nearest = 1e300;
           for (const Preimage& p : found) {
@@ -270,7 +269,7 @@ TEST_CASE(
           INFO(method.id << (curved ? ", curved" : "") << ", seed " << seed << ", z " << z.real()
                          << " " << z.imag() << ", " << found.size() << " found");
           CHECK(nearest <= 1e-6);
-          // Where nothing is turned over, and w is not on the boundary, all are counted.
+          // Unless w is on the boundary's image, all preimages are counted.
           const auto wanted = inverse.winding(there.f);
           int sum = 0;
           for (const Preimage& p : found) sum += p.orientation;
@@ -279,7 +278,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("Inverse: a branch point counts as often as sheets meet in it") {
+TEST_CASE("Inverse: a branch point counts once for each sheet that meets there") {
   // z^2 along the boundary of a square around 0 winds twice around 0.
   Points square;
   for (int k = 0; k < 400; ++k) {
@@ -291,7 +290,7 @@ TEST_CASE("Inverse: a branch point counts as often as sheets meet in it") {
   for (const Complex& z : square) squared.push_back(z * z / 100.0);
   const Warp warp(polygon_cage(square), polygon_cage(squared), 800);
   Complex branch = 0;
-  for (int step = 0; step < 50; ++step) {  // where f' is 0, by its secant
+  for (int step = 0; step < 50; ++step) {  // the zero of f', by the secant method
     const double h = 1e-3;
     const Complex slope = warp.map->at(branch).fz,
                   bend = (warp.map->at(branch + h).fz - warp.map->at(branch - h).fz) / (2 * h);

@@ -1,12 +1,13 @@
-// How far outlines of many kinds are met, measured apart from what the method says of itself.
+// How well outlines of many kinds are matched, measured independently of the method's own report.
 //
-// outline_pairs random SEED COUNT: random smooth shapes onto random outlines, some with limbs
-// outline_pairs stars SEED COUNT: random star-shaped polygons with 4 to 13 corners
-// outline_pairs hard FOLDER [NAME]: all combinations of hard shapes, animals out of the folder
-// outline_pairs check FOLDER: some of each of fresh seeds, for a test
+//   outline_pairs random SEED COUNT: random smooth shapes onto random outlines, some with limbs
+//   outline_pairs stars SEED COUNT: random star-shaped polygons with 4 to 13 corners
+//   outline_pairs hard FOLDER [NAME]: all pairs of hard shapes, with animals from the folder
+//   outline_pairs check FOLDER: some of each kind with fresh seeds, as a test
 //
-// Ends with 1 when more than one in a hundred misses by 1 % of the diameter or folds. Pairs are
-// excepted where a hundredth of a boundary has harmonic measure below 1e-12 from the deepest point.
+// The exit status is 1 when more than one pair in a hundred misses by 1 % of the diameter or folds.
+// Pairs are exempt when some hundredth of a boundary has a harmonic measure below 1e-12 from the
+// deepest point.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -42,7 +43,8 @@ Points counter_clockwise(Points points) {
   return points;
 }
 
-/// Values of f or f' along a polygon, more of them until neighbors are near by `far`.
+/// Values of f or f' along a polygon. Points are added until no two neighboring values are `far`
+/// apart.
 template <class Far>
 Points along(const OutlineMatch& match, Points places, int order, const Far& far) {
   const auto values = [&](const Points& at) {
@@ -78,7 +80,7 @@ Points along(const OutlineMatch& match, Points places, int order, const Far& far
   return f;
 }
 
-/// A loop inside a polygon at this distance: mitres at convex corners, arcs at the others.
+/// A loop inside a polygon at this distance, with miters at convex corners and arcs at the others.
 Points inset(const Points& polygon, double distance) {
   Points inner;
   const size_t n = polygon.size();
@@ -130,7 +132,7 @@ Judged judge(const OutlineMatch& match, const Points& source, const Points& targ
                            far_from(outlines::with_steps(wanted, 5e-4 * size), got)) /
                   size;
   const double own = diameter(source);
-  double distance = 1e-3 * own;  // nearer to the boundary where that crosses itself
+  double distance = 1e-3 * own;  // closer to the boundary if the loop crosses itself
   while (self_crossing(inset(source, distance))) distance /= 2;
   const Points loop = inset(source, distance);
   const Points start = outlines::with_steps(Polyline(loop, true), 1e-3 * own);
@@ -190,7 +192,7 @@ Row report(const std::string& name, const Points& source, const Points& target, 
   row.met = judged.missed < 0.01;
   row.whole = judged.zeros == 0;
   std::printf("%-28s %-8s %7.3f %% zeros %3d vertices %4d steps %2d %6.0f ms", name.c_str(),
-              row.excepted ? "excepted"
+              row.excepted ? "exempt"
               : row.good() ? "ok"
                            : "MISS",
               100 * judged.missed, judged.zeros, static_cast<int>(match.basis.size()),
@@ -201,7 +203,7 @@ Row report(const std::string& name, const Points& source, const Points& target, 
   return row;
 }
 
-/// Prints the sum; whether 99 of 100 are good.
+/// Prints a summary. Returns whether 99 of 100 pairs are good.
 bool summary(const char* what, std::vector<Row> rows) {
   std::erase_if(rows, [](const Row& row) { return row.excepted; });
   if (rows.empty()) return true;
@@ -227,7 +229,7 @@ Points cage_in(const std::string& path) {
   return points;
 }
 
-/// A star-shaped polygon of uneven corners.
+/// A star-shaped polygon with irregular corners.
 Points star(unsigned seed) {
   std::mt19937 random(seed);
   const auto number = [&](double low, double high) {
@@ -240,7 +242,7 @@ Points star(unsigned seed) {
   return points;
 }
 
-/// The hard shapes, and animals out of a folder.
+/// The hard shapes, and animals from a folder.
 std::vector<std::pair<std::string, Points>> shapes_with_animals(const std::string& folder) {
   auto shapes = outlines::hard_shapes();
   for (const char* animal : {"gecko", "giraffe", "octopus", "fish", "snake"})
@@ -291,7 +293,7 @@ bool check_fresh(const std::string& folder) {
   const bool hard = summary("hard", hard_pairs(folder, [&](const auto& from, const auto& to) {
                               const bool wanted = random() % kOneIn == 0;
                               return wanted && from != "spiral" && from != "snake" &&
-                                     to != "spiral" && to != "snake";  // excepted, and slow
+                                     to != "spiral" && to != "snake";  // exempt, and slow
                             }));
   return smooth && cornered && hard;
 }

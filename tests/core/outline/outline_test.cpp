@@ -1,4 +1,4 @@
-// Outlines onto outlines: the parts, and the whole.
+// Maps of outlines onto outlines: the parts of the method, and the whole.
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
 
@@ -52,7 +52,7 @@ struct Onto {
 
 }  // namespace
 
-TEST_CASE("Riemann map: of a disk it is a map of the disk to itself") {
+TEST_CASE("Riemann map: for a disk, it is an automorphism of the disk") {
   const Complex middle(3, 1), center(3.5, 1.2);
   constexpr double kArcs = 2e-6;  // 400 vertices, each arc a third-order fit
   const RiemannMap map(circle(middle, 2, 400), center);
@@ -68,12 +68,12 @@ TEST_CASE("Riemann map: of a disk it is a map of the disk to itself") {
   const VectorXd& angles = map.angles();
   for (Index i = 1; i < angles.size(); ++i) REQUIRE(angles[i] > angles[i - 1]);
   CHECK(angles[angles.size() - 1] < angles[0] + 2 * kPi);
-  for (Index i = 3; i < angles.size(); i += 40)  // the first arcs are the least exact
+  for (Index i = 3; i < angles.size(); i += 40)  // the first arcs are the least accurate
     CHECK(std::abs(std::polar(1.0, angles[i]) -
                    turn * exact(middle + 2.0 * std::polar(1.0, 2 * kPi * i / 400.0))) <= 1e-4);
 }
 
-TEST_CASE("Riemann map: it does not depend on where the outline stands") {
+TEST_CASE("Riemann map: it does not depend on the position, rotation or size of the outline") {
   const Points outline = outlines::random(5, true, 300);
   const Complex factor = std::polar(2.0, 0.9), shift(40, -7);
   const RiemannMap map(outline, 0), other(moved(outline, factor, shift), shift);
@@ -86,7 +86,7 @@ TEST_CASE("Riemann map: an outline that touches itself is refused") {
   CHECK_THROWS_AS(RiemannMap(Points{{0, 0}, {1, 0}, {1, 0}, {0, 1}}, {0.2, 0.2}), Error);
 }
 
-TEST_CASE("Polyline: the nearest point is that of a search through all segments") {
+TEST_CASE("Polyline: the nearest point agrees with a search through all segments") {
   for (const bool closed : {true, false}) {
     const Points points = outlines::random(3, true, 157);
     const Polyline line(points, closed);
@@ -121,7 +121,7 @@ TEST_CASE("Polyline: it is resampled at equal lengths and in short steps") {
   CHECK(one_sided_distance(square, open) == Approx(std::hypot(1, 4)));
 }
 
-TEST_CASE("Correspondence: an outline goes to itself, wherever the two stand") {
+TEST_CASE("Correspondence: an outline goes to a moved copy of itself") {
   for (const unsigned seed : {1u, 2u, 7u}) {
     const Points outline = outlines::random(seed, seed % 2, 300);
     const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
@@ -131,12 +131,12 @@ TEST_CASE("Correspondence: an outline goes to itself, wherever the two stand") {
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
             0.01 * target.diagonal());
-    // Once around is once around.
+    // One turn goes to one turn.
     CHECK(pairs(5 + source.length()) == Approx(pairs(5) + target.length()));
   }
 }
 
-TEST_CASE("Correspondence: a square is not turned on its way to a circle or an ellipse") {
+TEST_CASE("Correspondence: a square is not rotated when it is mapped to a circle or an ellipse") {
   const Polyline square(Points{{-200, -200}, {200, -200}, {200, 200}, {-200, 200}}, true);
   for (const double height : {1.0, 0.7}) {
     Points round = circle(0, 250, 200);
@@ -150,7 +150,9 @@ TEST_CASE("Correspondence: a square is not turned on its way to a circle or an e
   }
 }
 
-TEST_CASE("Alternating fit: fixed targets are met by least squares, moving ones ever better") {
+TEST_CASE(
+    "Alternating fit: fixed targets give the least squares solution, moving ones decreasing "
+    "energies") {
   const Cage cage = polygon_cage(outlines::random(4, false, 40));
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < cage.size(); ++e)
@@ -197,12 +199,13 @@ TEST_CASE("Alternating fit: fixed targets are met by least squares, moving ones 
   CHECK(after[2] < after[0]);
 }
 
-TEST_CASE("Outline: random shapes go onto random outlines, without folds") {
+TEST_CASE("Outline: random shapes are mapped onto random outlines without folds") {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Cage cage = polygon_cage(outlines::random(seed, seed % 2, 50));
     const Points outline = outlines::random(seed + 100, seed % 3 == 0, 400);
     INFO("seed " << seed);
-    // The boundary itself, densely: the mesh's is coarse where limbs are stretched.
+    // Dense samples of the boundary itself: the mesh's boundary is coarse where limbs are
+    // stretched.
     const OutlineMatch match = matched({cage, outline, {}, {}}, {});
     CHECK(match.zeros == 0);
     CHECK(match.psi.size() == 0);
@@ -216,7 +219,7 @@ TEST_CASE("Outline: random shapes go onto random outlines, without folds") {
   }
 }
 
-TEST_CASE("Outline: shapes with limbs and corners go onto each other, without folds") {
+TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other without folds") {
   const Points letter{{0, 0},     {200, 0},  {200, 60}, {60, 60},   {60, 130},  {170, 130},
                       {170, 190}, {60, 190}, {60, 260}, {200, 260}, {200, 320}, {0, 320}},
       bar{{-300, -30}, {300, -30}, {300, 30}, {-300, 30}}, round = circle(0, 100, 120);
@@ -232,7 +235,8 @@ TEST_CASE("Outline: shapes with limbs and corners go onto each other, without fo
   }
 }
 
-TEST_CASE("Outline: moving, turning or scaling either shape changes nothing but the frame") {
+TEST_CASE(
+    "Outline: moving, rotating or scaling either shape only changes the frame of the result") {
   constexpr double kRounding = 1e-7;  // of the zipper's 800 arcs, in units of the outline
   const Points shape = outlines::random(11, true, 50), outline = outlines::random(12, false, 300);
   const Complex factor = std::polar(4.0, 0.8), shift(30, 50);
@@ -252,7 +256,7 @@ TEST_CASE("Outline: moving, turning or scaling either shape changes nothing but 
                 inner, moved(inner, factor, shift), 1, 0) <= kRounding);
   CHECK(differs(matched({polygon_cage(moved(shape, 4, 0)), moved(outline, 4, 0), {}, {}}, settings),
                 inner, moved(inner, 4, 0), 4, 0) <= 1e-12);
-  // Both together, as they are drawn.
+  // Both moved together, with the default settings.
   const Points pin{{10, 20}}, pinned{{40, -30}};
   for (const bool with_pin : {false, true}) {
     const auto both = [&](Complex turn, Complex move) {
@@ -268,8 +272,10 @@ TEST_CASE("Outline: moving, turning or scaling either shape changes nothing but 
   }
 }
 
-TEST_CASE("Outline: as published, a square nears a blob as the paper's figure says") {
-  // The distance falls by about ten from iteration 1 to 10, and again to 100 (SB16 fig. 2).
+TEST_CASE(
+    "Outline: with the published method, a square approaches a blob as in the paper's figure") {
+  // The distance falls by a factor of about ten from iteration 1 to 10, and again from 10 to 100
+  // (SB16 fig. 2).
   const Points square{{-200, -200}, {200, -200}, {200, 200}, {-200, 200}};
   const Points blob = outlines::random(21, false, 400);
   double rms[3];
@@ -287,13 +293,13 @@ TEST_CASE("Outline: as published, a square nears a blob as the paper's figure sa
   CHECK(rms[2] < rms[1]);
 }
 
-TEST_CASE("Outline: any shape goes onto a circle, which is its Riemann map") {
+TEST_CASE("Outline: the map of a shape onto a circle is its Riemann map") {
   const Points shape = outlines::random(31, true, 120);
   const Points round = circle({700, 300}, 250, 300);
   const Onto onto(polygon_cage(shape), round);
   for (const int v : onto.rest.mesh->boundary)
     REQUIRE(std::abs(std::abs(onto.map.f[v] - Complex(700, 300)) - 250) <= 1e-3 * 500);
-  // Up to the disk's own maps it is the zipper's.
+  // Up to automorphisms of the disk, it is the zipper's map.
   const RiemannMap exact(outlines::with_steps(Polyline(shape, true), 3), 0);
   const auto cross_ratio = [](Complex a, Complex b, Complex c, Complex d) {
     return (a - c) * (b - d) / ((a - d) * (b - c));
@@ -306,13 +312,13 @@ TEST_CASE("Outline: any shape goes onto a circle, which is its Riemann map") {
         1e-2);
 }
 
-TEST_CASE("Outline: soft maps trade angles for nearness, and their derivatives are theirs") {
+TEST_CASE("Outline: soft maps give up angles to get closer, and their derivatives are correct") {
   const Cage cage = polygon_cage(Points{{-200, -100}, {200, -100}, {200, 100}, {-200, 100}});
   const Points outline = circle(0, 200, 200);
   const Onto hard(cage, outline), soft(cage, outline, {{"softness", 1}});
   CHECK(hard.map.fzbar.isZero(0));
   CHECK(soft.map.fzbar.cwiseAbs().maxCoeff() > 0.01);
-  // More freedom never costs energy.
+  // More freedom never increases the energy.
   OutlineSettings settings;
   settings.smoothness = 1;
   settings.most_iterations = 100;
@@ -337,7 +343,7 @@ TEST_CASE("Outline: soft maps trade angles for nearness, and their derivatives a
     CHECK(std::abs(points->at(soft.rest.samples[v]).f - soft.map.f[static_cast<Index>(v)]) <= 1e-7);
 }
 
-TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
+TEST_CASE("Outline: pins guide the map, and cages may be curved or clockwise") {
   const Points outline = circle(0, 300, 200);
   const Cage cage = polygon_cage(outlines::random(41, false, 40));
   const OutlineTask task{cage, outline, {{0, 0}}, {{60, 40}}};
@@ -363,8 +369,8 @@ TEST_CASE("Outline: pins guide it, curved and clockwise cages are no harder") {
   }
 }
 
-TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing folds") {
-  // Onto a disk there is one for each place and turn, however near to the edge.
+TEST_CASE("Outline: a pin selects one of the conformal maps, and nothing folds") {
+  // Onto a disk there is one map for each target and rotation, however near to the boundary.
   const Points outline = circle({20, 10}, 150, 80);
   const Complex pin(30, 0);
   OutlineFit fit(polygon_cage(circle(0, 100, 60)), outline, {pin}, {});
@@ -386,7 +392,7 @@ TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing 
       CHECK(match.pins_held == 0);
     }
   }
-  // Outside of the outline it cannot be: it is held inside.
+  // The pin cannot go outside the outline: it is held inside.
   const Complex outside = Complex(20, 10) + std::polar(400.0, 2.0);
   fit.solve({outside});
   const OutlineMatch held = fit.after(fit.iterations());
@@ -397,7 +403,7 @@ TEST_CASE("Outline: a pin chooses among the conformal maps onto it, and nothing 
   CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
 }
 
-TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing folds") {
+TEST_CASE("Outline: between shapes with corners, pins reach their targets and nothing folds") {
   const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}},
       strip{{0, 0}, {1000, 0}, {1000, 200}, {0, 200}}, round = circle({150, 150}, 150, 60);
   struct Case {
@@ -424,7 +430,7 @@ TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing f
         CHECK(match.hausdorff < 0.025 * size);  // a corner is rounded
       }
   }
-  // Beyond a side, and beyond a corner, which is no nearer place to be held at.
+  // Targets beyond a side, and beyond corners.
   OutlineFit fit(polygon_cage(square), square, {{150, 150}}, {});
   for (const Complex outside : {Complex(450, 150), Complex(400, 400), Complex(-90, -20)}) {
     fit.solve({outside});
@@ -434,7 +440,7 @@ TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing f
     CHECK(match.pins_missed < 0.01 * Polyline(square, true).diagonal());
     CHECK(match.hausdorff < 0.04 * Polyline(square, true).diagonal());
   }
-  // Beyond a tip that is narrower than the ways which are looked at around it.
+  // A target beyond a tip that is narrower than the gaps between the directions tried around it.
   const Points tip{{0, 0}, {300, -50}, {300, 50}};
   for (const double turn : {0.1, 0.3, 0.9, 2.0}) {
     const Complex way = std::polar(1.0, turn);
@@ -448,7 +454,8 @@ TEST_CASE("Outline: pins are met between shapes with corners, too, and nothing f
   }
 }
 
-TEST_CASE("Outline: strips whose ends the disk cannot tell apart are matched all the same") {
+TEST_CASE(
+    "Outline: strips are matched even if points at their ends coincide on the disk's boundary") {
   for (const double aspect : {8.0, 20.0, 40.0}) {
     INFO("aspect " << aspect);
     const double length = 100 * aspect;
@@ -468,12 +475,12 @@ TEST_CASE("Outline: strips whose ends the disk cannot tell apart are matched all
   }
 }
 
-TEST_CASE("Outline: pins that contradict each other are said to") {
+TEST_CASE("Outline: pins that contradict each other are reported") {
   const Cage cage = polygon_cage(outlines::random(41, false, 50));
   const Points around = outlines::random(42, false, 300);
   Onto onto(cage, around);
   const auto point = onto.deformer->point_map(onto.pose);
-  // Two pins where the map takes them anyway, then far nearer to each other.
+  // Two pins at the positions to which the map takes them without pins, then much closer together.
   onto.rest.pins = {{{-40, 0}}, {{40, 0}}};
   onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
   const Complex a = point->at({-40, 0}).f, b = point->at({40, 0}).f;
@@ -486,7 +493,8 @@ TEST_CASE("Outline: pins that contradict each other are said to") {
   CHECK_THAT(map.note, Catch::Contains("outside of it and held inside"));
 }
 
-TEST_CASE("Outline: pins are followed while they are dragged, and solved from nothing after that") {
+TEST_CASE(
+    "Outline: dragged pins are followed approximately, and released pins are solved from scratch") {
   const Cage cage = polygon_cage(outlines::random(41, false, 50));
   Onto onto(cage, outlines::random(42, false, 300));
   onto.rest.pins = {{{0, 0}}};
@@ -506,8 +514,8 @@ TEST_CASE("Outline: pins are followed while they are dragged, and solved from no
   CHECK(map_of({40, -24}, false) == end);
 }
 
-TEST_CASE("Outline: soft maps of curved cages, with pins, stay near what they are asked for") {
-  // As many places as unknowns at least on each curve: otherwise the map explodes between them.
+TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees of softness") {
+  // Each curve needs at least as many samples as unknowns. Otherwise the map explodes between them.
   Cage curved = shapes::curved_star(9, 3, 0.15, 4);
   const Points around = outlines::random(51, false, 300);
   for (const double softness : {0.0, 0.3, 1.0}) {
@@ -520,7 +528,7 @@ TEST_CASE("Outline: soft maps of curved cages, with pins, stay near what they ar
   }
 }
 
-TEST_CASE("Outline: what cannot be an outline is refused, with the place") {
+TEST_CASE("Outline: invalid outlines are refused") {
   const Cage cage = polygon_cage(circle(0, 100, 12));
   const auto refused = [&](const Points& outline) {
     CHECK_THROWS_AS(matched({cage, outline, {}, {}}, {}), Error);
@@ -530,12 +538,12 @@ TEST_CASE("Outline: what cannot be an outline is refused, with the place") {
   refused({{0, 0}, {1, 0}, {2, 0}});
   refused({{0, 0}, {1, 0}, {1, 0}, {0, 1}});
   refused({{0, 0}, {1, 0}, {NAN, 1}});
-  // Ten thousand points are no trouble.
+  // An outline with ten thousand points is accepted.
   const OutlineMatch fine = matched({cage, circle(3, 50, 10000), {}, {}}, {});
   CHECK(fine.hausdorff <= 0.1);
 }
 
-TEST_CASE("Outline: without an outline cage and pins act, and at rest nothing moves") {
+TEST_CASE("Outline: without an outline, nothing moves at rest") {
   const Onto onto(polygon_cage(circle({5, 5}, 100, 12)), {});
   for (size_t i = 0; i < onto.rest.samples.size(); ++i)
     REQUIRE(onto.map.f[static_cast<Index>(i)] == onto.rest.samples[i]);
