@@ -1,4 +1,5 @@
-// Lengths do not depend on how much the boundary turns, unlike a fit of vertices (DECISIONS).
+// The scale is a ratio of lengths, because a length does not depend on how much the boundary turns;
+// a least-squares fit of the vertices would (DECISIONS).
 #include "core/angles/angle_frame.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-/// Along each segment alike, its start first.
+/// Equally many samples on each segment, the first one at its start.
 std::vector<BoundaryPoint> places_along(const Cage& cage) {
   const Index per_segment = std::clamp<Index>(160 / cage.size(), 2, 8);
   std::vector<BoundaryPoint> places;
@@ -39,7 +40,7 @@ AngleFrame::AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinate
       boundary_(mesh, coordinates, at(coordinates->cage(), places_), precision) {}
 
 PlacedAngles AngleFrame::place(const VectorXd& theta, const Cage& pose) {
-  constexpr double kLeastScale = 1e-6;  // a cage that is pulled to a point
+  constexpr double kLeastScale = 1e-6;  // for a cage that is pulled to a point
   VectorXc f;
   boundary_.map(theta, f);
   const Points image(f.begin(), f.end()), wanted = at(pose, places_);
@@ -48,7 +49,8 @@ PlacedAngles AngleFrame::place(const VectorXd& theta, const Cage& pose) {
   placed.move = mean_of_vertices(wanted, places_) - placed.scale * mean_of_vertices(image, places_);
   if (!std::isfinite(placed.scale) || !is_finite(placed.move))
     throw Error(ErrorKind::bad_input,
-                "the angles bend the picture beyond all numbers; turn the corners less");
+                "the angles bend the picture so far that coordinates are not finite; turn the "
+                "corners less");
   return placed;
 }
 

@@ -1,11 +1,13 @@
-// Of all maps with given boundary angles, which one a posed cage means: its size and its place.
+// Boundary angles determine a conformal map up to scale and translation; this chooses both so that
+// the map fits a posed cage.
 #pragma once
 
 #include "core/angles/angle_map.h"
 
 namespace holomorph {
 
-/// f = scale F(theta) + move, with AngleMap's F.
+/// An angle map with its scale and translation: f = scale F(theta) + move, where F is
+/// AngleMap::map.
 struct PlacedAngles {
   VectorXd theta;
   double scale = 1;
@@ -17,12 +19,14 @@ class AngleFrame {
   AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
              Precision precision);
 
-  /// The boundary's image is as long as the posed cage, which is counter-clockwise, and the means
-  /// of both's vertices agree. Throws Error for angles that bend beyond all numbers.
+  /// Chooses the scale so that the image of the boundary is as long as the posed cage, and the
+  /// translation so that the images of the cage's vertices have the same mean as the posed
+  /// vertices. theta is in radians; `pose` must be counter-clockwise. Throws Error when the angles
+  /// bend the boundary so far that the result is not finite.
   PlacedAngles place(const VectorXd& theta, const Cage& pose);
 
  private:
-  std::vector<BoundaryPoint> places_;  ///< along the boundary, the vertices among them
+  std::vector<BoundaryPoint> places_;  ///< samples along the boundary, vertices included
   AngleMap boundary_;
 };
 

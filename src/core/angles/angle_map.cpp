@@ -1,4 +1,4 @@
-// exp(i H) is integrated from the middle outwards, the cage's vertices last.
+// exp(i H) is integrated outwards from the anchor; the cage's vertices come last.
 #include "core/angles/angle_map.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Conformal maps by the angles of their boundary: f' = exp(i H), which vanishes nowhere, so that no
-// such map folds (Weber, Gotsman 2010).
+// Conformal maps defined by their boundary angles: f' = exp(i H). The derivative never vanishes, so
+// these maps never fold (Weber, Gotsman 2010).
 #pragma once
 
 #include <variant>
@@ -12,29 +12,31 @@ namespace holomorph {
 
 class AngleMap {
  public:
-  /// For a mesh of the inside of the coordinates' cage, and the map wanted at samples in it or on
-  /// its boundary. With Precision::single H is kept in float. Cost: a row of coordinates for each
-  /// of about three places per mesh vertex.
+  /// `mesh` must be a mesh of the coordinates' cage. The map is evaluated at `samples`, which must
+  /// lie inside the cage or on its boundary. With Precision::single, H is stored in float. Cost:
+  /// one row of coordinates per quadrature point; there are about three of these per mesh vertex.
   AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
            const Points& samples, Precision precision);
 
   const HilbertCoordinates& coordinates() const { return *coordinates_; }
-  /// A mesh vertex in the middle.
+  /// The mesh vertex nearest to the deepest point of the cage.
   Complex anchor() const { return anchor_; }
 
-  /// f at the samples for boundary angles theta in radians, as many as coordinates; f(anchor) = 0
-  /// and |f'(anchor)| = 1. The angle that remains at a vertex, the inner one less theta's jump
-  /// there, must be positive. With `draft` only what theta's changes since the last call bring is
-  /// computed, which agrees to rounding. Cost: a product of places x angles, an exponential and a
-  /// sine for each place.
+  /// Evaluates f at the samples for boundary angles theta (radians, one per coordinate), with
+  /// f(anchor) = 0 and |f'(anchor)| = 1. At every vertex the inner angle minus theta's jump must be
+  /// positive. With `draft`, only the contributions of the angles that changed since the last call
+  /// are computed; the result is the same up to rounding. Cost: a matrix-vector product (quadrature
+  /// points x angles), and one exponential and one sine per quadrature point.
   void map(const VectorXd& theta, VectorXc& f, bool draft = false);
-  /// The derivatives of f at the samples by the angles of the last call, a column each. Cost: as
-  /// many integrals as angles.
+  /// The derivatives of f with respect to the angles, at the angles of the last call of map():
+  /// samples x angles. Cost: one integration per angle.
   MatrixXc changes() const;
 
-  /// Near vertex j f' is a power of the distance: its exponent for boundary angles theta.
+  /// Near vertex j, f' is asymptotically a power of the distance to that vertex. Returns the
+  /// exponents for boundary angles theta, one per vertex.
   VectorXd exponents(const VectorXd& theta) const;
-  /// H at places inside, but at no vertex, with Im H = 0 at the anchor: log f' = i H theta.
+  /// H at points inside the cage, but not at its vertices, normalized to Im H = 0 at the anchor:
+  /// points x angles, log f' = i H theta.
   MatrixXc rows(std::span<const Complex> points) const;
 
  private:
@@ -48,13 +50,13 @@ class AngleMap {
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;
   Complex anchor_;
-  Eigen::RowVectorXd at_anchor_;  ///< Im H there
+  Eigen::RowVectorXd at_anchor_;  ///< Im H at the anchor
   IntegrationPaths paths_;
   std::vector<int> nodes_of_samples_;
-  VectorXd angles_;                              ///< inside, at each vertex
-  std::variant<Parts<float>, Parts<double>> h_;  ///< H at the places, Im H = 0 at the anchor
-  VectorXd theta_, turn_, shrink_;               ///< the last ones, and Re H theta and Im H theta
-  VectorXc slopes_;                              ///< f' at the places
+  VectorXd angles_;                              ///< the inner angle at each vertex
+  std::variant<Parts<float>, Parts<double>> h_;  ///< H at the quadrature points
+  VectorXd theta_, turn_, shrink_;               ///< last angles, Re H theta, Im H theta
+  VectorXc slopes_;                              ///< f' at the quadrature points
 };
 
 }  // namespace holomorph

@@ -1,6 +1,7 @@
-// min |D (x - x_0)| where all pins are met: x = x_0 + S A^T lambda with A's rows the pins'
-// derivatives, again and again. Unknowns are the angles, the logarithm of the size, and the place.
-// Corners that come to the least angle are held there by rows of their own.
+// Each iteration minimizes |D (x - x_0)| subject to the linearized pins: x = x_0 + S A^T lambda,
+// where S = (D^T D)^-1 and the rows of A are the pins' derivatives. The unknowns x are the angles,
+// the logarithm of the scale, and the translation. An additional row holds each corner that reaches
+// the smallest angle.
 #include "core/angles/angle_pins.h"
 
 #include <Eigen/Cholesky>
@@ -12,17 +13,18 @@ namespace holomorph {
 namespace {
 
 constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
-constexpr double kMostStep = 0.5;   ///< radians of any angle in one iteration
-constexpr double kSettled = 1e-9;   ///< of the size, or radians
-constexpr double kHeldTurn = 0.05;  ///< of all angles together, against jumps and bends
+constexpr double kMostStep = 0.5;   ///< of any angle in one iteration, in radians
+constexpr double kSettled = 1e-9;   ///< relative to the size, or in radians
+constexpr double kHeldTurn = 0.05;  ///< weight of the mean angle; jumps and bends have 1
 constexpr double kHeldSize = 0.05, kHeldPlace = 0.05;
 
-/// (D^T D)^-1 for D that holds back jumps, bends and the whole.
+/// (D^T D)^-1, where D penalizes jumps, bends, and the rotation, scale and translation of the
+/// whole.
 MatrixXd softness_of(Index corners, double size) {
   const Index n = 2 * corners;
   MatrixXd held = MatrixXd::Zero(n + 4, n + 3);
   for (Index j = 0; j < corners; ++j) {
-    held(2 * j, 2 * j) = -1;  // its jump
+    held(2 * j, 2 * j) = -1;  // the corner's jump
     held(2 * j, 2 * j + 1) = 1;
     held(2 * j + 1, 2 * j + 1) = -1;  // the bend of the edge after it
     held(2 * j + 1, (2 * j + 2) % n) = 1;
@@ -79,7 +81,7 @@ AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<Pose
     by(2 * i + 1, n) = scale / size_ * f[i].imag();
     by(2 * i, n + 1) = by(2 * i + 1, n + 2) = 1 / size_;
   }
-  // log f' = i H theta + log scale, which is linear.
+  // log f' = i H theta + log scale is linear in the unknowns.
   for (Index i = 0, row = 2 * pins; i < pins; ++i) {
     if (!pins_[static_cast<size_t>(i)].has_frame) continue;
     const PosePin& target = targets[static_cast<size_t>(i)];
@@ -114,7 +116,7 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
   for (int halved = 0;;) {
     const Linear linear = linear_at(x, targets);
     const double off = linear.off.cwiseAbs().maxCoeff();
-    // Far from an answer a whole step may lead away.
+    // Far from a solution, a full step may increase the residual.
     if (off > 1.2 * least && halved < kMostHalvings) {
       ++halved;
       step *= 0.5;

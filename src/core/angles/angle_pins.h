@@ -1,5 +1,5 @@
-// Pins on a map by boundary angles: the nearest angles, size and place that take them to their
-// targets, without a fold on the way (what Weber, Gotsman 2010, sec. 7 leave open).
+// Pins on an angle map: finds the nearest boundary angles, scale and translation that take the pins
+// to their targets, without folding at any step (left open in Weber, Gotsman 2010, sec. 7).
 #pragma once
 
 #include "core/angles/angle_frame.h"
@@ -8,30 +8,32 @@ namespace holomorph {
 
 class AnglePins {
  public:
-  /// Of a counter-clockwise cage with these corners. Pins must be different points inside.
+  /// The coordinates' cage must be counter-clockwise with these corners, and the pins must be
+  /// distinct points inside it.
   AnglePins(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
             std::vector<Index> corners, std::vector<RestPin> pins);
 
   struct Answer {
     int iterations = 0;
     bool settled = true;
-    double missed = 0;           ///< the farthest that a pin is from its target
-    std::vector<Index> limited;  ///< corners, by vertex, that came to the least angle
+    double missed = 0;           ///< the largest distance of a pin from its target
+    std::vector<Index> limited;  ///< vertex numbers of corners held at the smallest angle
   };
-  /// Changes `placed` by Gauss and Newton's method, jumps and bends held back; a pin that turns
-  /// prescribes f' there. `draft` starts from the last answer and takes a few steps. Cost of a
-  /// step: as many integrals along the ways to the pins as there are angles.
+  /// Changes `placed` by Gauss-Newton steps that penalize jumps and bends of the angles. A pin with
+  /// a frame also prescribes f' at its position. With `draft`, the iteration starts from the last
+  /// answer and takes only a few steps. Cost of a step: one integration per angle along the paths
+  /// to the pins.
   Answer pull(const std::vector<PosePin>& targets, bool draft, PlacedAngles& placed);
 
  private:
-  /// What is off at unknowns x, and by what it changes with each of them.
+  /// The residuals (target minus value) at unknowns x, and the Jacobian of the values.
   struct Linear {
     VectorXd off;
     MatrixXd by;
     double missed = 0;
   };
   Linear linear_at(const VectorXd& x, const std::vector<PosePin>& targets);
-  /// How far the angles' jump at a corner may go.
+  /// The largest jump of the angles that a corner allows.
   double room(size_t corner) const;
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;
@@ -39,10 +41,10 @@ class AnglePins {
   std::vector<RestPin> pins_;
   double size_;
   AngleMap map_;
-  MatrixXc rows_;           ///< of H at pins that turn
-  MatrixXd softness_;       ///< inverse of how angles, size and place are held back
-  VectorXd last_;           ///< unknowns of the last answer
-  std::vector<char> held_;  ///< corners at the least angle
+  MatrixXc rows_;           ///< H at the pins with a frame
+  MatrixXd softness_;       ///< inverse of the penalty on angles, scale and translation
+  VectorXd last_;           ///< the unknowns of the last answer
+  std::vector<char> held_;  ///< which corners are held at the smallest angle
 };
 
 }  // namespace holomorph

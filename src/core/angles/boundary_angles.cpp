@@ -1,4 +1,5 @@
-// Turns at vertices and along segments, of both cages; their differences add up along the boundary.
+// Measures how far both cages turn at each vertex and along each segment, and sums the differences
+// along the boundary.
 #include "core/angles/boundary_angles.h"
 
 #include <algorithm>
@@ -13,9 +14,9 @@ double angle_between(Complex from, Complex to) {
   return std::arg(to * std::conj(from));
 }
 
-/// The directions that a segment starts and ends with, and how far it turns between them.
+/// The directions of a segment at its start and end, and how far it turns between them.
 struct Course {
-  Complex start = 0, end = 0;  ///< 0: it stays where it is
+  Complex start = 0, end = 0;  ///< 0: the segment has no length
   double turn = 0;
 };
 
@@ -23,7 +24,7 @@ Course course_of(const Points& controls) {
   double size = 0;
   for (const Complex& z : controls) size = std::max(size, std::abs(z));
   Points ways;
-  constexpr double kRounding = 1e-13;  // of a segment of no length whose degree was raised
+  constexpr double kRounding = 1e-13;  // in a segment of no length whose degree was raised
   for (size_t i = 0; i + 1 < controls.size(); ++i)
     if (std::abs(controls[i + 1] - controls[i]) > kRounding * size)
       ways.push_back(controls[i + 1] - controls[i]);
@@ -46,7 +47,7 @@ Course course_of(const Points& controls) {
   return course;
 }
 
-/// Of a closed loop: turns at the vertices and along the segments, in all one whole turn.
+/// How far a closed loop turns at its vertices and along its segments, 2 pi in total.
 struct Turns {
   std::vector<Course> segments;
   std::vector<double> vertices;
@@ -77,10 +78,10 @@ BoundaryAngles boundary_angles(const Cage& rest, const Cage& pose,
                                const std::vector<Index>& corners,
                                const std::vector<PoseCorner>& own) {
   check(rest.size() == pose.size() && corners.size() == own.size(),
-        "boundary angles: pose and rest fit");
+        "boundary angles: pose and rest match");
   const Turns at_rest = turns_of(rest, nullptr), posed = turns_of(pose, &at_rest);
   const size_t n = static_cast<size_t>(rest.size()), p = corners.size();
-  std::vector<double> starts(n);  // of each segment
+  std::vector<double> starts(n);  // the angle at the start of each segment
   double angle = angle_between(at_rest.segments[0].start, posed.segments[0].start);
   for (size_t e = 0; e < n; ++e) {
     if (e > 0) angle += posed.vertices[e] - at_rest.vertices[e];

@@ -1,4 +1,5 @@
-// Least squares for real parts at places along the boundary, denser towards corners.
+// The real parts are fitted by least squares at points along the boundary, which are denser near
+// corners.
 #include "core/angles/hilbert.h"
 
 #include <Eigen/Cholesky>
@@ -11,13 +12,13 @@
 namespace holomorph {
 namespace {
 
-constexpr int kDegree = 3, kPlaces = 16;  ///< of each piece
+constexpr int kDegree = 3, kPlaces = 16;  ///< per piece
 constexpr int kCornerPlaces = 4;
 constexpr int kMostRounds = 7, kRefinements = 3;
 constexpr double kHighestPower = 3.2, kFlat = 8 * kPi / 180;
 constexpr size_t kMostPowers = 6;
 
-/// How far a ray runs before it meets the polygon again; infinite when it never does.
+/// The length of a ray until it meets the polygon again; infinite when it never does.
 double free_length(const Points& polygon, Complex from, Complex direction) {
   double nearest = INFINITY;
   const double least = 1e-9 * box_of(polygon).diagonal();
@@ -39,8 +40,8 @@ double distance_to(const Points& polygon, Complex z) {
   return least;
 }
 
-/// A point outside, on the bisector of a vertex and as far from it as the rest of the boundary
-/// leaves room.
+/// A point outside the polygon on the bisector at a vertex, as far from the vertex as the rest of
+/// the boundary allows.
 Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle) {
   const double opening = std::sin(std::min(kPi - angle / 2, kPi / 2));
   double length =
@@ -50,8 +51,8 @@ Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle
   return at + length * outwards;
 }
 
-/// The exponents that harmonic functions with smooth values on the sides of a wedge have at its
-/// corner, but for whole ones.
+/// The non-integer exponents of harmonic functions at the corner of a wedge, for smooth values on
+/// the sides of the wedge.
 std::vector<double> powers_of(double angle) {
   std::vector<double> powers;
   if (std::abs(angle - kPi) <= kFlat) return powers;
@@ -66,7 +67,7 @@ std::vector<double> powers_of(double angle) {
   return powers;
 }
 
-/// A segment's length from its start to the parameter t.
+/// The arc length of a segment from its start to the parameter t.
 double length_to(const Points& controls, double t) {
   constexpr int kNodes = 24;
   if (controls.size() == 2) return t * std::abs(controls[1] - controls[0]);
@@ -90,11 +91,12 @@ Points part_of(const Points& controls, double from, double to) {
 
 RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
   if (corners.size() < 3)
-    throw Error(ErrorKind::bad_input, "angles need three corners of the cage at least");
+    throw Error(ErrorKind::bad_input,
+                "angles need at least three corners; make more of the cage's vertices corners");
   check(std::ranges::is_sorted(corners) && corners.front() >= 0 && corners.back() < cage.size(),
         "corner values: corners are vertices, in order");
   const Index p = static_cast<Index>(corners.size());
-  std::vector<double> lengths{0};  // up to each vertex
+  std::vector<double> lengths{0};  // arc length up to each vertex
   for (Index e = 0; e < cage.size(); ++e)
     lengths.push_back(lengths.back() + length_to(cage.controls(e), 1));
   RealParts parts;
@@ -106,7 +108,7 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
     for (size_t i = 0; i < places.size(); ++i) {
       const auto& [segment, t] = places[i];
       double here = lengths[static_cast<size_t>(segment)] + length_to(cage.controls(segment), t);
-      // The last corner at or before the segment.
+      // `from` is the last corner at or before the start of the segment.
       const Index after = std::ranges::upper_bound(corners, segment) - corners.begin(),
                   from = (after + p - 1) % p, to = (from + 1) % p;
       if (here < length_at(from)) here += lengths.back();
@@ -162,7 +164,8 @@ void HilbertCoordinates::set_up_vertices() {
     vertex.tip = tip_of(outline, vertex.at,
                         -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
     vertex.powers = powers_of(vertex.angle);
-    // Along the boundary the logarithm's imaginary part falls by the inner angle at its vertex.
+    // The logarithm's imaginary part decreases by the inner angle where the boundary passes its
+    // vertex.
     steps_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
     vertices_.push_back(std::move(vertex));
   }
@@ -281,7 +284,7 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
 
 MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
   check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
-  constexpr size_t kBlock = 1024;  // rows of the basis that fit the cache
+  constexpr size_t kBlock = 1024;  // rows of the basis that fit into the cache
   MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
   for (size_t first = 0; first < points.size(); first += kBlock) {
     const size_t count = std::min(kBlock, points.size() - first);

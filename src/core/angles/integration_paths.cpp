@@ -1,4 +1,4 @@
-// Gauss rules on straight ways.
+// Gauss rules on straight legs.
 #include "core/angles/integration_paths.h"
 
 #include <algorithm>
@@ -13,9 +13,10 @@ namespace {
 
 constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
 constexpr double kRatio = 0.3;
-constexpr double kPower = 1e-8;  ///< of the shorter edge: nearer to a vertex there is only a power
+constexpr double kPower = 1e-8;  ///< of the shorter edge; nearer to a vertex only the power is left
 
-/// Gauss nodes for a way whose length is so many times its distance from the nearest corner.
+/// The number of Gauss nodes for a leg, by the ratio of its length to the distance of the nearest
+/// corner.
 int nodes_for(double ratio) {
   return ratio < 0.25 ? 2 : ratio < 0.7 ? 3 : ratio < 2 ? 5 : 9;
 }
@@ -32,7 +33,7 @@ IntegrationPaths::IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision
   vertex_at_.assign(nodes_.size(), -1);
   for (const int node : mesh.cage_vertices) {
     const auto vertex = std::ranges::find(corners_, nodes_[static_cast<size_t>(node)]);
-    check(vertex != corners_.end(), "angle ways: the mesh is one of the cage");
+    check(vertex != corners_.end(), "integration paths: the mesh belongs to the cage");
     vertex_at_[static_cast<size_t>(node)] = static_cast<int>(vertex - corners_.begin());
   }
   on_boundary_ = boundary_marks(mesh);
@@ -76,7 +77,7 @@ int IntegrationPaths::add_node(Complex z) {
   if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
   nodes_.push_back(z);
   vertex_at_.push_back(-1);
-  on_boundary_.push_back(1);  // perhaps: asked before a leg is added
+  on_boundary_.push_back(1);  // treated as such, so that its leg is tested
   add(nearest, nodes() - 1);
   return nodes() - 1;
 }
@@ -91,7 +92,7 @@ void IntegrationPaths::plain(Complex a, Complex b, int count, double sign) {
 
 void IntegrationPaths::graded(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
-  // Where the power is all that is left, or rounding takes over.
+  // At this distance only the power is left, or rounding dominates.
   const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
   const double edge = std::min(std::abs(corners_[(at + 1) % n] - corner),
                                std::abs(corners_[(at + n - 1) % n] - corner)),
@@ -108,7 +109,7 @@ void IntegrationPaths::graded(Complex a, int vertex, double sign) {
   weights_.push_back(0);
 }
 
-/// Along a chain of legs, unless one of their places is outside.
+/// Adds a chain of legs and returns true, unless one of their quadrature points is outside.
 bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   const size_t places = places_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
@@ -121,8 +122,8 @@ bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   return false;
 }
 
-// Chords of curves that bend inwards run outside the cage, where the coordinates are different
-// functions. Inside, all paths between two nodes give the same integral.
+// The chord of a curve that bends inwards runs outside the cage, where the coordinates are
+// different functions. Inside, all paths between two nodes give the same integral.
 bool IntegrationPaths::add_detour(const End& a, const End& b) {
   const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
   for (const double aside : {0.05, 0.15, 0.4, 0.8})

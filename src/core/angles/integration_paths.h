@@ -1,5 +1,5 @@
-// Ways through a mesh along which a function is integrated that is smooth but for powers at the
-// vertices of a cage.
+// Paths through a mesh for integrating a function that is smooth except for powers of the distance
+// at the vertices of a cage.
 #pragma once
 
 #include <initializer_list>
@@ -8,44 +8,46 @@
 
 namespace holomorph {
 
-/// Nodes joined by steps; where on them the function is wanted, and with which weights. A step's
-/// integral is a Gauss rule whose order grows as the cage's vertices come nearer; into a vertex,
-/// panels that shrink and the integral of the power that is left.
+/// Nodes joined by steps, with the quadrature points and weights of each step. A step is integrated
+/// by a Gauss rule whose order grows as the cage's vertices come nearer. A step into a vertex is
+/// divided into panels that shrink towards the vertex, and the last part is the exact integral of a
+/// power.
 class IntegrationPaths {
  public:
-  /// The first nodes are the mesh's vertices. Mesh and cage must outlive the adding of steps.
-  /// Precision::full takes nearly twice the places.
+  /// The first nodes are the mesh's vertices. Mesh and cage must stay alive while steps are added.
+  /// Precision::full uses nearly twice as many quadrature points.
   IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision);
 
-  /// Goes from a node that has been reached to another one.
+  /// Adds a step from a node that has been reached to another node.
   void add(int from, int to);
-  /// The mesh's vertex from which a place is reached.
+  /// The mesh vertex from which add_node reaches z.
   int vertex_near(Complex z) const;
-  /// A node at any place of the mesh, reached from vertex_near; that itself if it is there.
+  /// Adds a node at any point z of the mesh, with a step from vertex_near(z). Returns its number,
+  /// or vertex_near(z) when that vertex lies at z.
   int add_node(Complex z);
   int nodes() const { return static_cast<int>(nodes_.size()); }
 
-  /// Where the function is wanted: inside the cage or on it, never at its vertices.
+  /// The quadrature points: inside the cage or on its boundary, never at its vertices.
   const Points& places() const { return places_; }
 
-  /// The integral at the nodes, which holds its value where ways start. values[i] is the function
-  /// at places()[i]; near vertex j it is a power of the distance with the exponent exponents[j],
-  /// above -1.
+  /// Computes the integral at all nodes; on input, `integral` must hold its values where the paths
+  /// start. values[i] is the function at places()[i]. Near vertex j the function is a power of the
+  /// distance with the exponent exponents[j], which must be above -1.
   void integrate(const VectorXc& values, const VectorXd& exponents, VectorXc& integral) const;
 
  private:
   struct PathStep {
     int from, to;
-    Index end;  ///< of its places; they start where those of the step before end
+    Index end;  ///< of its quadrature points; they start at the previous step's end
   };
-  /// From a place without weight to the cage's vertex beside it.
+  /// The last part of a step into a cage vertex; it starts at a quadrature point of weight 0.
   struct Tail {
     Index step, place;
     Complex way;
     int vertex;
   };
 
-  /// Where a leg starts or ends: the cage's vertex there, or -1.
+  /// The start or end of a leg, and the cage vertex at that point or -1.
   struct End {
     Complex at;
     int vertex = -1;
@@ -62,7 +64,7 @@ class IntegrationPaths {
   const Cage* cage_;
   Points corners_, nodes_, places_;
   int more_nodes_, panels_;     ///< what Precision::full adds
-  std::vector<int> vertex_at_;  ///< the cage's vertex at a node, or -1
+  std::vector<int> vertex_at_;  ///< the cage vertex at each node, or -1
   std::vector<char> on_boundary_;
   std::vector<PathStep> steps_;
   std::vector<Tail> tails_;

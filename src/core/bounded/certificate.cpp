@@ -23,7 +23,7 @@ Bounds Bounds::tightened(double share) const {
 }
 
 const char* bound_name(Bound bound) {
-  static constexpr const char* kNames[] = {"largest stretch", "smallest stretch", "angle"};
+  static constexpr const char* kNames[] = {"max growth", "smallest size", "max shear"};
   return kNames[static_cast<int>(bound)];
 }
 

@@ -1,4 +1,5 @@
-// Projections that alternate between the elements' own nearest values and maps that fit together.
+// Projections that alternate between projecting each element on its own and finding a map whose
+// elements fit together.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -9,8 +10,8 @@ namespace holomorph {
 
 Element nearest_bounded(const Element& element, const Bounds& bounds) {
   const double a = element.head<2>().norm(), b = element.tail<2>().norm();
-  // The polygon of (|f_z|, |f_zbar|); its two upper corners meet where sigma and Sigma leave no
-  // room for k.
+  // The polygon of allowed (|f_z|, |f_zbar|). Its two upper corners coincide when the bounds sigma
+  // and Sigma imply the bound k.
   const double k = bounds.k, low = bounds.sigma / (1 - k), high = bounds.Sigma / (1 + k),
                middle = 0.5 * (bounds.Sigma + bounds.sigma);
   const bool cut = low < high;
@@ -42,7 +43,7 @@ Element nearest_bounded(const Element& element, const Bounds& bounds) {
 
 namespace {
 
-constexpr double kSettled = 1e-6;  ///< of the largest way from an element to its projection
+constexpr double kSettled = 1e-6;  ///< largest distance of an element from its projection
 
 VectorXd projected(const VectorXd& y, const Bounds& bounds) {
   VectorXd result(y.size());
@@ -64,14 +65,14 @@ std::vector<Eigen::Matrix4d> identity_blocks(const DerivativeOperator& t) {
   return blocks;
 }
 
-/// One for each element: normal . y <= limit; none where the normal is 0.
+/// One half-space per element: normal . y <= limit, or no constraint where the normal is 0.
 struct HalfSpaces {
   VectorXd normals, limits;
 };
 
-/// min sum of weights |T x - g|^2 / 2 with normal_i . (T x)_i <= limit_i where normal_i is not 0:
-/// primal-dual interior points from any start.
-/// Stops early when asked to.
+/// Minimizes the sum of weights |T x - g|^2 / 2 subject to normal_i . (T x)_i <= limit_i where
+/// normal_i is not 0, by a primal-dual interior-point method from any start. Returns early when
+/// `stop` is requested.
 VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
                            const HalfSpaces& spaces, const std::stop_token& stop) {
   const VectorXd &normals = spaces.normals, &limits = spaces.limits;

@@ -1,4 +1,4 @@
-// All rows get the same reference; each measures its own kind of map.
+// All rows use the same reference; each measures its own kind of map.
 #include "core/compared/comparison.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace holomorph {
 namespace {
 
-/// Adds an element to the worst ones of a row.
+/// Updates a row's largest distortion with one element.
 void measure(Complex fz, Complex fzbar, ComparedMap& row) {
   const double a = std::abs(fz), b = std::abs(fzbar);
   row.max_k = std::max(row.max_k, a > 0 ? b / a : std::numeric_limits<double>::infinity());
@@ -54,14 +54,15 @@ class Comparison {
     const auto harmonic = harmonic_operator(*basis_, on_mesh, basis_->samples()),
                dense = harmonic_operator(*basis_, on_mesh, dense_);
     const Rival rivals[] = {
-        {"Lipman 2012", "Triangles with local frames, from the identity", *mesh, false,
+        {"Lipman 2012", "Triangle mesh with local frames, starting from the identity", *mesh, false,
          [&] { return by_local_frames(*mesh, g, settings_); }},
-        {"Chen, Weber 2015", "The same for smooth harmonic maps", *dense, true,
+        {"Chen, Weber 2015", "Local frames for smooth harmonic maps", *dense, true,
          [&] { return by_local_frames(*harmonic, on_boundary_, settings_); }},
-        {"Aigerman, Lipman 2013", "Triangles kept in half-spaces, repeatedly", *mesh, false,
+        {"Aigerman, Lipman 2013", "Triangle mesh, repeatedly limited by half-spaces", *mesh, false,
          [&] { return by_half_spaces(*mesh, start, settings_); }},
-        {"Kovalsky et al. 2015", "Triangles projected and joined in turn, with tangent planes",
-         *mesh, false, [&] { return by_tangent_planes(*mesh, start, settings_); }}};
+        {"Kovalsky et al. 2015",
+         "Triangle mesh, projected and rejoined in turn, with tangent planes", *mesh, false,
+         [&] { return by_tangent_planes(*mesh, start, settings_); }}};
     for (const Rival& rival : rivals) {
       const ComparedMap map = row_of(rival);
       if (settings_.stop.stop_requested()) return;
@@ -72,8 +73,8 @@ class Comparison {
  private:
   struct Rival {
     const char *label, *hint;
-    const DerivativeOperator& measured;  ///< whose elements are looked at
-    bool smooth;                         ///< those are the dense points
+    const DerivativeOperator& measured;  ///< the operator whose elements are measured
+    bool smooth;                         ///< whether its elements are the dense points
     std::function<Projected()> project;
   };
 
@@ -82,7 +83,8 @@ class Comparison {
     return *rest.mesh;
   }
 
-  /// Between the samples that harmonic maps are bounded at, and all of the mesh.
+  /// The points at which harmonic maps are measured: the mesh's vertices, and points between the
+  /// boundary samples that are bounded.
   void set_up_dense_points() {
     dense_ = derivative_samples(mesh_);
     for (const BoundaryPiece& piece : basis_->pieces())
@@ -113,7 +115,7 @@ class Comparison {
           map.fzbar[i].imag();
   }
 
-  /// What every row has.
+  /// Fills in the fields that all rows share.
   void finish(VectorXc f, ComparedMap& row) const {
     row.flipped_triangles = flipped_triangles(mesh_, f);
     Points boundary;
@@ -123,14 +125,14 @@ class Comparison {
   }
 
   ComparedMap reference() const {
-    ComparedMap row{"The map that is followed", "As it is, without bounds"};
+    ComparedMap row{"Followed map", "As it is, without limits"};
     measure(mesh_operator(mesh_)->apply(stacked(reference_)), row);
     finish(reference_, row);
     return row;
   }
 
   ComparedMap ours() const {
-    ComparedMap row{"No folds (this program)", "Harmonic; certified everywhere"};
+    ComparedMap row{"No folds (this program)", "Harmonic map, certified everywhere"};
     const auto deformer = method_.prepare(rest_, nullptr);
     SampledMap map;
     const double start = now_ms();
@@ -177,7 +179,7 @@ class Comparison {
     const VectorXd elements = rival.measured.apply(result.x);
     measure(elements, row);
     VectorXc f = rival.measured.map(result.x);
-    f.array() += (reference_ - f).mean();  // derivatives know no place
+    f.array() += (reference_ - f).mean();  // derivatives leave the translation open
     finish(std::move(f), row);
     if (rival.smooth) row.turning_number = turning_number_of(elements);
     return row;
@@ -189,8 +191,8 @@ class Comparison {
   const Method& method_;
   ProjectionSettings settings_;
   std::unique_ptr<BoundaryBasis> basis_;
-  Points dense_;                   ///< the mesh's vertices, then the boundary
-  std::vector<Complex> tangents_;  ///< of the boundary there
+  Points dense_;                   ///< the mesh's vertices, then points of the boundary
+  std::vector<Complex> tangents_;  ///< of the boundary at those points
   VectorXc reference_;
   VectorXd on_boundary_;
 };

@@ -1,4 +1,4 @@
-// Triangles have sparse normal matrices, harmonic functions dense ones.
+// Triangles give sparse normal matrices, harmonic functions dense ones.
 #include "core/compared/derivative_operator.h"
 
 #include <Eigen/SparseCholesky>
@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kUnseen = 1e-9;  ///< on the diagonal, for what T does not see
+constexpr double kUnseen = 1e-9;  ///< added to the diagonal for the null space of T
 
 class MeshOperator final : public DerivativeOperator {
  public:

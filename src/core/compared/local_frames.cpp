@@ -1,4 +1,4 @@
-// A barrier of four second-order cones for each element, with r >= |f_z| as its own unknown:
+// A barrier for four second-order cones per element, with an additional unknown r >= |f_z|:
 //   |f_zbar| <= k s, |f_zbar| <= s - sigma, |f_z| <= r, |f_zbar| <= Sigma - r, s = Re(f_z / frame).
 #include <Eigen/LU>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;  // (f_z, f_zbar, r)
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
-using Cones = Eigen::Matrix<double, 12, 5>;  // four times (height, w), linear parts
+using Cones = Eigen::Matrix<double, 12, 5>;  // linear parts of four cones (height, w)
 using Offsets = Eigen::Matrix<double, 12, 1>;
 
 constexpr int kMostFrames = 20, kMostNewton = 12;
@@ -61,7 +61,7 @@ class LocalFrames {
     return p;
   }
 
-  /// The four cones of an element's frame.
+  /// The four cones of an element, for its frame.
   Cones cones(Index i) const {
     const Complex frame = frames_[static_cast<size_t>(i)];
     Vector5 s = Vector5::Zero();
@@ -82,7 +82,7 @@ class LocalFrames {
     return offsets;
   }
 
-  /// - sum of ln (height^2 - |w|^2); infinite outside.
+  /// The sum of -ln (height^2 - |w|^2) over all cones; infinite outside of them.
   double barrier_value(const VectorXd& y, const VectorXd& r) const {
     double sum = 0;
     for (Index i = 0; i < t_.elements(); ++i) {
@@ -119,7 +119,7 @@ class LocalFrames {
     return 0.5 * sum;
   }
 
-  /// The convex problem of the present frames, along the central path.
+  /// Solves the convex problem for the current frames along the central path.
   void descend() {
     const double least = 1e-6 / static_cast<double>(t_.elements());
     for (double mu = 0.1 / static_cast<double>(t_.elements()); mu > least; mu *= 0.1)
@@ -127,7 +127,7 @@ class LocalFrames {
         if (stop_.stop_requested() || !newton(mu)) break;
   }
 
-  /// One damped step for distance + mu barrier; false at the end.
+  /// One damped Newton step for distance + mu barrier; false when the iteration is finished.
   bool newton(double mu) {
     const VectorXd y = t_.apply(x_);
     const Index m = t_.elements();
@@ -137,7 +137,7 @@ class LocalFrames {
     for (Index i = 0; i < m; ++i) {
       barriers.push_back(barrier(y, i));
       const Barrier& b = barriers.back();
-      // r is eliminated from its own row.
+      // Eliminate r by its own row.
       const Eigen::Vector4d mixed = b.hessian.col(4).head<4>();
       const double rr = b.hessian(4, 4);
       blocks.push_back(mu * (b.hessian.topLeftCorner<4, 4>() - mixed * mixed.transpose() / rr));
@@ -163,7 +163,7 @@ class LocalFrames {
       if (distance(moved) + mu * barrier_value(moved, r) > now + 0.1 * length * slope) continue;
       x_ += length * dx;
       r_ = r;
-      constexpr double kCenterd = 1e-2;  // Newton's decrement, squared, in units of mu
+      constexpr double kCenterd = 1e-2;  // squared Newton decrement, in units of mu
       return -slope > kCenterd * mu;
     }
     return false;

@@ -1,4 +1,4 @@
-// Both fits by normal equations.
+// Both fits use normal equations.
 #include "core/compared/published_angles.h"
 
 #include <Eigen/Cholesky>
@@ -15,9 +15,9 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   const FlatCage flat = flattened(cage);
   const RealParts angles = corner_values(cage, corners);
   const double length = perimeter(flat.points) / pieces;
-  // Parts of equal length, each vertex of the polygon among their ends.
+  // Parts of about equal length; every vertex of the polygon is an end of one.
   std::vector<BoundaryPoint> starts;
-  std::vector<double> shares;  // of a part, in the cage's parameter
+  std::vector<double> shares;  // the length of each part in the cage's parameter
   Points nodes;
   for (size_t i = 0; i < flat.points.size(); ++i) {
     const Complex a = flat.points[i], b = flat.points[(i + 1) % flat.points.size()];
@@ -33,7 +33,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   }
   for (size_t i = 0; i < nodes.size(); ++i)
     parts_.push_back({nodes[i], nodes[(i + 1) % nodes.size()], 0, 0});
-  // A part ends with the function that the next one starts with, but at corners with its own.
+  // Consecutive parts share the function at their common end, except at corners.
   Index count = 0;
   for (size_t i = 0; i < parts_.size(); ++i) {
     parts_[i].start = count++;
@@ -80,7 +80,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   fit_ = normal.ldlt().solve(derivative.adjoint());
 }
 
-/// For each point its part of the boundary, or -1 inside.
+/// `parts` holds the part of the boundary that each point lies on, or -1 for a point inside.
 MatrixXc PublishedAngles::functions(std::span<const Complex> points,
                                     const std::vector<Index>& parts) const {
   Index count = 0;
@@ -104,7 +104,7 @@ PublishedAngles::Values PublishedAngles::map(const VectorXd& theta, const Points
   all.push_back(anchor_);
   const VectorXc f = cauchy_coordinates(nodes_, std::span<const Complex>(all)) * posed;
   const Index n = static_cast<Index>(samples.size());
-  // f' is not defined where parts meet.
+  // f' is not defined where parts meet, so it is evaluated at a point next to them.
   const Points ends = vertices_of(nodes_);
   constexpr double kInside = 1e-3;
   for (Complex& z : beside)

@@ -1,6 +1,6 @@
-// Angle maps as Weber, Gotsman 2010 print them, to compare with: generalized Cauchy functions of
-// equal parts of the boundary, discontinuous at corners (sec. 4), and the map itself as Cauchy
-// coordinates whose derivative comes near to exp(i H) (eq. 7).
+// Angle maps as published in Weber, Gotsman 2010, for comparison. H is a sum of generalized Cauchy
+// functions on equal parts of the boundary, discontinuous at corners (sec. 4). The map is a sum of
+// Cauchy coordinates whose derivative approximates exp(i H) (eq. 7).
 #pragma once
 
 #include "core/geometry/cage.h"
@@ -10,14 +10,14 @@ namespace holomorph {
 
 class PublishedAngles {
  public:
-  /// Of a counter-clockwise cage whose boundary is cut into about `pieces` equal parts (100 in the
-  /// paper), with corners among its vertices. The anchor is a place inside. Cost: cubic in the
-  /// pieces.
+  /// `cage` must be counter-clockwise and `corners` vertices of it. The boundary is divided into
+  /// about `pieces` equal parts (100 in the paper). The anchor is a point inside. Cost: cubic in
+  /// the pieces.
   PublishedAngles(const Cage& cage, const std::vector<Index>& corners, Complex anchor,
                   int pieces = 100);
 
-  /// The map at samples inside for angles theta before and after each corner: f and f', with
-  /// f(anchor) = 0 and |f'(anchor)| about 1.
+  /// f and f' at samples inside, for angles theta before and after each corner in radians;
+  /// f(anchor) = 0 and |f'(anchor)| is about 1.
   struct Values {
     VectorXc f, slope;
   };
@@ -29,7 +29,7 @@ class PublishedAngles {
   Index unknowns() const { return coefficients_.rows(); }
 
  private:
-  /// A part of an edge, and the functions that are 1 at its ends.
+  /// A part of an edge, and the numbers of the functions that are 1 at its ends.
   struct EdgePart {
     Complex from, to;
     Index start, end;
@@ -39,9 +39,9 @@ class PublishedAngles {
   std::vector<EdgePart> parts_;
   Cage nodes_;  ///< the polygon of all parts
   Complex anchor_;
-  MatrixXc coefficients_;  ///< of the functions, by angles
-  MatrixXc slopes_;        ///< H at the places where f' is fitted, Im H = 0 at the anchor
-  MatrixXc fit_;           ///< from f' there to the map's coordinates
+  MatrixXc coefficients_;  ///< functions x angles
+  MatrixXc slopes_;        ///< H where f' is fitted, Im H = 0 at the anchor
+  MatrixXc fit_;           ///< takes f' at those points to the map's coefficients
   double error_ = 0;
 };
 

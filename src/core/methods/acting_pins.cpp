@@ -1,4 +1,4 @@
-// Pins outside the cage, or on the spot of an earlier one, are left out and named.
+// Pins outside the cage or at the position of an earlier pin are left out and named in the note.
 #include "core/methods/acting_pins.h"
 
 #include "core/cauchy/cauchy.h"
@@ -6,7 +6,7 @@
 namespace holomorph {
 
 ActingPins acting_pins(const Rest& rest) {
-  constexpr double kSpread = 1e-9;  // pins nearer than this, in units of L, are one pin
+  constexpr double kSpread = 1e-9;  // pins nearer than this, in units of L, count as one
   const double least = kSpread * perimeter(outline_of(rest.cage)) / (2 * kPi);
   ActingPins acting;
   std::string outside, doubled;
@@ -27,10 +27,10 @@ ActingPins acting_pins(const Rest& rest) {
     else
       name(doubled);
   }
-  if (!outside.empty()) acting.note = "pin " + outside + " lies outside the cage and does not act";
+  if (!outside.empty()) acting.note = "Ignored: pin " + outside + " (outside the cage)";
   if (!doubled.empty())
-    acting.note += (acting.note.empty() ? "" : "; ") +
-                   ("pin " + doubled + " lies on another pin and does not act");
+    acting.note +=
+        (acting.note.empty() ? "" : ". ") + ("Ignored: pin " + doubled + " (on another pin)");
   return acting;
 }
 

@@ -1,4 +1,4 @@
-// Method `angles`: f' = exp(i H theta), with theta how the boundary turns.
+// Method `angles`: f' = exp(i H theta), where theta says how far the boundary turns.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -15,7 +15,7 @@
 namespace holomorph {
 namespace {
 
-/// What a rest's boundary is here: counter-clockwise, with corners in order.
+/// A rest's boundary as this method uses it: counter-clockwise, with corners in order.
 struct Boundary {
   explicit Boundary(const Rest& rest)
       : cage(counter_clockwise(rest.cage)), reversed(!(cage == rest.cage)), corners(rest.corners) {
@@ -33,7 +33,7 @@ struct Boundary {
   }
 
   Cage posed(const Cage& pose) const { return reversed ? holomorph::reversed(pose) : pose; }
-  /// A pose's corners in this order, run through this way.
+  /// A pose's corners in the order and orientation of this boundary.
   std::vector<PoseCorner> own(const std::vector<PoseCorner>& pose) const {
     if (pose.empty()) return std::vector<PoseCorner>(corners.size());
     std::vector<PoseCorner> own;
@@ -45,7 +45,7 @@ struct Boundary {
     }
     return own;
   }
-  /// The vertex' number in the rest's cage.
+  /// The corner's vertex number in the rest's cage.
   Index vertex(Index corner) const {
     return reversed ? (cage.size() - corner) % cage.size() : corner;
   }
@@ -53,10 +53,10 @@ struct Boundary {
   Cage cage;
   bool reversed;
   std::vector<Index> corners;
-  std::vector<size_t> order;  ///< of a pose's corners
+  std::vector<size_t> order;  ///< where a pose lists each of the corners
 };
 
-/// From the mesh vertex nearest to a point.
+/// Integrates the map to any point from the nearest mesh vertex.
 class AnglePoints final : public PointMap {
  public:
   AnglePoints(std::shared_ptr<const Mesh> mesh, AngleMap map, PlacedAngles placed,
@@ -70,7 +70,7 @@ class AnglePoints final : public PointMap {
 
   Value at(Complex z) const override {
     if (contains(cage(), z)) return inside(z);
-    // Outside the cage the coordinates are different functions: the map continues as its tangent.
+    // Outside the cage the coordinates are different functions, so the map is continued linearly.
     const Complex edge = position_of(cage(), nearest_on(cage(), flat_, z));
     Value value = inside(edge);
     value.f += value.fz * (z - edge);
@@ -121,7 +121,7 @@ class AnglesDeformer final : public Deformer {
     std::vector<RestPin> pins;
     for (const size_t i : acting_.used) {
       pins.push_back(rest_.pins[i]);
-      // Where f' is a power it has no angle.
+      // At a vertex f' is a power of the distance and has no argument.
       for (Index j = 0; j < boundary_.cage.size(); ++j)
         if (pins.back().position == boundary_.cage.vertex(j)) pins.back().has_frame = false;
     }
@@ -146,7 +146,7 @@ class AnglesDeformer final : public Deformer {
     map_.map(placed.theta, f, options.draft);
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
-    if (lost > 0) say(out, std::to_string(lost) + " points are bent beyond all numbers");
+    if (lost > 0) say(out, std::to_string(lost) + " points are bent too far to compute");
     if (!options.derivatives || count == 0) return out;
     if (slopes_.rows() != count) slopes_ = slopes();
     const VectorXc theta = placed.theta.cast<Complex>();
@@ -177,7 +177,7 @@ class AnglesDeformer final : public Deformer {
     out.ignores_pins = true;
     char text[120];
     std::snprintf(text, sizeof text,
-                  "as published: boundary angles are off by up to %.2g radians for each radian",
+                  "As published: boundary angles are off by up to %.2g radians per radian",
                   published_->error());
     say(out, text);
     if (!options.derivatives) return out;
@@ -212,7 +212,7 @@ class AnglesDeformer final : public Deformer {
       if (!answer.settled) out.status = SampledMap::Status::iterating;
       constexpr double kFar = 1e-3;  // of the size
       if (!draft && answer.missed > kFar * box_of(rest_.mesh->vertices).diagonal())
-        say(out, "pins are missed: no map without folds was found that meets them");
+        say(out, "Pins are missed: no map without folds was found that meets them");
     }
     for (const Index corner : limited) out.limited_corners.push_back(boundary_.vertex(corner));
     std::ranges::sort(out.limited_corners);
@@ -220,13 +220,13 @@ class AnglesDeformer final : public Deformer {
     for (const Index corner : out.limited_corners)
       list += (list.empty() ? "" : ", ") + std::to_string(corner + 1);
     if (!list.empty())
-      say(out, (limited.size() == 1 ? "corner " : "corners ") + list +
-                   " held at 5 degrees: less would be a fold");
+      say(out, (limited.size() == 1 ? "Corner " : "Corners ") + list +
+                   " held at 5 degrees to avoid a fold");
     return placed;
   }
 
   static void say(SampledMap& out, const std::string& text) {
-    out.note += (out.note.empty() ? "" : "; ") + text;
+    out.note += (out.note.empty() ? "" : ". ") + text;
   }
 
   /// H at the derivative samples.
@@ -247,7 +247,7 @@ class AnglesDeformer final : public Deformer {
   AngleFrame frame_;
   ActingPins acting_;
   std::optional<AnglePins> pins_;
-  std::optional<PublishedAngles> published_;  ///< to compare
+  std::optional<PublishedAngles> published_;  ///< for comparison
   PlanarMatrix<double> slopes_;
 };
 
@@ -261,12 +261,12 @@ Method angles_method() {
   Method method{
       "angles",
       "Angles",
-      "Turn corners and open or shut them (A); edges follow the cage's directions, not its "
-      "lengths. Never folds.",
+      "Rotate, open and close corners (A). Edges follow the cage's directions, not its lengths. "
+      "Never folds.",
       {toggle("published", "As published",
-              "The functions of Weber and Gotsman, to compare: equal parts of the boundary, "
-              "and the map from its derivative by a fit. The note says how far angles are "
-              "off; it may fold, and pins do not act.",
+              "The functions of Weber and Gotsman, for comparison: the boundary is divided into "
+              "equal parts, and the map is fitted to its derivative. The note shows the error of "
+              "the angles. The picture may fold, and pins have no effect.",
               false)},
       true,
       true,

@@ -1,9 +1,9 @@
-// Method `arap`: every triangle turns as it likes and would rather not do anything else (after
-// Sorkine, Alexa 2007, with one turn per triangle).
+// Method `arap`: triangles may rotate freely, and any other change of shape costs energy (after
+// Sorkine, Alexa 2007, with one rotation per triangle).
 //
-// With f_z and f_zbar of a triangle the energy is the sum of area (|f_z - R|^2 + |f_zbar|^2),
-// |R| = 1: R = f_z / |f_z|, then one sparse solve for f, and so on. Where the picture is stiff a
-// triangle's part of the sum counts more.
+// The energy is the sum over all triangles of area (|f_z - R|^2 + |f_zbar|^2), with |R| = 1. Each
+// iteration sets R = f_z / |f_z| and then solves one sparse system for f. Where the picture is
+// stiff, triangles have larger weights.
 #include <Eigen/SparseCholesky>
 
 #include "core/arithmetic.h"
@@ -15,8 +15,8 @@ namespace holomorph {
 namespace {
 
 constexpr int kMostIterations = 120, kDraftIterations = 6;
-constexpr double kSettled = 1e-5;  ///< of the size: the largest move of the last iteration
-constexpr double kHold = 1e3;      ///< of handles against the mean diagonal of the energy
+constexpr double kSettled = 1e-5;  ///< largest move in an iteration, relative to the size
+constexpr double kHold = 1e3;      ///< weight of handles, relative to the energy's mean diagonal
 
 class ArapDeformer final : public Deformer {
  public:
@@ -38,7 +38,8 @@ class ArapDeformer final : public Deformer {
           const double weight = dot(ea, eb) / (8 * area);
           rigid.push_back({t[a], t[b], weight});
           if (a == b) diagonal += weight / stiffness_.back();
-          // conj(f_zbar's weight of a) times that of b; a little of the rest makes it definite.
+          // The product of conj(f_zbar's weight of a) and the weight of b. A small part of the
+          // rigid energy makes the matrix definite.
           constexpr double kLittle = 1e-3;
           angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kLittle * weight});
         }
@@ -115,7 +116,8 @@ class ArapDeformer final : public Deformer {
     }
   }
 
-  /// The start: the most conformal map, found at once. While dragging, the last answer.
+  /// Starts from the most conformal map, which one solve finds. While dragging, minimize() starts
+  /// from the last answer instead.
   void start(const Points& targets) {
     VectorXc right = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
     add_targets(targets, right);
@@ -168,7 +170,7 @@ class ArapDeformer final : public Deformer {
     }
   }
 
-  /// At a vertex the mean over its triangles, by area.
+  /// The derivatives at a vertex are the mean over its triangles, weighted by area.
   void average_derivatives(SampledMap& out) const {
     const Index n = f_.size();
     if (turn_) {
@@ -200,7 +202,7 @@ class ArapDeformer final : public Deformer {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
   VectorXc f_;
-  std::optional<Complex> turn_;  ///< of the whole picture, when it moves rigidly
+  std::optional<Complex> turn_;  ///< rotation of the whole picture when it moves rigidly
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
@@ -210,16 +212,17 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method arap_method() {
-  Method method{"arap",
-                "As rigid as possible",
-                "Pins hold; everything else keeps its size and shape as well as it can, the better "
-                "the stiffer "
-                "it is painted (B). Without pins the cage's points hold.",
-                {},
-                true,
-                false,
-                false,
-                prepare};
+  Method method{
+      "arap",
+      "As rigid as possible",
+      "Pins hold; everything else keeps its size and shape as far as possible. Paint "
+      "stiffness (B) on parts that should keep theirs best. Without pins, the cage points "
+      "hold.",
+      {},
+      true,
+      false,
+      false,
+      prepare};
   method.needs_mesh = true;
   method.uses_stiffness = true;
   return method;

@@ -1,8 +1,8 @@
-// Method `bounded`: the nearest map that folds nowhere and stretches no more than allowed, to the
-// map of another method (Levi, Weber 2016).
+// Method `bounded`: of all maps that fold nowhere and stretch no more than allowed, the one nearest
+// to the map of another method (Levi, Weber 2016).
 //
-// Reference at the boundary's samples -> continuous ln f_z -> cone program -> proof -> integration
-// along the mesh.
+// The steps are: reference at the boundary's samples -> continuous ln f_z -> cone program -> proof
+// -> integration along the mesh.
 #include <cstdio>
 
 #include "core/bounded/bounded_reference.h"
@@ -20,13 +20,13 @@ namespace {
 
 class BoundedDeformer final : public Deformer {
  public:
-  /// With about so many vertices around the cage.
+  /// The polygon of the basis gets about `basis` vertices.
   BoundedDeformer(const Rest& rest, int basis)
       : rest_(rest),
         method_(method_named("bounded")),
         bounds_(bounds_of(rest.parameters)),
         space_(choice(method_, rest.parameters, "space")) {
-    check(rest.mesh != nullptr, "method bounded: a rest with a mesh");
+    check(rest.mesh != nullptr, "method bounded: the rest has a mesh");
     bounds_.check_usable();
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis,
                                                    ReferenceSampler::kSamplesPerVertex * basis);
@@ -39,7 +39,7 @@ class BoundedDeformer final : public Deformer {
   }
 
   static int final_basis(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
-  /// While a cage of many points is dragged, a coarser basis keeps up with the hand.
+  /// Prepares a coarser basis for drags, which is fast enough when the cage has many points.
   void prepare_draft() {
     const int coarse = BoundaryBasis::usual_size(rest_.cage.size());
     if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
@@ -79,7 +79,7 @@ class BoundedDeformer final : public Deformer {
     return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, solution_.map, f_);
   }
 
-  /// The mesh's places of pins that can be met.
+  /// Locations in the mesh of the pins that the solve takes into account.
   std::vector<Location> met_pins() const {
     std::vector<Location> places;
     if (space_ == "psi" && reference_->uses_pins())
@@ -112,7 +112,7 @@ class BoundedDeformer final : public Deformer {
     solution_ = psi_->nearest(conformal_, target, psi_at_pins(pose), warm ? &solution_ : nullptr);
   }
 
-  /// What is left for Psi to take the pins to their places.
+  /// The values of Psi at the pins that would take them to their targets.
   VectorXc psi_at_pins(const Pose& pose) const {
     if (met_pins().empty()) return {};
     const VectorXc phi = on_mesh_->phi(conformal_.map.l);
@@ -148,20 +148,21 @@ class BoundedDeformer final : public Deformer {
     return out;
   }
 
-  /// The map at the mesh, at its place.
+  /// Integrates the map along the mesh and aligns it.
   void integrate(const Pose& pose, bool draft) {
     auto [f, first] = on_mesh_->values(solution_.map);
     f_ = std::move(f);
     first_ = std::move(first);
-    // The tree's rule is off by a thousandth of a pixel next to the boundary.
+    // Next to the boundary, the rule of the tree is off by a thousandth of a pixel.
     if (!draft) f_ = on_mesh_->integrated(solution_.map);
     align(pose);
     posed_ = pose;
     turned_ = flipped_triangles(*rest_.mesh, f_);
   }
 
-  /// Turns, scales and moves the map to the pins' places or, with less than two of them, to the
-  /// reference's. A turn keeps all bounds, a change of scale is proved anew.
+  /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
+  /// reference. A rotation preserves all bounds. A change of scale is certified again, and left out
+  /// if that fails.
   void align(const Pose& pose) {
     Points from, to;
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
@@ -208,30 +209,29 @@ class BoundedDeformer final : public Deformer {
 
   std::string bounds_text() const {
     char text[120];
-    std::snprintf(text, sizeof text, "Locally injective: k <= %.4g, %.4g <= sigma <= %.4g",
-                  bounds_.k, bounds_.sigma, bounds_.Sigma);
+    std::snprintf(text, sizeof text, "No folds (shear up to %.4g, size %.4g to %.4g)", bounds_.k,
+                  bounds_.sigma, bounds_.Sigma);
     return text;
   }
 
-  /// What the proof says, and what else the user should know.
+  /// The result of the proof, and what else the user should know.
   std::string note(const Pose& pose) const {
     if (!solution_.certificate.holds)
-      return std::string("Not proved: the bound on the ") +
-             bound_name(solution_.certificate.failed) + " near " +
-             point_text(solution_.certificate.where);
+      return std::string("Not proved: limit on ") + bound_name(solution_.certificate.failed) +
+             " near " + point_text(solution_.certificate.where);
     std::string text = bounds_text() + pin_note(pose);
-    if (!reference_->note().empty()) text += "; " + reference_->note();
+    if (!reference_->note().empty()) text += ". " + reference_->note();
     if (solution_.solution.status != ConeSolution::Status::solved)
-      text += "; not quite the nearest";
+      text += ". Not quite the nearest such map";
     if (turned_ > 0)
-      return "Proved, but too fine for the mesh: " + std::to_string(turned_) +
-             " of its triangles turn over";
+      return "No folds, but the mesh is too coarse for this map: " + std::to_string(turned_) +
+             " inverted triangles";
     return text;
   }
 
-  /// The pin that is farthest from its place.
+  /// Names the pin that is farthest from its target, and the bound that holds it back.
   std::string pin_note(const Pose& pose) const {
-    if (!reference_->uses_pins()) return pins_.empty() ? "" : "; what is followed knows no pins";
+    if (!reference_->uses_pins()) return pins_.empty() ? "" : ". The followed method ignores pins";
     const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
     double farthest = 0;
     size_t which = 0;
@@ -242,11 +242,11 @@ class BoundedDeformer final : public Deformer {
     }
     if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return "";
     char more[120];
-    std::snprintf(more, sizeof more, "; pin %d ends %.*f px from its place",
-                  static_cast<int>(which) + 1, farthest < 10 ? 2 : 0, farthest);
+    std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
+                  farthest < 10 ? 2 : 0, farthest);
     const auto bound = binding_constraint({&conformal_.solution, &solution_.solution});
-    return more + (bound ? std::string(", held by the bound on the ") + bound_name(*bound)
-                         : ", as in the map that is followed");
+    return more +
+           (bound ? std::string("; limit: ") + bound_name(*bound) : ", as in the followed map");
   }
 
   Rest rest_;
@@ -256,14 +256,14 @@ class BoundedDeformer final : public Deformer {
   std::shared_ptr<const BoundaryBasis> basis_;
   std::unique_ptr<MapOnMesh> on_mesh_;
   std::unique_ptr<ReferenceSampler> reference_;
-  std::unique_ptr<BoundedSpace> nu_;  ///< this one or the other
+  std::unique_ptr<BoundedSpace> nu_;  ///< null when psi_ is used
   std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
   std::unique_ptr<BoundedDeformer> draft_;
 
   BoundedMap solution_, conformal_;
-  bool warm_ = false;  ///< whether a drag can go on from the solution
-  int turned_ = 0;     ///< triangles that the mesh, too coarse for the map, turns over
+  bool warm_ = false;  ///< whether a drag can start from the solution
+  int turned_ = 0;     ///< inverted triangles, where the mesh is too coarse for the map
   std::optional<Pose> posed_;
   VectorXc f_;
   Derivatives first_;
@@ -287,17 +287,19 @@ Method bounded_method(const std::vector<Method>& references) {
   Method method{
       "bounded",
       "No folds",
-      "Nothing folds and nothing is stretched more than allowed, proved for every frame.",
-      {one_of("reference", "Follows", "The map that is kept within the bounds", followed, usual),
-       one_of("space", "Keeps", "What is kept first where the bounds do not allow all",
-              {{"nu", "shape (L_nu)"}, {"psi", "pins (L_psi)"}, {"h", "sizes (H)"}}),
-       number("k", "Angle bound", "0 keeps all angles; towards 1 circles may turn flat", 0.7, 0,
+      "Nothing folds and nothing stretches more than you allow. This is proved for every frame.",
+      {one_of("reference", "Follows", "The method whose map is kept within the limits", followed,
+              usual),
+       one_of("space", "Prefer", "What to keep first where the limits do not allow everything",
+              {{"nu", "shape"}, {"psi", "pins"}, {"h", "size"}}),
+       number("k", "Max shear", "0 keeps all angles; near 1, circles may become flat", 0.7, 0,
               0.99),
-       number("sigma", "Least stretch", "No length shrinks by more than this", 0.2, 0.01, 0.99),
-       by_decades("Sigma", "Largest stretch", "No length grows by more than this", 5, 1.01, 100),
+       number("sigma", "Smallest size", "No length shrinks to less than this fraction", 0.2, 0.01,
+              0.99),
+       by_decades("Sigma", "Max growth", "No length grows by more than this factor", 5, 1.01, 100),
        used_with("space", 1,
-                 by_decades("pin_weight", "Pin weight",
-                            "How much pins count when they are to be met", 1000, 1, 1e6))},
+                 by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely",
+                            1000, 1, 1e6))},
       true,
       true,
       false,

@@ -1,4 +1,5 @@
-// A bounded map at points that are no mesh vertices: integrated from a vertex of their triangle.
+// Evaluates a bounded map at arbitrary points by integrating from a vertex of the triangle that
+// contains the point.
 #pragma once
 
 #include "core/bounded/path_integral.h"
@@ -6,7 +7,7 @@
 
 namespace holomorph {
 
-/// The map with these derivatives and values f at the mesh's vertices.
+/// The map with the derivatives of `map` and the values f at the mesh's vertices.
 class BoundedPointMap final : public PointMap {
  public:
   BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,

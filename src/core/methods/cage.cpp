@@ -38,10 +38,14 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method cage_method() {
-  return {
-      "cage", "Cage", "Move the cage's points; the picture follows conformally. Pins do not act.",
-      {},     false,  true,
-      true,   prepare};
+  return {"cage",
+          "Cage",
+          "Move the cage points; the picture follows and keeps its angles. Pins have no effect.",
+          {},
+          false,
+          true,
+          true,
+          prepare};
 }
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// One function for each kind of field.
+// One function checks each kind of field.
 #include "core/methods/check_rest.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
   throw Error(ErrorKind::bad_input, what);
 }
 
-/// "sample 7 is (nan, 0); it must be finite".
+/// Refuses, for example, "sample 7 is (nan, 0); coordinates must be finite and at most 1e70".
 void check_finite(const Points& points, const std::string& what) {
   const auto wrong = std::ranges::find_if_not(points, is_moderate);
   if (wrong != points.end())
@@ -38,11 +38,11 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
     return std::ranges::all_of(list, [count](int i) { return is_index(i, count); });
   };
   if (mesh.triangles.empty() || mesh.boundary.size() < 3)
-    refuse("the mesh has no triangles, or no boundary");
+    refuse("the mesh has no triangles or no boundary");
   check_finite(mesh.vertices, "mesh vertex");
   if (!std::ranges::all_of(mesh.triangles, known) || !known(mesh.boundary) ||
       !known(mesh.cage_vertices))
-    refuse("the mesh names vertices that it does not have");
+    refuse("the mesh refers to vertices that it does not have");
   for (const auto& [a, b, c] : mesh.triangles)
     if (!(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]) > 0))
       refuse("a triangle of the mesh is flat or clockwise");
@@ -54,11 +54,13 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
   const Points corners = vertices_of(cage);
   for (const Complex& corner : corners)
     if (std::ranges::none_of(mesh.cage_vertices, [&](int v) { return mesh.vertices[v] == corner; }))
-      refuse("the mesh is not one of this cage: " + point_text(corner) +
-             " is not one of its cage_vertices; make it with mesh_of or domain_mesh");
+      refuse("the mesh does not belong to this cage: the cage vertex " + point_text(corner) +
+             " is not one of its cage_vertices; make the mesh with mesh_of or domain_mesh");
   if (mesh.cage_vertices.size() != corners.size())
-    refuse("the mesh is not one of this cage: it has " + std::to_string(mesh.cage_vertices.size()) +
-           " cage_vertices, and the cage " + std::to_string(corners.size()));
+    refuse("the mesh does not belong to this cage: it has " +
+           std::to_string(mesh.cage_vertices.size()) +
+           " cage_vertices; the number of vertices of the cage is " +
+           std::to_string(corners.size()));
 }
 
 void check_parameter(const ParameterSpec& spec, const Parameters& values) {
@@ -103,13 +105,13 @@ void check_rest(const Method& method, const Rest& rest) {
   for (const BrushDab& dab : rest.stiffness)
     if (!is_finite(dab.at) || !std::isfinite(dab.level) || !(dab.radius > 0) ||
         !std::isfinite(dab.radius))
-      refuse("a touch of the stiffness brush is not finite, or its radius not positive");
+      refuse("a dab of the stiffness brush is not finite, or its radius is not positive");
   for (const ParameterSpec& spec : method.parameters) check_parameter(spec, rest.parameters);
   for (const Method& other : methods())
     for (const ParameterSpec& spec : other.parameters)
       check_parameter(spec, parameters_of(rest, other));
   if (method.needs_mesh && !rest.mesh)
-    refuse("method " + method.id + " needs the domain's triangles: the rest has no mesh");
+    refuse("method " + method.id + " needs a mesh of the cage, but the rest has no mesh");
   if (rest.mesh) check_mesh(*rest.mesh, rest.cage);
 }
 

@@ -1,4 +1,5 @@
-// A pin that turns holds three points, so that its angle is one of positions.
+// A pin with a frame also holds points around it, so that positions alone prescribe its angle and
+// scale.
 #include "core/methods/handles.h"
 
 #include "core/error.h"
@@ -7,14 +8,14 @@
 namespace holomorph {
 
 HandlePoints::HandlePoints(const Rest& rest) : rest_(rest) {
-  check(rest.mesh != nullptr, "handle points: a rest with a mesh");
+  check(rest.mesh != nullptr, "handle points: the rest has a mesh");
   const double arm = 0.01 * box_of(rest.mesh->vertices).diagonal();
   for (size_t i = 0; i < rest.pins.size(); ++i) {
     const Index pin = static_cast<Index>(i);
     const size_t before = rest_points_.size();
     add(rest.pins[i].position, pin, 0);
     if (rest_points_.size() == before && note_.empty())
-      note_ = "Pin " + std::to_string(i + 1) + " lies outside the cage and holds nothing";
+      note_ = "Ignored: pin " + std::to_string(i + 1) + " (outside the cage)";
     if (!rest.pins[i].has_frame) continue;
     for (const Complex side : {Complex(arm), arm * kI}) {
       add(rest.pins[i].position + side, pin, side);

@@ -1,4 +1,4 @@
-// What methods that know nothing of cages hold on to: points of the rest and their places.
+// The handles of methods that use no cage coordinates: points of the rest and their targets.
 #pragma once
 
 #include "core/geometry/similarity.h"
@@ -6,22 +6,22 @@
 
 namespace holomorph {
 
-/// Handle points of a rest: its pins, those that turn with two points beside them; without any pin
-/// the cage's vertices.
+/// The handle points of a rest: its pins, and four points around each pin with a frame. Without any
+/// pin, the vertices of the cage.
 class HandlePoints {
  public:
   explicit HandlePoints(const Rest& rest);
 
-  /// At rest; only those inside the mesh.
+  /// Their positions at rest; points outside the mesh are left out.
   const Points& rest() const { return rest_points_; }
-  /// The mesh's triangles that they are in.
+  /// Their triangles in the mesh.
   const std::vector<Location>& locations() const { return locations_; }
-  /// Where a pose wants them. Throws Error as check_pose does.
+  /// Their targets in a pose. Throws Error as check_pose does.
   Points targets(const Pose& pose) const;
-  /// The turn and move that takes all handles to their places at once, if there is one, to
-  /// rounding; at rest the identity to the last bit.
+  /// The rigid motion that takes all handles to their targets up to rounding, if there is one. At
+  /// rest it is exactly the identity.
   std::optional<Similarity> rigid(const Points& targets) const;
-  /// "Pin 3 lies outside the cage and holds nothing", or nothing.
+  /// Names a pin outside the cage; empty when there is none.
   const std::string& note() const { return note_; }
 
  private:
@@ -31,8 +31,8 @@ class HandlePoints {
   Points rest_points_;
   std::vector<Location> locations_;
   struct Source {
-    Index handle;  ///< pin or cage vertex
-    Complex arm;   ///< from the handle, at rest
+    Index handle;  ///< number of the pin or cage vertex
+    Complex arm;   ///< offset from the handle at rest
   };
   std::vector<Source> sources_;
   bool pins_ = false;

@@ -1,7 +1,8 @@
-// Method `har_arap`: the energy of `arap` over the smooth maps f = Phi + conj(Psi), with Phi and
-// Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
+// Method `har_arap`: minimizes the energy of `arap` over the smooth maps f = Phi + conj(Psi), with
+// Phi and Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
 //
-// A few hundred unknowns and no mesh in the energy: f_z = Phi' and f_zbar = conj(Psi') at samples.
+// There are a few hundred unknowns, and the energy uses samples instead of triangles: f_z = Phi'
+// and f_zbar = conj(Psi').
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
 #include "core/methods/handles.h"
@@ -15,9 +16,9 @@ constexpr int kSamplesPerVertex = 3;
 constexpr size_t kInnerSamples = 400;
 constexpr int kMostIterations = 400, kDraftIterations = 30;
 constexpr double kSettled = 1e-9;
-constexpr double kHold = 1e3;       ///< of a handle, against the mean of the energy
-constexpr double kLittle = 1e-3;    ///< of rigidity in the start, which is conformal otherwise
-constexpr double kDefinite = 1e-9;  ///< Phi's and Psi's constants are one too many
+constexpr double kHold = 1e3;       ///< weight of a handle, relative to the mean energy
+constexpr double kLittle = 1e-3;    ///< weight of rigidity in the otherwise conformal start
+constexpr double kDefinite = 1e-9;  ///< fixes the constant that Phi and Psi can exchange
 
 class HarArapDeformer final : public Deformer {
  public:
@@ -52,7 +53,7 @@ class HarArapDeformer final : public Deformer {
   }
 
  private:
-  /// Samples by area: the mesh's inner vertices, its triangles' shares as weights.
+  /// Takes some of the mesh's vertices as samples, weighted by the area of their triangles.
   void set_up_energy() {
     const Mesh& mesh = *rest_.mesh;
     std::vector<double> areas(mesh.vertices.size(), 0);
@@ -64,7 +65,7 @@ class HarArapDeformer final : public Deformer {
       for (const int v : {a, b, c}) areas[static_cast<size_t>(v)] += area;
       total += 3 * area;
     }
-    // The share of what is passed over goes to the next sample.
+    // The weight of skipped vertices goes to the next sample.
     const size_t step = std::max<size_t>(1, mesh.vertices.size() / kInnerSamples);
     Points points;
     std::vector<double> weights;
@@ -81,7 +82,8 @@ class HarArapDeformer final : public Deformer {
     weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
   }
 
-  /// Normal matrices in (Re Phi, Im Phi, Re Psi, Im Psi): f = C Phi + conj(C Psi) at the handles.
+  /// The normal matrices in the unknowns (Re Phi, Im Phi, Re Psi, Im Psi), with f = C Phi + conj(C
+  /// Psi) at the handles.
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
@@ -185,15 +187,16 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method har_arap_method() {
-  Method method{"har_arap",
-                "Rigid and smooth",
-                "As rigid as possible among smooth maps: pins pull no spikes. Without pins the "
-                "cage's points hold.",
-                {},
-                true,
-                true,
-                false,
-                prepare};
+  Method method{
+      "har_arap",
+      "Rigid and smooth",
+      "As rigid as a smooth map can be: pins pull no spikes. Without pins, the cage points "
+      "hold.",
+      {},
+      true,
+      true,
+      false,
+      prepare};
   method.needs_mesh = true;
   return method;
 }

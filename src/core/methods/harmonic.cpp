@@ -1,5 +1,5 @@
-// Method `harmonic`: f = sum h_c b_c with the harmonic functions h_c that run along the cage as its
-// control points' weights do, so that the cage's image is the posed cage itself.
+// Method `harmonic`: f = sum h_c b_c, where the harmonic function h_c equals the weight of control
+// point c on the cage. Therefore the image of the cage is the posed cage itself.
 #include <algorithm>
 
 #include "core/angles/hilbert.h"
@@ -24,7 +24,7 @@ RealParts control_weights(const Cage& cage) {
 /// h as the real parts of holomorphic functions g.
 class HarmonicCoordinates final : public RealCoordinates {
  public:
-  /// For a counter-clockwise cage. Outside of it the functions are continued linearly.
+  /// `cage` must be counter-clockwise. Outside of it, the functions are continued linearly.
   explicit HarmonicCoordinates(const Cage& cage)
       : cage_(cage),
         flat_(flattened(cage)),
@@ -33,7 +33,7 @@ class HarmonicCoordinates final : public RealCoordinates {
     for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
   }
 
-  /// One row for each point: g, or g' with order 1.
+  /// One row per point: g (order 0) or g' (order 1).
   MatrixXc at(std::span<const Complex> points, int order) const override {
     Points places, slope_places, steps;
     std::vector<Index> outside;
@@ -44,7 +44,8 @@ class HarmonicCoordinates final : public RealCoordinates {
       }
       outside.push_back(static_cast<Index>(places.size()));
       const BoundaryPoint foot = nearest(z);
-      constexpr double kLeast = 0.02;  // of a segment: slopes may be infinite at its ends
+      constexpr double kLeast =
+          0.02;  // in a segment's parameter; slopes may be infinite at its ends
       const Complex on = position_of(cage_, foot),
                     off_ends =
                         position_of(cage_, {foot.segment, std::clamp(foot.t, kLeast, 1 - kLeast)});
@@ -61,7 +62,7 @@ class HarmonicCoordinates final : public RealCoordinates {
   }
 
  private:
-  /// Or on the boundary.
+  /// Whether z is inside the cage or on its boundary.
   bool is_inside(Complex z) const {
     if (contact_of(segments_, z)) return true;
     return is_straight(cage_) ? winding_number(flat_.points, z) != 0 : contains(cage_, z);
@@ -92,7 +93,7 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 Method harmonic_method() {
   return {"harmonic",
           "Harmonic",
-          "The cage's edges stay straight and go exactly where you put them; angles give way.",
+          "The cage's edges stay straight and go exactly where you put them. Angles change.",
           {},
           false,
           true,

@@ -1,4 +1,4 @@
-// Products with the operator, and what cage operators are made of.
+// Products with the operator, and the parts that cage operators are made of.
 #include "core/methods/linear.h"
 
 #include "core/cauchy/cauchy.h"
@@ -58,7 +58,7 @@ void check_pose(const Rest& rest, const Pose& pose) {
       throw Error(ErrorKind::bad_input,
                   "posed segment " + std::to_string(i + 1) + " must have from 1 to " +
                       std::to_string(rest.cage.degree(i)) +
-                      " control points, as the rest was prepared for, and has " +
+                      " control points, as the rest was prepared for, but has " +
                       std::to_string(pose.cage.degree(i)));
   if (pose.pins.size() != rest.pins.size())
     throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
@@ -71,7 +71,7 @@ void check_pose(const Rest& rest, const Pose& pose) {
     if (!std::isfinite(corner.before) || !std::isfinite(corner.after) || !(corner.tension >= 0) ||
         !(corner.tension <= 1))
       throw Error(ErrorKind::bad_input,
-                  "a corner's angle is not finite, or a tension outside 0 to 1");
+                  "a corner's angle is not finite, or its tension is not between 0 and 1");
   for (const Points& segment : pose.cage.segments)
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
@@ -79,7 +79,7 @@ void check_pose(const Rest& rest, const Pose& pose) {
     if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !(pin.scale >= kLeastPinScale) ||
         !(pin.scale <= kMostPinScale))
       throw Error(ErrorKind::bad_input,
-                  "a posed pin is not finite, or scales by less than 0.01 or more than 100");
+                  "a posed pin is not finite, or its scale is below 0.01 or above 100");
 }
 
 VectorXc cage_displacement(const Rest& rest, const Pose& pose) {

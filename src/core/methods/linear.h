@@ -1,7 +1,8 @@
-// What methods linear in the pose share: f = z + M c(pose) at the samples, f_z = 1 + M' c(pose).
+// Common parts of methods that are linear in the pose: f = z + M c(pose) and f_z = 1 + M' c(pose)
+// at the samples.
 //
-// Controls are displacements, so the rest pose gives the identity to the last bit and rounding
-// scales with the deformation, not with the picture.
+// Controls are displacements. Therefore the rest pose gives exactly the identity, and rounding
+// errors scale with the deformation, not with the picture.
 #pragma once
 
 #include "core/cauchy/cauchy_map.h"
@@ -9,7 +10,7 @@
 
 namespace holomorph {
 
-/// A holomorphic map linear in its controls; T is the operator's precision.
+/// A holomorphic map that is linear in its controls; T is the scalar type of the operator.
 template <class T>
 class LinearDeformer : public Deformer {
  public:
@@ -19,7 +20,7 @@ class LinearDeformer : public Deformer {
   const PlanarMatrix<float>* operator_matrix() const override;
 
  protected:
-  /// M' at the derivative samples; made on first use.
+  /// M' at the derivative samples; called on first use.
   virtual PlanarMatrix<T> derivative_matrix() const = 0;
 
   const Points& derivative_points() const {
@@ -34,7 +35,7 @@ class LinearDeformer : public Deformer {
   PlanarMatrix<T> derivative_;
 };
 
-/// f(z) = z + constant + slope (z - center) + a sum of Cauchy integrals and conjugates of others.
+/// f(z) = z + constant + slope (z - center) + sum of Cauchy integrals + sum of conjugated ones.
 class SumMap final : public PointMap {
  public:
   std::vector<CauchySum> terms, conjugates;
@@ -46,8 +47,8 @@ class SumMap final : public PointMap {
 /// Throws Error unless the pose's cage has the rest's structure and is finite.
 void check_pose(const Rest& rest, const Pose& pose);
 
-/// Displacements of the posed cage's control points, the posed segments raised to the rest's
-/// degrees.
+/// The displacements of the posed cage's control points, after raising the posed segments to the
+/// degrees of the rest.
 VectorXc cage_displacement(const Rest& rest, const Pose& pose);
 
 /// Two operators side by side.

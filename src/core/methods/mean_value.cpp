@@ -1,5 +1,6 @@
 // Method `mean_value`: f = sum w_c b_c with mean value coordinates (Floater 2003; Hormann, Floater
-// 2006 for polygons of any shape): closed form, along the cage, but negative beyond reflex corners.
+// 2006 for polygons of any shape). They have a closed form and follow the cage's edges, but are
+// negative beyond reflex corners.
 #include <algorithm>
 
 #include "core/methods/real_coordinates.h"
@@ -8,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-/// A number and its derivatives in the plane.
+/// A number and its derivatives with respect to x and y.
 struct Dual {
   double value = 0, x = 0, y = 0;
 
@@ -28,11 +29,11 @@ Dual root(const Dual& a) {
   return {r, a.x / (2 * r), a.y / (2 * r)};
 }
 
-/// The mean value coordinates of a polygon's vertices at z, which is none of them.
+/// The mean value coordinates of a polygon's vertices at z, which must not be a vertex.
 ///
-/// All weights are multiplied by the distance of the nearest vertex and, where an edge is seen
-/// under more than a right angle, by the cotangent of half the widest one: nothing is large then,
-/// on the edges neither.
+/// All weights are multiplied by the distance of the nearest vertex and, if an edge subtends more
+/// than a right angle at z, by the cotangent of half the widest angle. This keeps all terms
+/// bounded, even on the edges.
 std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   struct Side {
     Dual x, y, length;
@@ -48,7 +49,7 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   const size_t n = polygon.size();
   struct Angle {
     Dual along, across, product;
-    /// The tangent of half the angle, in the form that loses no digits.
+    /// The tangent of half the angle, in the form without cancellation.
     Dual tangent() const {
       return along.value > 0 ? across / (product + along) : (product - along) / across;
     }
@@ -75,7 +76,8 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
     weights[(i + 1) % n] = weights[(i + 1) % n] + end;
     sum = sum + start + end;
   }
-  // The nearest vertex has the rest of 1: next to it its own weight's derivative has lost digits.
+  // The weights sum to 1, which gives the weight of the nearest vertex: next to that vertex, the
+  // derivative of its own formula suffers from cancellation.
   Dual rest{1, 0, 0};
   const size_t own = static_cast<size_t>(nearest_side - sides.begin());
   for (size_t i = 0; i < n; ++i) {
@@ -87,7 +89,8 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   return weights;
 }
 
-/// Of a curved cage: those of a fine polygon on it, whose vertices are sums of control points.
+/// For a curved cage, these are the coordinates of a fine polygon on it, whose vertices are
+/// weighted sums of control points.
 class MeanValueCoordinates final : public RealCoordinates {
  public:
   explicit MeanValueCoordinates(const Cage& cage)
@@ -123,7 +126,7 @@ class MeanValueCoordinates final : public RealCoordinates {
 
   FlatCage flat_;
   Cage polygon_;
-  MatrixXd controls_;  ///< of the polygon's vertices
+  MatrixXd controls_;  ///< the control points' weights at the polygon's vertices
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
@@ -136,8 +139,8 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 Method mean_value_method() {
   return {"mean_value",
           "Mean value",
-          "Along the cage as Harmonic is, in closed form; to compare: beyond reflex corners it "
-          "overshoots.",
+          "Follows the cage's edges like Harmonic, without preparation. For comparison: it "
+          "overshoots beyond corners that point inwards.",
           {},
           false,
           false,

@@ -1,4 +1,4 @@
-// THE table of methods.
+// The table of all methods.
 #include "core/error.h"
 #include "core/maps/deformer.h"
 #include "core/methods/check_rest.h"
@@ -82,7 +82,7 @@ double parameter(const Method& method, const Parameters& values, const std::stri
   if (const auto found = values.find(key); found != values.end()) return found->second;
   for (const ParameterSpec& spec : method.parameters)
     if (spec.key == key) return spec.fallback;
-  check(false, "a method asks for a parameter that its row names");
+  check(false, "a method asks only for parameters in its row");
   return 0;
 }
 
@@ -94,7 +94,7 @@ std::string choice(const Method& method, const Parameters& values, const std::st
   for (const ParameterSpec& spec : method.parameters)
     if (spec.key == key)
       return spec.options[static_cast<size_t>(parameter(method, values, key))].id;
-  check(false, "a method asks for a choice that its row names");
+  check(false, "a method asks only for choices in its row");
   return "";
 }
 

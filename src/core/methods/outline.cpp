@@ -1,4 +1,4 @@
-// Method `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
+// Method `outline`: maps the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -27,7 +27,7 @@ class OutlineDeformer final : public Deformer {
     }
     fit_ = new_fit();
     set_up_values();
-    // What no pose changes is solved while the rest is prepared, which nobody waits for.
+    // Without pins, no pose changes the solution, so it is part of the preparation.
     if (pins_.used.empty()) solve({}, false);
   }
 
@@ -35,15 +35,15 @@ class OutlineDeformer final : public Deformer {
     check_pose(rest_, pose);
     if (free_) {
       SampledMap out = free_->deform(pose, options);
-      out.note = "Draw an outline: the picture's shape goes onto it." +
-                 (out.note.empty() ? "" : " " + out.note);
+      out.note =
+          "Draw an outline for the picture to fill" + (out.note.empty() ? "" : ". " + out.note);
       return out;
     }
     SampledMap out;
     solve(pinned(pose), options.draft);
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(options.iteration.value_or(last), last));
-    // While an earlier iteration is watched its basis may be another one.
+    // An earlier iteration, which the user may look at, can have another basis.
     const bool is_own = match.basis == fit_->basis();
     out.f = image(is_own ? value_ : planar_coordinates<T>(match.basis, rest_.samples), match);
     if (options.derivatives) {
@@ -62,10 +62,10 @@ class OutlineDeformer final : public Deformer {
     if (match.iterations < last || last == settings().most_iterations)
       out.status = SampledMap::Status::iterating;
     out.note = note(match);
-    if (pose.cage != rest_.cage) out.note += "; cage points do not act";
+    if (pose.cage != rest_.cage) out.note += ". Cage points have no effect";
     if (std::ranges::any_of(rest_.pins, &RestPin::has_frame))
-      out.note += "; pins guide by place only";
-    if (!pins_.note.empty()) out.note += "; " + pins_.note;
+      out.note += ". Pins act by position only";
+    if (!pins_.note.empty()) out.note += ". " + pins_.note;
     return out;
   }
 
@@ -129,8 +129,8 @@ class OutlineDeformer final : public Deformer {
     slope_ = {};
   }
 
-  /// Rows sum to one up to rounding, which must not multiply the drawing's distance from the
-  /// origin.
+  /// The rows of c sum to one up to rounding. Subtracting the center keeps that error from growing
+  /// with the drawing's distance from the origin.
   static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
     const Complex center = match.phi.mean();
     VectorXc f = product(c, VectorXc(match.phi.array() - center)).array() + center;
@@ -142,38 +142,38 @@ class OutlineDeformer final : public Deformer {
     const double size = Polyline(rest_.outline, true).diameter();
     const auto percent = [&](double length) {
       char text[32];
-      std::snprintf(text, sizeof text, "%.2g %%", 100 * length / size);
+      std::snprintf(text, sizeof text, "%.2f %%", 100 * length / size);
       return std::string(text);
     };
-    std::string note = "The outline is met to " + percent(match.rms) +
+    std::string note = "Outline met to within " + percent(match.rms) +
                        " of its size on average and " + percent(match.hausdorff) + " at worst";
     if (match.iterations > 0)
-      note +=
-          ", in " + std::to_string(match.iterations) + (match.iterations == 1 ? " step" : " steps");
-    if (match.zeros > 0) note += "; the picture folds: f' has zeros";
+      note += ", after " + std::to_string(match.iterations) +
+              (match.iterations == 1 ? " step" : " steps");
+    if (match.zeros > 0) note += ". The picture folds";
     const bool reached = match.hausdorff <= kOutlineMet * size,
                met = match.pins_missed <= kOutlineMet * size;
     if (match.pins_held > 0)
-      note += match.pins_held == 1 ? "; a pin is wanted outside of it and held inside"
-                                   : "; pins are wanted outside of it and held inside";
-    if (!met) note += "; a pin is missed by " + percent(match.pins_missed);
-    // Three numbers choose among the conformal maps onto an outline; a pin takes two of them.
+      note += match.pins_held == 1 ? ". A pin outside the outline is held inside"
+                                   : ". Pins outside the outline are held inside";
+    if (!met) note += ". A pin is missed by " + percent(match.pins_missed);
+    // A conformal map onto an outline has three free parameters, and a pin fixes two of them.
     if (pins_.used.size() > 1 && !(reached && met))
-      note += "; the pins contradict each other there: fewer of them or more softness help";
+      note += ". The pins contradict each other: use fewer pins or more softness";
     else if (!reached)
-      note += "; not all of it is reached: more softness goes farther";
+      note += ". Parts of the outline are not reached: use more softness";
     return note;
   }
 
   Rest rest_;
   const Method& method_;
   ActingPins pins_;
-  std::unique_ptr<Deformer> free_;  ///< cage and pins, until there is an outline
+  std::unique_ptr<Deformer> free_;  ///< method `pins`, used while there is no outline
   std::unique_ptr<OutlineFit> fit_;
   int built_ = 0;
-  PlanarMatrix<T> value_, slope_;  ///< C and C' of that basis
-  std::optional<Points> solved_;   ///< pins' places
-  bool draft_ = false;             ///< roughly
+  PlanarMatrix<T> value_, slope_;  ///< C and C' of the fit's basis at the samples
+  std::optional<Points> solved_;   ///< the pins' targets of the last solve
+  bool draft_ = false;             ///< whether the last solve was a draft
 };
 
 std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
@@ -187,19 +187,20 @@ Method outline_method() {
   Method method{
       "outline",
       "Onto an outline",
-      "The shape of the cage goes onto a drawn outline, inside and all.",
-      {number("softness", "Softness", "0 keeps all angles; 1 hardly any", 0, 0, 1),
+      "Maps the cage and the picture inside onto an outline that you draw.",
+      {number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
        used_with(
            "published", 0,
            by_decades("smoothness", "Smoothness",
-                      "How much bending costs; large values round the corners", 0.01, 1e-4, 10)),
-       by_decades("pin_weight", "Pin weight", "How much missing a pin costs", 0.1, 1e-3, 1e3),
-       number("vertices", "Vertices", "How finely the outline is followed", 200, 50, 400),
-       used_with("published", 0,
-                 toggle("upright", "Upright", "Turn the picture as little as is worth it", true)),
+                      "Higher values bend the picture less and round the corners", 0.01, 1e-4, 10)),
+       by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 0.1, 1e-3,
+                  1e3),
+       number("vertices", "Vertices",
+              "The number of boundary points; more follow the outline more finely", 200, 50, 400),
+       used_with("published", 0, toggle("upright", "Upright", "Avoid rotating the picture", true)),
        toggle("published", "As published",
-              "The method of the paper: equal steps along the outline, closest points from "
-              "there, no smoothing")},
+              "The method of Segall and Ben-Chen, for comparison: it starts with equal steps along "
+              "the outline, continues with closest points, and does not smooth")},
       true,
       true,
       false,

@@ -1,4 +1,4 @@
-// Parameters of methods in the words of their tables.
+// Short constructors for the parameters in a method's row of the table.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -14,7 +14,7 @@ inline ParameterSpec number(std::string key, std::string label, std::string hint
   return spec;
 }
 
-/// A number whose slider goes by powers of ten.
+/// A number with a logarithmic slider.
 inline ParameterSpec by_decades(std::string key, std::string label, std::string hint,
                                 double fallback, double lowest, double highest) {
   ParameterSpec spec =
@@ -30,7 +30,7 @@ inline ParameterSpec toggle(std::string key, std::string label, std::string hint
   return spec;
 }
 
-/// One of these; the first one unless told otherwise.
+/// A choice among options; `fallback` is the index of the default.
 inline ParameterSpec one_of(std::string key, std::string label, std::string hint,
                             std::vector<ParameterSpec::Option> options, size_t fallback = 0) {
   const double highest = static_cast<double>(options.size()) - 1;
@@ -41,14 +41,14 @@ inline ParameterSpec one_of(std::string key, std::string label, std::string hint
   return spec;
 }
 
-/// The parameter, used beside this value of another one only.
+/// The parameter `spec`, which has an effect only while the parameter `key` has this value.
 inline ParameterSpec used_with(std::string key, double value, ParameterSpec spec) {
   spec.used_when = ParameterSpec::Condition{std::move(key), value};
   return spec;
 }
 
-/// The weight of mean |f_zbar|^2 for a softness from 0, which demands f_zbar = 0 (weight 0), to 1,
-/// which hardly minds: from nearly conformal down by decades.
+/// The weight of mean |f_zbar|^2 for a softness from 0 to 1. Above 0 it falls exponentially from 1,
+/// which is nearly conformal, to 0.001. Softness 0 demands f_zbar = 0, and the weight is 0.
 inline double stiffness_of(double softness) {
   return softness > 0 ? std::pow(10.0, -3 * softness) : 0;
 }

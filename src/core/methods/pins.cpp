@@ -1,11 +1,12 @@
-// Method `pins`: f = f_cage + h, h holomorphic, h(u_i) = v_i - f_cage(u_i), and as smooth as can
-// be: the energy mean |h''|^2 over the boundary, at the midpoints of straight edges (Segall,
-// Ben-Chen 2016, E_s and E_p2p; Lin, Chen 2024, 4.5, where the cage is curved).
+// Method `pins`: f = f_cage + h, with h holomorphic and h(u_i) = v_i - f_cage(u_i). Of all such
+// functions, h is the smoothest: it minimizes mean |h''|^2 over the boundary, sampled at the
+// midpoints of straight edges (Segall, Ben-Chen 2016, E_s and E_p2p; Lin, Chen 2024, 4.5, for
+// curved cages).
 //
-// With the energy's rows in QR form, R g = y, the minimizer is spanned by the pins themselves, as
-// thin-plate splines are: (M M* + ridge) lambda + T c = data with M = P R^-1 and T the affine maps,
-// which cost nothing. A soft pin is a ridge, an exact one is none; a system of the pins' number is
-// all that a pin more costs, besides its column of the operator.
+// With the energy's rows in QR form, R g = y, the minimizer is a combination of one function per
+// pin, as for thin-plate splines: (M M* + ridge) lambda + T c = data, with M = P R^-1 and T the
+// affine maps, which have no energy. Soft pins have a ridge, exact pins have none. The system is
+// only as large as the number of pins, and each further pin adds one column to the operator.
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -21,8 +22,8 @@ namespace {
 
 constexpr int kBasisControls = 100;
 
-/// The cage with long segments cut until it has about kBasisControls control points; straight ones
-/// keep two each.
+/// The cage with long segments cut until it has about kBasisControls control points. The parts of
+/// straight segments have degree 1.
 Cage basis_cage(const Cage& cage) {
   const double step = perimeter(outline_of(cage)) / kBasisControls;
   Cage basis;
@@ -49,8 +50,8 @@ Cage basis_cage(const Cage& cage) {
   return basis;
 }
 
-/// Where the smoothness is measured: as many places on each segment as it has control points, away
-/// from its ends, where f'' has poles.
+/// The points where smoothness is measured: as many on each segment as its degree, away from its
+/// ends, where f'' has poles.
 std::vector<BoundaryPoint> smoothness_places(const Cage& basis) {
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < basis.size(); ++e)
@@ -58,13 +59,13 @@ std::vector<BoundaryPoint> smoothness_places(const Cage& basis) {
   return places;
 }
 
-/// What does not depend on the pins: the basis at the samples and the smoothness energy's factor.
+/// Everything that does not depend on the pins: the basis at the samples and the energy's factor R.
 template <class T>
 struct PinBasis {
   Cage cage;
   Points samples;
   Cage basis;
-  bool own;           ///< the basis is the cage itself
+  bool own;           ///< whether the basis is the cage itself
   double length = 1;  ///< L = perimeter / 2 pi, the unit of all energies
   PlanarMatrix<T> cage_value, value;
   MatrixXc factor;  ///< upper triangular R
@@ -81,7 +82,7 @@ struct PinBasis {
     MatrixXc rows(n + 2, n);
     rows.topRows(n) = cauchy_coordinates(basis, smoothness_places(basis), 2) *
                       (length * length / std::sqrt(static_cast<double>(n)));
-    // The energy leaves affine maps free; two rows at an inner point make R invertible. They do not
+    // The energy of affine maps is zero; two rows at an inner point make R invertible. They do not
     // change the minimizer, because the affine part is solved for separately.
     const Complex anchor = inner_point();
     rows.row(n) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
@@ -142,7 +143,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     VectorXc all(cage.size() + functionals());
     all.head(cage.size()) = cage;
     Index row = cage.size();
-    const VectorXc base = cage_at_pins_ * cage;  // what the cage alone does at each functional
+    const VectorXc base = cage_at_pins_ * cage;  // the value of each functional for the cage's map
     for (const size_t i : used_) all[row++] = pose.pins[i].position - this->rest_.pins[i].position;
     for (const size_t i : used_)
       if (this->rest_.pins[i].has_frame)
@@ -196,8 +197,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
  private:
   /// The basis has corners all along the boundary, where its derivatives have logarithmic poles.
-  /// Points of the boundary that stand for their neighborhood are moved inwards by a part of the
-  /// nearest segment's length.
+  /// Points on the boundary, which represent their neighborhood, are moved inwards by a fraction of
+  /// the nearest segment's length.
   Points inset(Points points) const {
     constexpr double kOn = 0.05, kBy = 0.2;
     const Points outline = outline_of(basis_->basis, 4);
@@ -216,7 +217,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
   Index functionals() const { return cage_at_pins_.rows(); }
 
-  /// One solve for all unit data: coefficients of the basis and of the affine maps per functional.
+  /// Solves once for all unit data: the coefficients of the basis and of the affine maps, one
+  /// column per functional.
   void solve(double ridge_per_pin) {
     const auto& pins = this->rest_.pins;
     Points places, turning;
@@ -234,14 +236,14 @@ class PinsDeformer final : public LinearDeformer<T> {
     cage_at_pins_.resize(m, this->rest_.cage.control_count());
     cage_at_pins_.topRows(p) = cauchy_coordinates(this->rest_.cage, places, 0);
     if (q > 0) {
-      // At a vertex, where a derivative is infinite in general, that of a point just inside.
+      // At a vertex, where derivatives are infinite in general, a point just inside is used.
       const auto slopes = [&](const Cage& cage) {
         return as_complex(planar_coordinates<double>(cage, turning, 1));
       };
       rows.bottomRows(q) = length * slopes(basis);
       cage_at_pins_.bottomRows(q) = length * slopes(this->rest_.cage);
     }
-    // Affine maps 1 and (z - center) / L; a single pin without an angle only translates.
+    // The affine maps 1 and (z - center) / L; a single pin without a frame only translates.
     const Index affine = m >= 2 ? 2 : 1;
     center_ = places[0];
     MatrixXc T_rows = MatrixXc::Zero(m, affine);
@@ -286,7 +288,7 @@ class PinsDeformer final : public LinearDeformer<T> {
   }
 
   std::shared_ptr<const PinBasis<T>> basis_;
-  std::vector<size_t> used_;      ///< pins that act
+  std::vector<size_t> used_;      ///< the pins that are not ignored
   MatrixXc cage_at_pins_;         ///< functionals x cage controls
   PlanarMatrix<T> coefficients_;  ///< basis x functionals
   MatrixXc affine_;               ///< affine maps x functionals
@@ -305,27 +307,27 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
 }  // namespace
 
 Method pins_method() {
-  return {"pins",
-          "Cage and pins",
-          "Drag pins; the picture follows as smoothly as it can. Cage points act too.",
-          {toggle("exact", "Exact",
-                  "The picture passes through every pin, whatever that takes; off: it yields a "
-                  "little where pins contradict each other"),
-           used_with("exact", 0,
-                     by_decades("smoothness", "Smoothness",
-                                "How much bending costs when pins are soft (dimensionless)", 1e-5,
-                                1e-8, 1e-1)),
-           used_with("exact", 0,
-                     by_decades("pin_weight", "Pin weight",
-                                "How much missing a pin costs when pins are soft (dimensionless)",
-                                10, 1e-3, 1e3)),
-           toggle("own_controls", "Cage's own points",
-                  "Pins move the cage's own control points, which show where they go; off: a finer "
-                  "boundary of a hundred points follows")},
-          true,
-          true,
-          true,
-          prepare};
+  return {
+      "pins",
+      "Elastic pins",
+      "Drag pins, and the picture follows smoothly. Cage points also work.",
+      {toggle("exact", "Exact",
+              "Every pin is met exactly, however much the picture bends. Off: pins that "
+              "contradict each other are met approximately"),
+       used_with("exact", 0,
+                 by_decades("smoothness", "Smoothness",
+                            "Higher values bend the picture less and meet the pins less closely",
+                            1e-5, 1e-8, 1e-1)),
+       used_with("exact", 0,
+                 by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely",
+                            10, 1e-3, 1e3)),
+       toggle("own_controls", "Cage's own points",
+              "Pins move the cage's own points, and you see where they go. Off: pins move a "
+              "finer boundary of about a hundred points")},
+      true,
+      true,
+      true,
+      prepare};
 }
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
-// Weights are real parts, so that the operator is one of complex numbers like the others.
+// The weights are stored as real parts, so that the operator is complex like those of other
+// methods.
 #include "core/methods/real_coordinates.h"
 
 namespace holomorph {

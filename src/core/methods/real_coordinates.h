@@ -1,23 +1,24 @@
-// Maps f = sum h_c b_c with real functions h_c of a cage's control points.
+// Maps f = sum h_c b_c with one real function h_c for each control point b_c of a cage.
 #pragma once
 
 #include "core/methods/linear.h"
 
 namespace holomorph {
 
-/// Real coordinates of a counter-clockwise cage: they add up to 1 and reproduce z.
+/// Real coordinates of a counter-clockwise cage: they sum to 1 and reproduce z.
 class RealCoordinates {
  public:
   virtual ~RealCoordinates() = default;
-  /// A row for each point: h as real parts, or h_x - i h_y with order 1.
+  /// One row per point: h in the real parts (order 0), or h_x - i h_y (order 1).
   virtual MatrixXc at(std::span<const Complex> points, int order) const = 0;
 };
 
-/// The linear deformer of a rest with such coordinates of its cage, run through counter-clockwise.
+/// The linear deformer of a rest, given such coordinates of its cage in counter-clockwise
+/// orientation.
 std::unique_ptr<Deformer> real_deformer(const Rest& rest,
                                         std::shared_ptr<const RealCoordinates> coordinates);
 
-/// Each control point's weight at places of a cage: Bernstein polynomials.
+/// The Bernstein weights of the control points at boundary points of a cage: points x controls.
 MatrixXd weights_at(const Cage& cage, std::span<const BoundaryPoint> places);
 
 }  // namespace holomorph

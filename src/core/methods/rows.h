@@ -1,4 +1,4 @@
-// The rows of the table of methods, one function per file of this folder.
+// The rows of the table of methods. Each method has one function and one file in this folder.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -8,33 +8,35 @@ namespace holomorph {
 /// `cage`: f = C b, the Cauchy-Green map of the posed cage (Weber, Ben-Chen, Gotsman 2009).
 Method cage_method();
 
-/// `pins`: the cage's map plus the smoothest holomorphic correction that takes pins to their
+/// `pins`: the cage's map plus the smoothest holomorphic correction that takes the pins to their
 /// targets.
 Method pins_method();
 
-/// `arap`: triangles that keep their shape and size as well as they can.
+/// `arap`: triangles keep their shape and size as far as possible.
 Method arap_method();
 
-/// `har_arap`: the same energy among smooth harmonic maps.
+/// `har_arap`: minimizes the energy of `arap` over smooth harmonic maps.
 Method har_arap_method();
 
-/// `outline`: the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
+/// `outline`: maps the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
 Method outline_method();
 
-/// `strokes`: curves inside go onto other curves, free to slide (Segall, Ben-Chen 2016).
+/// `strokes`: maps curves inside the cage onto other curves, along which their points may slide
+/// (Segall, Ben-Chen 2016).
 Method strokes_method();
 
-/// `angles`: f' = exp(i H theta) for the boundary's angles (Weber, Gotsman 2010).
+/// `angles`: f' = exp(i H theta) for boundary angles theta (Weber, Gotsman 2010).
 Method angles_method();
 
-/// `harmonic`: f = h b, with harmonic coordinates h (Weber, Gotsman 2010, sec. 5): the cage's image
-/// is the posed cage.
+/// `harmonic`: f = h b, with harmonic coordinates h (Weber, Gotsman 2010, sec. 5). The image of the
+/// cage is the posed cage.
 Method harmonic_method();
 
-/// `mean_value`: the same with mean value coordinates.
+/// `mean_value`: f = h b, with mean value coordinates h.
 Method mean_value_method();
 
-/// `bounded`: the nearest locally injective map of bounded distortion to that of one of the others.
+/// `bounded`: the locally injective map of bounded distortion that is nearest to the map of one of
+/// the other methods (Levi, Weber 2016).
 Method bounded_method(const std::vector<Method>& references);
 
 }  // namespace holomorph

@@ -1,9 +1,9 @@
-// Method `strokes`: curves drawn inside go onto curves drawn elsewhere, their points free to slide
-// along them (Segall, Ben-Chen 2016, E_s2s); between them the map is as smooth (E_s), as rigid
-// (E_r) and as conformal as asked.
+// Method `strokes`: maps curves inside the cage onto other curves, along which their points may
+// slide (Segall, Ben-Chen 2016, E_s2s). Elsewhere the map is as smooth (E_s), as rigid (E_r) and as
+// conformal as the parameters ask for.
 //
-// f = the cage's map + h, h in a smooth basis: what pins, strokes and rigidity leave undone is
-// minimized by alternating least squares. Without strokes it is method `pins`.
+// f is the cage's map plus h, with h in a smooth basis. Alternating least squares minimize the
+// residuals of pins, strokes and rigidity. Without strokes, this is method `pins`.
 #include <cstdio>
 
 #include "core/cauchy/boundary_basis.h"
@@ -20,19 +20,19 @@ namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerVertex = 2;
-constexpr double kInset = 1;       ///< of rigidity's and smoothness's samples, in their distances
-constexpr double kPerLength = 20;  ///< samples of a stroke for each L of it
-constexpr double kLittle = 1e-3;   ///< of rigidity, in the start
+constexpr double kInset = 1;  ///< of rigidity's and smoothness's samples, in units of their spacing
+constexpr double kPerLength = 20;  ///< samples per length L of a stroke
+constexpr double kLittle = 1e-3;   ///< factor of the weight of rigidity in the start
 constexpr int kFewest = 8, kMost = 40;
 constexpr int kDraftSteps = 20, kSteps = 300;
 constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
 
-/// A stroke's samples at rest and what part of its length each is at.
+/// The samples of a stroke at rest, and the fraction of its length at which each lies.
 struct Samples {
   Points places;
   std::vector<double> shares;
-  size_t stroke = 0;     ///< of the rest
-  bool clipped = false;  ///< not all of the stroke lies inside
+  size_t stroke = 0;     ///< its number in the rest
+  bool clipped = false;  ///< whether a part of the stroke lies outside the cage
 };
 
 Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
@@ -51,10 +51,11 @@ Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
   return samples;
 }
 
-/// Where the strokes' samples and the slopes of a pose should be: the targets of the fit's terms.
+/// The targets of the fit's terms in a pose, for the strokes' samples and for f' at inner points.
 class StrokeTargets {
  public:
-  /// `on` and `slopes` are what the cage alone does: displacements of the samples, L f' inside.
+  /// `on` and `slopes` are given by the cage's map: the displacements of the samples, and L f' at
+  /// inner points.
   StrokeTargets(const std::vector<Samples>& strokes, const std::vector<Points>& posed,
                 const VectorXc& on, VectorXc slopes, double unit)
       : slopes_(std::move(slopes)), unit_(unit) {
@@ -71,7 +72,7 @@ class StrokeTargets {
   }
 
   const std::vector<double>& shares() const { return shares_; }
-  /// Displacements that take the samples to these shares of the posed strokes' lengths.
+  /// The displacements that take the samples to these fractions of the posed strokes' lengths.
   VectorXc at(const std::vector<double>& shares) const {
     VectorXc targets(static_cast<Index>(samples_.size()));
     for (size_t i = 0; i < samples_.size(); ++i)
@@ -80,7 +81,7 @@ class StrokeTargets {
           samples_[i].place;
     return targets;
   }
-  /// The nearest places on the posed strokes.
+  /// Sets the targets to the nearest points on the posed strokes.
   void project(const VectorXc& values, VectorXc& targets) {
     for (size_t i = 0; i < samples_.size(); ++i) {
       const auto& [c, place] = samples_[i];
@@ -91,7 +92,7 @@ class StrokeTargets {
       targets[row] = nearest.point - place;
     }
   }
-  /// The nearest slopes of length 1.
+  /// Sets the targets so that f' is the nearest number of modulus 1.
   void make_rigid(const VectorXc& values, VectorXc& targets) const {
     for (Index i = 0; i < values.size(); ++i) {
       const Complex slope = slopes_[i] + values[i];
@@ -103,7 +104,7 @@ class StrokeTargets {
  private:
   struct CurveSample {
     size_t curve;
-    Complex place;  ///< where the cage takes it
+    Complex place;  ///< its image under the cage's map
   };
   std::vector<Polyline> curves_;
   std::vector<double> lengths_;
@@ -124,15 +125,15 @@ class StrokesDeformer final : public Deformer {
     for (size_t i = 0; i < rest.strokes.size(); ++i) {
       Samples samples = samples_of(rest.strokes[i], rest.cage, unit);
       if (samples.clipped)
-        note_ += (note_.empty() ? "" : "; ") + ("stroke " + std::to_string(i + 1)) +
-                 (samples.places.empty() ? " lies outside the cage and does not act"
-                                         : " leaves the cage: what is inside acts");
+        note_ += (note_.empty() ? "" : ". ") + ("Stroke " + std::to_string(i + 1)) +
+                 (samples.places.empty() ? " is outside the cage and has no effect"
+                                         : " leaves the cage; only the part inside has an effect");
       samples.stroke = i;
       if (!samples.places.empty()) strokes_.push_back(std::move(samples));
     }
     prepare_followed();
     if (strokes_.empty()) return;
-    if (!pins_.note.empty()) note_ += (note_.empty() ? "" : "; ") + pins_.note;
+    if (!pins_.note.empty()) note_ += (note_.empty() ? "" : ". ") + pins_.note;
     prepare(unit);
   }
 
@@ -140,7 +141,7 @@ class StrokesDeformer final : public Deformer {
     check_pose(rest_, pose);
     if (strokes_.empty()) {
       SampledMap out = free_->deform(without_strokes(pose), options);
-      if (!note_.empty()) out.note = note_ + (out.note.empty() ? "" : "; ") + out.note;
+      if (!note_.empty()) out.note = note_ + (out.note.empty() ? "" : ". ") + out.note;
       return out;
     }
     SampledMap out = cage_->deform(without_handles(pose), options);
@@ -160,10 +161,10 @@ class StrokesDeformer final : public Deformer {
     char text[80];
     constexpr double kMet = 0.005;  // px
     if (moved_.miss < kMet)
-      std::snprintf(text, sizeof text, "Strokes are met.");
+      std::snprintf(text, sizeof text, "Strokes are met");
     else
-      std::snprintf(text, sizeof text, "Strokes are missed by %.2g px on average.", moved_.miss);
-    out.note = text + (note_.empty() ? "" : " " + note_);
+      std::snprintf(text, sizeof text, "Strokes are missed by %.1f px on average", moved_.miss);
+    out.note = text + (note_.empty() ? "" : ". " + note_);
     out.f += product(value_, moved_.phi);
     if (soft_) out.f += product(value_, moved_.psi).conjugate();
     if (!options.derivatives || rest_.samples.empty()) return out;
@@ -195,13 +196,13 @@ class StrokesDeformer final : public Deformer {
   }
 
  private:
-  /// h = C phi + conj(C psi) over the basis' polygon.
+  /// The correction h = C phi + conj(C psi) over the polygon of the basis.
   struct Moved {
     VectorXc phi, psi;
     int iterations = 0;
     bool settled = true;
-    double miss = 0;             ///< root of the mean square distance from the posed strokes
-    std::vector<double> shares;  ///< of each sample on its posed stroke
+    double miss = 0;             ///< root mean square distance from the posed strokes
+    std::vector<double> shares;  ///< each sample's fraction of its posed stroke's length
   };
   enum Term : size_t { on_strokes, rigid, on_pins };
 
@@ -212,7 +213,7 @@ class StrokesDeformer final : public Deformer {
   static Pose without_handles(const Pose& pose) { return {pose.cage, {}}; }
   static Pose without_strokes(const Pose& pose) { return {pose.cage, pose.pins}; }
 
-  /// What strokes correct, or act in their place where there are none.
+  /// Prepares the cage's map, which the strokes correct, or method `pins` if there are no strokes.
   void prepare_followed() {
     Rest rest = rest_;
     rest.parameters.clear();
@@ -266,7 +267,7 @@ class StrokesDeformer final : public Deformer {
     if (soft_) {
       terms.push_back({with_psi(bent, Psi::alone), value("smoothness")});
       terms.push_back({with_psi(slopes, Psi::alone), stiffness_of(value("softness"))});
-      MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi share their constants
+      MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi can exchange a constant
       constant.rightCols(n) = basis_->one().transpose();
       terms.push_back({std::move(constant)});
     }
@@ -277,7 +278,7 @@ class StrokesDeformer final : public Deformer {
   }
 
   /// Rows for whitened unknowns: of phi alone, of phi and conj(psi), or of conj(psi) alone. Rows
-  /// from `holomorphic` on are of f_z, that psi has no part in.
+  /// from `holomorphic` on are those of f_z, which does not depend on psi.
   enum class Psi { none, added, alone };
   MatrixXc with_psi(const MatrixXc& values, Psi psi, Index holomorphic = -1) const {
     const MatrixXc rows = basis_->whitened(values);
@@ -315,7 +316,8 @@ class StrokesDeformer final : public Deformer {
     const VectorXc first = targets->at(warm ? moved_.shares : targets->shares());
     if (!pins_.used.empty()) fit.give(on_pins, pin_targets(pose, cage));
     if (!warm) {
-      // Without rigidity first: what is turned far would be held by where it was.
+      // The first solve has almost no rigidity, which would keep parts that rotate far near their
+      // original directions.
       if (!pins_.used.empty()) loose_->give(on_pins, pin_targets(pose, cage));
       loose_->start(first);
       fit.reset(loose_->unknowns());
@@ -355,7 +357,7 @@ class StrokesDeformer final : public Deformer {
   double unit_ = 1;                               ///< L
   MatrixXc cage_on_, cage_inner_, cage_at_pins_;  ///< cage coordinates at strokes, inside, at pins
   PlanarMatrix<T> value_, slope_;
-  std::optional<AlternatingFit> fit_, loose_;  ///< the second one hardly minds growing
+  std::optional<AlternatingFit> fit_, loose_;  ///< loose_ has almost no rigidity
   Moved moved_;
   std::optional<Pose> posed_;
   bool draft_ = false;
@@ -372,13 +374,17 @@ Method strokes_method() {
   Method method{
       "strokes",
       "Strokes",
-      "Draw lines on the picture and reshape them: it slides along them as smoothly as it can.",
-      {by_decades("smoothness", "Smoothness", "How much bending costs", 1e-5, 1e-8, 1e-1),
-       by_decades("rigidity", "Rigidity",
-                  "How much growing and shrinking costs; strokes slide along their lines for it",
-                  1e-2, 1e-5, 1),
-       number("softness", "Softness", "0 keeps all angles; 1 hardly any", 0, 0, 1),
-       by_decades("pin_weight", "Pin weight", "How much missing a pin costs", 1, 1e-3, 1e3)},
+      "Draw lines on the picture and reshape them. The picture follows smoothly and slides along "
+      "them.",
+      {by_decades("smoothness", "Smoothness", "Higher values bend the picture less", 1e-5, 1e-8,
+                  1e-1),
+       by_decades(
+           "rigidity", "Rigidity",
+           "Higher values resist growing and shrinking; strokes slide along their lines instead",
+           1e-2, 1e-5, 1),
+       number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
+       by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1, 1e-3,
+                  1e3)},
       true,
       true,
       false,

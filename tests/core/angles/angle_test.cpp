@@ -1,5 +1,5 @@
-// Holomorphic functions by their real parts, and conformal maps by their boundary angles: against
-// closed forms and an independent solver.
+// Hilbert coordinates and angle maps, compared with closed forms; harmonic coordinates, compared
+// with a finite-difference solution.
 #include "core/angles/angle_map.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ Points star() {
   return star;
 }
 
-/// A long neck, legs and a bent body.
+/// The outline of an animal with a long neck, legs and a bent body.
 Points animal() {
   return {{0, 0},     {14, 0},    {18, 60},   {80, 62},   {84, 0},    {98, 0},
           {104, 90},  {118, 170}, {130, 250}, {160, 252}, {162, 268}, {116, 276},
@@ -46,7 +46,7 @@ std::vector<Index> all_of(const Points& polygon) {
   return all;
 }
 
-/// Places along all edges, none of them at a vertex or where the coordinates are fitted.
+/// Points along all edges, none of them at a vertex or where the coordinates are fitted.
 std::vector<BoundaryPoint> along(const Points& polygon) {
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < static_cast<Index>(polygon.size()); ++e)
@@ -71,7 +71,7 @@ double size_of(const VectorXc& f) {
   return box_of(Points(f.begin(), f.end())).diagonal();
 }
 
-/// The boundary angles under which the polygon's edges go to those of another polygon.
+/// The boundary angles that take a polygon's edges to those of another polygon.
 VectorXd angles_between(const Points& from, const Points& to) {
   const size_t n = from.size();
   const auto way = [n](const Points& p, size_t i) { return p[(i + 1) % n] - p[i % n]; };
@@ -86,7 +86,7 @@ VectorXd angles_between(const Points& from, const Points& to) {
 
 }  // namespace
 
-TEST_CASE("Hilbert coordinates: their real parts are linear between corners, and jump there") {
+TEST_CASE("Hilbert coordinates: real parts are linear between corners and jump at them") {
   for (const Points& polygon :
        {Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, shapes::l_shape(), star(), animal()}) {
     const auto places = along(polygon);
@@ -108,7 +108,7 @@ TEST_CASE("Hilbert coordinates: their real parts are linear between corners, and
   }
 }
 
-TEST_CASE("Hilbert coordinates: curved boundaries are met as they are") {
+TEST_CASE("Hilbert coordinates: real parts are also met on curved boundaries") {
   Cage cage = polygon_cage(shapes::l_shape());
   for (Points& segment : cage.segments) segment.resize(3);
   cage = elevated_to(polygon_cage(shapes::l_shape()), cage);
@@ -129,7 +129,7 @@ TEST_CASE("Hilbert coordinates: curved boundaries are met as they are") {
   CHECK((wanted.rowwise().sum().array() - 1).abs().maxCoeff() <= 1e-12);
 }
 
-TEST_CASE("Hilbert coordinates: a z has the real parts that it has at the corners") {
+TEST_CASE("Hilbert coordinates: the values of Re(a z) at the corners give a z") {
   const Points polygon = shapes::l_shape();
   const HilbertCoordinates coordinates = coordinates_of(polygon, all_of(polygon), 1e-6);
   const Complex a(0.3, -1.2);
@@ -146,9 +146,9 @@ TEST_CASE("Hilbert coordinates: a z has the real parts that it has at the corner
   }
 }
 
-TEST_CASE("Hilbert coordinates: what cannot have angles is refused") {
+TEST_CASE("Hilbert coordinates: fewer than three corners are refused, straight corners are not") {
   CHECK_THROWS_WITH(coordinates_of(shapes::l_shape(), {0, 2}), Catch::Contains("three corners"));
-  // A straight corner is one like others.
+  // A straight corner works like any other.
   const Points square{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
   const HilbertCoordinates coordinates = coordinates_of(square, {0, 1, 3, 4}, 1e-4);
   const auto places = along(square);
@@ -157,7 +157,7 @@ TEST_CASE("Hilbert coordinates: what cannot have angles is refused") {
             .maxCoeff() <= 5e-4);
 }
 
-TEST_CASE("Angle maps: no angles are no map but the identity") {
+TEST_CASE("Angle maps: zero angles give the identity up to translation") {
   const Points polygon = animal();
   const Mesh mesh = domain_mesh(polygon, {3000});
   AngleMap map = angle_map(mesh, coordinates_of(polygon, all_of(polygon)));
@@ -168,8 +168,8 @@ TEST_CASE("Angle maps: no angles are no map but the identity") {
     REQUIRE(std::abs(f[i] - (mesh.vertices[static_cast<size_t>(i)] - anchor)) <= 1e-10);
 }
 
-TEST_CASE("Angle maps: a bar whose angles grow along it is an exponential") {
-  // theta = a x: f = (exp(i a z) - 1) / (i a), up to placement.
+TEST_CASE("Angle maps: angles that grow linearly along a bar give an exponential") {
+  // theta = a x gives f = (exp(i a z) - 1) / (i a), up to scale and translation.
   const Points bar{{0, 0}, {6, 0}, {6, 1}, {0, 1}};
   const Mesh mesh = domain_mesh(bar, {8000});
   AngleMap map = angle_map(mesh, coordinates_of(bar, all_of(bar), 1e-9));
@@ -194,7 +194,8 @@ TEST_CASE("Angle maps: a bar whose angles grow along it is an exponential") {
   }
 }
 
-TEST_CASE("Angle maps: edges that are to be straight are, at the angles that they are to have") {
+TEST_CASE(
+    "Angle maps: edges with constant angles stay straight and have the prescribed directions") {
   struct Pair {
     Points from, to;
     double degrees;
@@ -217,11 +218,11 @@ TEST_CASE("Angle maps: edges that are to be straight are, at the angles that the
                 .distance < 1e-12)
           REQUIRE(std::abs(cross(b - a, f[v] - a)) <= 2e-6 * std::norm(b - a));
     }
-    CHECK(flips(mesh, f) <= 1);  // three vertices of one straight edge
+    CHECK(flips(mesh, f) <= 1);  // a triangle with three vertices on a straight edge
   }
 }
 
-TEST_CASE("Angle maps: corners turned by up to 60 degrees fold nothing") {
+TEST_CASE("Angle maps: random corner angles up to 60 degrees cause no folds") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> by(-kPi / 3, kPi / 3);
   for (const Points& polygon : {shapes::l_shape(), star(), animal()}) {
@@ -245,8 +246,10 @@ TEST_CASE("Angle maps: corners turned by up to 60 degrees fold nothing") {
   }
 }
 
-TEST_CASE("Harmonic coordinates: as a finite-difference solution, positive, and the cage's own") {
-  // On the L of three unit squares, by successive over-relaxation on a grid of 1 / 160.
+TEST_CASE(
+    "Harmonic coordinates: they match finite differences, are positive, and follow the cage") {
+  // On an L of three unit squares, solved by successive over-relaxation on a grid of spacing 1 /
+  // 160.
   const Points polygon{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   constexpr int n = 160;
   Rest rest;
@@ -260,7 +263,7 @@ TEST_CASE("Harmonic coordinates: as a finite-difference solution, positive, and 
     Pose pose{rest.cage, {}};
     pose.cage.segments[moved][0] += 1.0;
     SampledMap map = deformer->deform(pose, {});
-    const auto weight = [&](Complex z) {  // linear along the edges beside the vertex
+    const auto weight = [&](Complex z) {  // linear along the edges next to the vertex
       double w = 0;
       for (const size_t other : {(moved + 1) % 6, (moved + 5) % 6}) {
         const auto on = nearest_on_segment(polygon[moved], polygon[other], z);
@@ -296,7 +299,7 @@ TEST_CASE("Harmonic coordinates: as a finite-difference solution, positive, and 
     CHECK(off <= 1e-3);
     CHECK(least >= -1e-4);
   }
-  // The boundary goes along the posed edges.
+  // The boundary is mapped onto the posed edges.
   Pose bent{rest.cage, {}};
   for (size_t j = 0; j < polygon.size(); ++j)
     bent.cage.segments[j][0] += Complex(0.2 * std::sin(3.0 * j), 0.3 * std::cos(5.0 * j));

@@ -1,4 +1,4 @@
-// The comparison with other projections: each does what its paper says.
+// The comparison with other projections: each satisfies what its paper states.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -17,7 +17,7 @@ const Cage& bar_cage() {
   return cage;
 }
 
-/// A bar whose end is pushed back over its other end, so that the pins' map folds.
+/// A bar with one end pushed back over the other, so that the pins' map folds.
 struct Folded {
   Rest rest;
   Pose pose;
@@ -39,7 +39,7 @@ Element random_element(std::mt19937& random, double size) {
   return e;
 }
 
-/// How far an element is outside of the bounds.
+/// How far an element is outside the bounds.
 double outside(const Element& e, const Bounds& bounds) {
   const double a = e.head<2>().norm(), b = e.tail<2>().norm();
   return std::max({b - bounds.k * a, a + b - bounds.Sigma, bounds.sigma - (a - b)});
@@ -54,7 +54,7 @@ double worst_outside(const VectorXd& elements, const Bounds& bounds) {
 
 }  // namespace
 
-TEST_CASE("Projections: an element's nearest one within bounds is within them, and nearest") {
+TEST_CASE("Projections: the nearest bounded element is within the bounds, and no other is nearer") {
   std::mt19937 random(3);
   for (const Bounds& bounds :
        {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.5, 2}, Bounds{0.9, 0.8, 1.2}})
@@ -69,7 +69,7 @@ TEST_CASE("Projections: an element's nearest one within bounds is within them, a
     }
 }
 
-TEST_CASE("Projections: both operators have derivatives, adjoints and solutions that fit") {
+TEST_CASE("Projections: derivatives, adjoints and solutions of both operators are consistent") {
   const Mesh mesh = domain_mesh(bar_cage(), {200});
   const BoundaryBasis basis(bar_cage(), 30, 120);
   const MapOnMesh on_mesh(basis, mesh);
@@ -107,7 +107,7 @@ TEST_CASE("Projections: both operators have derivatives, adjoints and solutions 
     const VectorXd wanted = t->adjoint(y);
     CHECK((t->adjoint(back) - wanted).norm() <= 1e-4 * wanted.norm());
   }
-  // An affine map's derivatives, exactly.
+  // Derivatives of affine maps are exact.
   const Complex fz(0.8, 0.5), fzbar(-0.2, 0.3);
   VectorXc f(static_cast<Index>(mesh.vertices.size()));
   for (Index v = 0; v < f.size(); ++v) {
@@ -119,7 +119,8 @@ TEST_CASE("Projections: both operators have derivatives, adjoints and solutions 
     REQUIRE((elements.segment<4>(4 * i) - Element(0.8, 0.5, -0.2, 0.3)).norm() <= 1e-9);
 }
 
-TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds another") {
+TEST_CASE(
+    "Projections: maps within the bounds stay unchanged, and others are brought within them") {
   const Mesh mesh = domain_mesh(bar_cage(), {150});
   const auto t = mesh_operator(mesh);
   const Bounds bounds{0.5, 0.5, 2};
@@ -142,7 +143,7 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
   CHECK(by_tangent_planes(*t, gentle, {bounds}).x == gentle);
   const Projected framed = by_local_frames(*t, g, {bounds});
   CHECK(distance(framed.x, g) <= 1e-3);
-  // A picture bent so far that it is stretched to four times its size and pressed to nothing.
+  // A map that stretches some parts to four times their size and flattens others completely.
   const VectorXd wild = values([](Complex z) { return z + z * z / 400.0 - 0.5 * std::conj(z); });
   const VectorXd wild_g = t->apply(wild);
   REQUIRE(worst_outside(wild_g, bounds) > 1);
@@ -152,12 +153,12 @@ TEST_CASE("Projections: each leaves a map within the bounds alone, and bounds an
     CHECK(worst_outside(t->apply(map.x), bounds) <= 1e-3);
     CHECK(distance(map.x, wild_g) < distance(t->similarity(1), wild_g));
   }
-  // Conformal maps of a mesh are similarities, which leaves a barrier no room.
+  // Conformal maps of a mesh are similarities, which leave a barrier no interior.
   const Projected conformal = by_local_frames(*t, wild_g, {{0, 0.5, 2}});
   CHECK(worst_outside(t->apply(conformal.x), {0.001, 0.5, 2}) <= 1e-9);
 }
 
-TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says how well") {
+TEST_CASE("Comparison: all methods unfold a folded picture, and each row measures the result") {
   const Folded bar(100);
   std::vector<ComparedMap> rows;
   compare(bar.rest, bar.pose, [&](const ComparedMap& row) { rows.push_back(row); });
@@ -171,7 +172,7 @@ TEST_CASE("Comparison: a folded picture is unfolded by all, and each row says ho
     CHECK(row.max_k <= 0.7 + 0.05);
     CHECK(row.max_tau <= 5 + 0.05);
   }
-  // Ours and those with frames have no branch points either.
+  // Our map and those by local frames have no branch points either.
   for (const size_t i : {1, 2, 3}) CHECK(std::abs(rows[i].turning_number - 1) <= 1e-9);
   CHECK(rows[1].settled);
   CHECK(rows[1].max_k <= 0.7);

@@ -1,4 +1,4 @@
-// The paper's angle maps beside ours: how far its functions are off.
+// The published angle maps compared with ours: the errors of their functions.
 #include "core/compared/published_angles.h"
 
 #include <catch2/catch.hpp>
@@ -27,8 +27,7 @@ Points star() {
 
 }  // namespace
 
-TEST_CASE(
-    "As published: angles are off by hundredths of a radian, ours by less than a thousandth") {
+TEST_CASE("As published: the angle error is hundredths of a radian, ours is below a thousandth") {
   for (const auto& [polygon, anchor, pieces] :
        {std::tuple(shapes::l_shape(), Complex(50, 50), 100), {star(), Complex(0, 0), 320}}) {
     const Cage cage = polygon_cage(polygon);
@@ -43,7 +42,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("As published: a gentle bend is nearly ours, in the middle") {
+TEST_CASE("As published: for a gentle bend the map is close to ours") {
   const Points bar{{0, 0}, {600, 0}, {600, 100}, {0, 100}};
   Rest rest;
   rest.cage = polygon_cage(bar);
@@ -56,7 +55,7 @@ TEST_CASE("As published: a gentle bend is nearly ours, in the middle") {
   rest.parameters["published"] = 1;
   const auto deformer = method_named("angles").prepare(rest, nullptr);
   published = deformer->deform(pose, {true});
-  CHECK_THAT(published.note, Catch::Contains("as published"));
+  CHECK_THAT(published.note, Catch::Contains("As published"));
   CHECK(published.f.allFinite());
   CHECK(published.fz.allFinite());
   CHECK((published.f - ours.f).cwiseAbs().maxCoeff() < 10);

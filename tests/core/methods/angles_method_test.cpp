@@ -1,4 +1,4 @@
-// Method `angles`: what posed cages, corners' own angles, tensions and pins do to the boundary.
+// Method `angles`: the effect of posed cages, corner angles, tensions and pins on the boundary.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -40,7 +40,7 @@ int flips(const Mesh& mesh, const VectorXc& f) {
   return count;
 }
 
-/// How far f is from the similarity of g that is nearest to it.
+/// The largest distance of f from the nearest map that is g followed by a similarity.
 double difference_in_shape(const VectorXc& f, const VectorXc& g) {
   const VectorXc a = f.array() - f.mean(), b = g.array() - g.mean();
   return (a - b.dot(a) / b.squaredNorm() * b).cwiseAbs().maxCoeff();
@@ -48,7 +48,7 @@ double difference_in_shape(const VectorXc& f, const VectorXc& g) {
 
 }  // namespace
 
-TEST_CASE("Angles: corners turned by 900 degrees roll a bar up as drawn") {
+TEST_CASE("Angles: corners rotated by 900 degrees roll a bar up into an exact spiral") {
   const Rest rest = with_corners(rest_of(polygon_cage(kBar)), {0, 1, 2, 3});
   const double turn = 900 * kPi / 180, a = turn / 600;
   const Pose pose{rest.cage, {}, {}, {{0, 0}, {turn, turn}, {turn, turn}, {0, 0}}};
@@ -56,12 +56,12 @@ TEST_CASE("Angles: corners turned by 900 degrees roll a bar up as drawn") {
   VectorXc exact(map.f.size());
   for (Index i = 0; i < exact.size(); ++i)
     exact[i] = std::exp(kI * a * rest.samples[static_cast<size_t>(i)]) / (kI * a);
-  CHECK(difference_in_shape(map.f, exact) <= 1e-3);  // of 600, in single precision
+  CHECK(difference_in_shape(map.f, exact) <= 1e-3);  // relative to 600, in single precision
   CHECK(flips(*rest.mesh, map.f) == 0);
   CHECK(map.limited_corners.empty());
 }
 
-TEST_CASE("Angles: edges go the posed cage's ways, whatever its lengths") {
+TEST_CASE("Angles: edges have the directions of the posed cage, regardless of its lengths") {
   Points to{{0, 0}, {900, 100}, {700, 300}, {-100, 150}};
   const Rest rest = rest_of(polygon_cage(kBar));
   const SampledMap map = run(rest, {polygon_cage(to), {}});
@@ -76,7 +76,7 @@ TEST_CASE("Angles: edges go the posed cage's ways, whatever its lengths") {
               .distance < 1e-9)
         REQUIRE(std::abs(cross(way, map.f[v] - map.f[corner[e]])) <= 1e-3 * std::norm(way));
   }
-  // As long as the posed cage, around the same middle.
+  // The image is as long as the posed cage and has the same center.
   CHECK(length == Approx(perimeter(to)).epsilon(1e-2));
   Complex middle = 0;
   for (size_t j = 0; j < 4; ++j) middle += 0.25 * (map.f[corner[j]] - to[j]);
@@ -84,7 +84,7 @@ TEST_CASE("Angles: edges go the posed cage's ways, whatever its lengths") {
   CHECK(flips(*rest.mesh, map.f) == 0);
 }
 
-TEST_CASE("Angles: without tension edges bend and corners keep their angles") {
+TEST_CASE("Angles: without tension, edges bend and corners keep their angles") {
   const Cage cage = polygon_cage(kBar),
              posed = polygon_cage(Points{{0, 0}, {600, 200}, {500, 400}, {0, 100}});
   const std::vector<Index> all{0, 1, 2, 3};
@@ -108,23 +108,23 @@ TEST_CASE("Angles: without tension edges bend and corners keep their angles") {
   CHECK(bend(0) > 0.1);
 }
 
-TEST_CASE("Angles: corners are held at the least angle, and named") {
+TEST_CASE("Angles: corners are held at the smallest angle and named in the note") {
   const Rest rest = with_corners(rest_of(polygon_cage(kBar)), {0, 1, 2, 3});
   const Pose pose{rest.cage, {}, {}, {{0, 0}, {-1.5, 1.5}, {0, 0}, {0, 0}}};  // 90 - 172 degrees
   const SampledMap map = run(rest, pose);
   CHECK(map.limited_corners == std::vector<Index>{1});
-  CHECK_THAT(map.note, Catch::Contains("corner 2 held at 5 degrees"));
+  CHECK_THAT(map.note, Catch::Contains("Corner 2 held at 5 degrees"));
   CHECK(flips(*rest.mesh, map.f) == 0);
   const VectorXd theta = boundary_angles(rest.cage, rest.cage, rest.corners, pose.corners).theta;
   CHECK(kPi / 2 - (theta[3] - theta[2]) == Approx(kLeastCornerAngle));
 }
 
-TEST_CASE("Angles: an edge drawn over another one leaps nowhere") {
+TEST_CASE("Angles: the angles are continuous while a vertex is dragged across an edge") {
   const Cage cage = polygon_cage(kBar);
   const std::vector<Index> all{0, 1, 2, 3};
   const std::vector<PoseCorner> own(4);
   VectorXd last;
-  for (int step = 0; step <= 60; ++step) {  // the last vertex goes down across the first edge
+  for (int step = 0; step <= 60; ++step) {  // the last vertex moves down across the first edge
     Points to = kBar;
     to[3] = {150, 100 - 5.0 * step};
     const VectorXd theta = boundary_angles(cage, polygon_cage(to), all, own).theta;
@@ -162,19 +162,19 @@ TEST_CASE("Angles: five pins are met without a fold") {
   CHECK(most <= 30);
 }
 
-TEST_CASE("Angles: pins that no map meets leave a map, and are named") {
+TEST_CASE("Angles: pins that cannot be met still give a map, and a note") {
   Rest rest = rest_of(polygon_cage(kBar), 800);
   Pose pose{rest.cage, {}};
-  for (int i = 0; i < 8; ++i) {  // more than the corners of a bar can follow
+  for (int i = 0; i < 8; ++i) {  // more pins than the corners of a bar can follow
     rest.pins.push_back({{50.0 + 70 * i, 50}, false});
     pose.pins.push_back({rest.pins.back().position + Complex(0, i % 2 ? 40 : -40)});
   }
   const SampledMap map = run(rest, pose);
   CHECK(map.f.allFinite());
-  CHECK_THAT(map.note, Catch::Contains("pins are missed"));
+  CHECK_THAT(map.note, Catch::Contains("Pins are missed"));
 }
 
-TEST_CASE("Angles: one pin that turns is an anchor") {
+TEST_CASE("Angles: a single pin with a frame acts as an anchor") {
   Rest rest = with_corners(rest_of(polygon_cage(kBar)), {0, 1, 2, 3});
   rest.pins = {{{50, 50}, true}};
   const Pose pose{rest.cage, {{{10, 20}, 0, 1}}, {}, {{0, 0}, {2, 2}, {2, 2}, {0, 0}}};
@@ -191,20 +191,20 @@ TEST_CASE("Angles: one pin that turns is an anchor") {
   CHECK(difference_in_shape(held.f, loose.f) <= 1e-2);
 }
 
-TEST_CASE("Angles: a cage run through backwards is the same") {
+TEST_CASE("Angles: reversing the cage does not change the map") {
   Cage to = polygon_cage(Points{{0, 0}, {600, 200}, {500, 400}, {0, 100}});
   const std::vector<PoseCorner> own{{0.1, 0.3, 0.5}, {0, 0, 1}, {-0.2, 0.1, 0}, {0.3, 0.3, 0.7}};
   const Rest rest = with_corners(rest_of(polygon_cage(kBar)), {0, 1, 2, 3});
   Rest backwards = rest;
   backwards.cage = reversed(rest.cage);
-  // Vertex i is vertex 4 - i there; the edge before it is the one after.
+  // Vertex i becomes vertex 4 - i, and the edge before it becomes the edge after it.
   Pose pose{to, {}, {}, own}, turned{reversed(to), {}};
   for (const size_t i : {0, 3, 2, 1})
     turned.corners.push_back({own[i].after, own[i].before, own[(i + 3) % 4].tension});
   CHECK((run(rest, pose).f - run(backwards, turned).f).cwiseAbs().maxCoeff() <= 1e-3);
 }
 
-TEST_CASE("Angles: a wavy bar of 200 vertices goes onto a triangle (WG10, fig. 8)") {
+TEST_CASE("Angles: a wavy bar of 200 vertices is mapped onto a triangle (WG10, fig. 8)") {
   Points bar;
   for (int i = 0; i < 90; ++i) bar.push_back({i * 600.0 / 90, 8 * std::sin(2 * kPi * i / 30)});
   for (int i = 0; i < 10; ++i) bar.push_back({600, i * 10.0});
@@ -228,7 +228,7 @@ TEST_CASE("Angles: a wavy bar of 200 vertices goes onto a triangle (WG10, fig. 8
   Rest rest = rest_of(polygon_cage(bar), 1500);
   rest.precision = Precision::full;
   const SampledMap map = run(rest, {polygon_cage(to), {}});
-  CHECK(flips(*rest.mesh, map.f) <= 1);  // three vertices of one straight edge
+  CHECK(flips(*rest.mesh, map.f) <= 1);  // a triangle with three vertices on a straight edge
   const auto corner = [&](size_t k) {
     return map.f[rest.mesh->cage_vertices[std::array<size_t, 3>{0, 90, 145}[k % 3]]];
   };
@@ -244,7 +244,7 @@ TEST_CASE("Angles: a wavy bar of 200 vertices goes onto a triangle (WG10, fig. 8
   }
 }
 
-TEST_CASE("Angles: what cannot be is refused") {
+TEST_CASE("Angles: bad corners and poses are refused") {
   const Method& angles = method_named("angles");
   const Rest rest = rest_of(polygon_cage(kBar), 300);
   CHECK_THROWS_WITH(angles.prepare(with_corners(rest, {0, 1}), nullptr),
@@ -259,20 +259,20 @@ TEST_CASE("Angles: what cannot be is refused") {
   CHECK_THROWS_AS(deformer->deform(pose({NAN, 0, 1}), {}), Error);
   CHECK_THROWS_AS(deformer->deform(pose({0, 0, 1.5}), {}), Error);
   CHECK_THROWS_AS(deformer->deform({rest.cage, {}}, {}), Error);
-  CHECK_THROWS_WITH(deformer->deform(pose({0, 1e5, 1}), {}), Catch::Contains("beyond"));
-  // A straight corner, and a posed edge of no length.
+  CHECK_THROWS_WITH(deformer->deform(pose({0, 1e5, 1}), {}), Catch::Contains("so far"));
+  // A straight corner and a posed edge of no length are allowed.
   const Rest straight =
       rest_of(polygon_cage(Points{{0, 0}, {300, 0}, {600, 0}, {600, 100}, {0, 100}}), 300);
   Pose flat{straight.cage, {}};
   flat.cage.segments[1][0] = flat.cage.segments[0][0];
   CHECK(run(straight, flat).f.allFinite());
-  // A pin that turns at a corner, where f' has no angle.
+  // So is a pin with a frame at a corner, where f' has no argument.
   Rest at_corner = with_corners(rest, {0, 1, 2, 3});
   at_corner.pins = {{{600, 100}, true}};
   CHECK(run(at_corner, {rest.cage, {{{620, 90}, 0.3, 1}}, {}, {{}, {}, {}, {}}}).f.allFinite());
 }
 
-TEST_CASE("Angles: the map does not jump, along curves that bend inwards, too") {
+TEST_CASE("Angles: the map is continuous, also along curves that bend inwards") {
   for (const unsigned seed : seeds_of("angles in curves", {505, 1, 7})) {
     std::mt19937 random(seed);
     std::normal_distribution<double> by(0, 15);
@@ -284,7 +284,7 @@ TEST_CASE("Angles: the map does not jump, along curves that bend inwards, too") 
     Pose pose{rest.cage, {}};
     for (Points& segment : pose.cage.segments)
       for (Complex& z : segment) z += Complex(by(random), by(random));
-    // Pairs of neighbors, most of them near the boundary.
+    // Pairs of neighboring points, most of them near the boundary.
     constexpr double kStep = 1e-4;
     while (rest.samples.size() < 800) {
       const Index e = static_cast<Index>(random() % 8);
@@ -312,7 +312,7 @@ TEST_CASE("Angles: the map does not jump, along curves that bend inwards, too") 
   }
 }
 
-TEST_CASE("Angles: a single point is a row, whatever the map is there") {
+TEST_CASE("Angles: a single sample gives a single value, even at a corner") {
   Rest rest;
   rest.cage = polygon_cage(Points{{300, 200}, {520, 230}, {500, 400}, {280, 390}});
   rest.precision = Precision::full;
@@ -328,7 +328,7 @@ TEST_CASE("Angles: a single point is a row, whatever the map is there") {
   }
 }
 
-TEST_CASE("Angles: points next to an opened corner are mapped like others, however near they are") {
+TEST_CASE("Angles: points next to an opened corner are mapped correctly at any distance") {
   Rest rest;
   rest.cage = polygon_cage(Points{{300, 200}, {520, 230}, {500, 400}, {280, 390}});
   rest.precision = Precision::full;

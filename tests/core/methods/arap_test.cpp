@@ -1,4 +1,4 @@
-// As rigid as possible, on triangles and among smooth maps.
+// Methods `arap` and `har_arap`: as-rigid-as-possible maps, on triangles and among smooth maps.
 #include <catch2/catch.hpp>
 
 #include "core/maps/deformer.h"
@@ -9,7 +9,7 @@ using namespace holomorph;
 
 namespace {
 
-/// A bar held at both ends, one of them turned by `angle` around the bar's middle.
+/// A bar held at both ends, with one end rotated by `angle` around the middle of the bar.
 struct Bar {
   Rest rest;
   Pose pose;
@@ -29,7 +29,7 @@ struct Bar {
   }
 };
 
-/// Mean over the area of |f_z - f_z / |f_z||^2 + |f_zbar|^2.
+/// The mean of |f_z - f_z / |f_z||^2 + |f_zbar|^2 over the area.
 double energy(const Mesh& mesh, const VectorXc& f) {
   double sum = 0, total = 0;
   for (const auto& [i, j, k] : mesh.triangles) {
@@ -47,7 +47,8 @@ double energy(const Mesh& mesh, const VectorXc& f) {
 
 }  // namespace
 
-TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its pins are met") {
+TEST_CASE(
+    "As rigid as possible: a bent bar is more rigid than with method pins, and meets its pins") {
   for (const double angle : {0.8, 1.6}) {
     const Bar bar(angle);
     const auto run = [&](const char* id) {
@@ -64,19 +65,19 @@ TEST_CASE("As rigid as possible: a bent bar is more rigid than by pins, and its 
       for (size_t i = 0; i < bar.rest.pins.size(); ++i) {
         const auto at = locate(*bar.rest.mesh, bar.rest.mesh->vertices, bar.rest.pins[i].position);
         const Complex place = at->in(*bar.rest.mesh, as_span(map->f));
-        CHECK(std::abs(place - bar.pose.pins[i].position) < 3);  // pixels of 600
+        CHECK(std::abs(place - bar.pose.pins[i].position) < 3);  // pixels, of a length of 600
       }
   }
 }
 
-TEST_CASE("As rigid as possible: no small change of the answer is more rigid") {
+TEST_CASE("As rigid as possible: no small change of the map is more rigid") {
   const Bar bar(1.2);
   SampledMap map = method_named("arap").prepare(bar.rest, nullptr)->deform(bar.pose, {});
   const double least = energy(*bar.rest.mesh, map.f);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    // A smooth bump between the held ends, which leaves the pins alone.
+    // A smooth bump between the ends, which does not move the pins.
     const Complex center(120 + 360 * std::abs(unit(random)), 50), by{unit(random), unit(random)};
     VectorXc moved = map.f;
     for (Index i = 0; i < moved.size(); ++i) {
@@ -88,7 +89,7 @@ TEST_CASE("As rigid as possible: no small change of the answer is more rigid") {
 }
 
 TEST_CASE(
-    "As rigid as possible: a draft goes on from the last frame and ends where the final does") {
+    "As rigid as possible: drafts continue from the last frame and converge to the final map") {
   for (const char* id : {"arap", "har_arap"}) {
     const Bar bar(0.7);
     const auto deformer = method_named(id).prepare(bar.rest, nullptr);
@@ -98,11 +99,11 @@ TEST_CASE(
     INFO(id);
     CHECK((draft.f - final_map.f).cwiseAbs().maxCoeff() < 0.3);
     SampledMap again = deformer->deform(bar.pose, {});
-    CHECK(again.f == final_map.f);  // whatever was dragged before
+    CHECK(again.f == final_map.f);  // regardless of what was dragged before
   }
 }
 
-TEST_CASE("As rigid as possible: without pins the cage's vertices hold, curved or clockwise") {
+TEST_CASE("As rigid as possible: without pins, the vertices of curved and clockwise cages hold") {
   for (const Cage& cage : {polygon_cage(shapes::l_shape()), shapes::curved_star(7, 3, 0.2, 2),
                            reversed(polygon_cage(shapes::l_shape()))})
     for (const char* id : {"arap", "har_arap"}) {
@@ -116,6 +117,6 @@ TEST_CASE("As rigid as possible: without pins the cage's vertices hold, curved o
       INFO(id << ", " << cage.size() << " segments");
       for (Index v = 0; v < cage.size(); ++v)
         CHECK(std::abs(map.f[rest.mesh->cage_vertices[static_cast<size_t>(v)]] -
-                       pose.cage.vertex(v)) < 1.5);  // of a vertex moved by 16
+                       pose.cage.vertex(v)) < 1.5);  // a vertex moves by 16
     }
 }

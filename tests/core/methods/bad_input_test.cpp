@@ -1,5 +1,5 @@
-// What a Rest or a Pose lacks or exceeds is an Error for every method, and nothing odd ends the
-// program.
+// For every method, a Rest or Pose with missing or invalid data is an Error, and unusual data does
+// not crash the program.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -11,14 +11,14 @@ using namespace holomorph;
 
 namespace {
 
-/// A change that spoils a Rest or a Pose, and which methods must then refuse it.
+/// A change that invalidates a Rest or Pose, and the methods that must then refuse it.
 struct Damage {
   const char* name;
   std::function<void(Setup&)> act;
   std::function<bool(const Method&)> matters = [](const Method&) { return true; };
 };
 
-/// A rest whose mesh is changed.
+/// Changes the mesh of a rest.
 std::function<void(Setup&)> with_mesh(const std::function<void(Mesh&)>& change) {
   return [change](Setup& s) {
     Mesh mesh = *s.rest.mesh;
@@ -56,32 +56,33 @@ std::vector<Damage> damages() {
        [](Setup& s) {
          s.rest.samples[3] = {0, -1e308};
        }},
-      {"a mesh with a vertex that it does not have",
+      {"a mesh that refers to a vertex that it does not have",
        with_mesh([](Mesh& mesh) { mesh.triangles[5][1] = 1 << 20; })},
       {"a mesh that is not finite", with_mesh([=](Mesh& mesh) { mesh.vertices[7] = nan; })},
       {"a mesh with a clockwise triangle",
        with_mesh([](Mesh& mesh) { std::swap(mesh.triangles[4][0], mesh.triangles[4][1]); })},
-      {"a mesh with a vertex that no triangle has", with_mesh([](Mesh& mesh) {
+      {"a mesh with a vertex that belongs to no triangle", with_mesh([](Mesh& mesh) {
          mesh.vertices.push_back({100, 100});
        })},
-      {"a mesh with a boundary beyond it", with_mesh([](Mesh& mesh) { mesh.boundary[2] = -1; })},
+      {"a mesh with a boundary vertex that it does not have",
+       with_mesh([](Mesh& mesh) { mesh.boundary[2] = -1; })},
       {"a mesh without a boundary", with_mesh([](Mesh& mesh) { mesh.boundary.clear(); })},
       {"a mesh with too few cage vertices",
        with_mesh([](Mesh& mesh) { mesh.cage_vertices.pop_back(); })},
-      {"a mesh with a cage vertex twice",
+      {"a mesh with a repeated cage vertex",
        with_mesh([](Mesh& mesh) { mesh.cage_vertices[1] = mesh.cage_vertices[0]; })},
       {"another method's parameter that is not finite",
        [](Setup& s) { s.rest.other_parameters["pins"]["smoothness"] = NAN; }},
       {"a posed segment without points", [](Setup& s) { s.pose.cage.segments[1].clear(); }},
-      {"a posed stroke too few", [](Setup& s) { s.pose.strokes.clear(); }, strokes},
-      {"another cage's mesh",
+      {"too few posed strokes", [](Setup& s) { s.pose.strokes.clear(); }, strokes},
+      {"the mesh of another cage",
        [](Setup& s) {
          s.rest.mesh = std::make_shared<const Mesh>(
              domain_mesh(polygon_cage(shapes::star(6, 0.2, 3)), {200}));
        }},
       {"a pin that is not finite", [=](Setup& s) { s.rest.pins[0].position = nan; }, pins},
       {"a stroke of one point", [](Setup& s) { s.rest.strokes[0].resize(1); }, strokes},
-      {"a stroke of none", [](Setup& s) { s.rest.strokes[0].clear(); }, strokes},
+      {"a stroke of no points", [](Setup& s) { s.rest.strokes[0].clear(); }, strokes},
       {"an outline that is not finite",
        [=](Setup& s) {
          s.rest.outline = {0, 1, nan, 3};
@@ -99,31 +100,31 @@ std::vector<Damage> damages() {
        [](Setup& s) {
          s.rest.corners = {0, 1, 99};
        }},
-      {"a brush that is not finite",
+      {"a brush dab that is not finite",
        [=](Setup& s) {
          s.rest.stiffness = {{nan, 10, 1}};
        }},
-      {"a brush without radius",
+      {"a brush dab without radius",
        [](Setup& s) {
          s.rest.stiffness = {{50, 0, 1}};
        }},
       {"too few posed segments", [](Setup& s) { s.pose.cage.segments.pop_back(); }},
-      {"too high a posed degree",
+      {"a posed degree that is too high",
        [](Setup& s) {
          s.pose.cage.segments[0].insert(s.pose.cage.segments[0].end(), 7, Complex(1));
        }},
       {"a pose that is not finite", [=](Setup& s) { s.pose.cage.segments[2][0] = nan; }},
-      {"a posed pin too few", [](Setup& s) { s.pose.pins.pop_back(); }, pins},
-      {"a posed pin too many", [](Setup& s) { s.pose.pins.push_back({}); }},
+      {"too few posed pins", [](Setup& s) { s.pose.pins.pop_back(); }, pins},
+      {"too many posed pins", [](Setup& s) { s.pose.pins.push_back({}); }},
       {"a posed pin that is not finite", [=](Setup& s) { s.pose.pins[1].position = nan; }, pins},
       {"a posed pin without size", [](Setup& s) { s.pose.pins[1].scale = 0; }, pins},
-      {"a posed stroke too many",
+      {"too many posed strokes",
        [](Setup& s) {
          s.pose.strokes.push_back({0, 1});
        }},
       {"a posed stroke that is not finite", [=](Setup& s) { s.pose.strokes[0][0] = nan; }, strokes},
-      {"a posed stroke of none", [](Setup& s) { s.pose.strokes[0].clear(); }, strokes},
-      {"a posed corner too many", [](Setup& s) { s.pose.corners.push_back({}); }},
+      {"a posed stroke of no points", [](Setup& s) { s.pose.strokes[0].clear(); }, strokes},
+      {"too many posed corners", [](Setup& s) { s.pose.corners.push_back({}); }},
       {"a posed corner that is not finite",
        [](Setup& s) {
          s.rest.corners = {0, 1, 2};
@@ -135,7 +136,7 @@ std::vector<Damage> damages() {
 
 }  // namespace
 
-TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the program") {
+TEST_CASE("Contract: unusual input gives finite numbers or an Error, and never a crash") {
   using Change = std::function<void(Setup&)>;
   const auto each_posed = [](Setup& s, const std::function<Complex(Complex)>& to) {
     for (Points& segment : s.pose.cage.segments)
@@ -165,7 +166,8 @@ TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the p
          for (Complex& z : s.rest.samples) z += 1e4;
          s.rest.derivative_samples.clear();
        }},
-      {"a pose in one point", [&](Setup& s) { each_posed(s, [](Complex) { return Complex(5); }); }},
+      {"a pose with all points in one place",
+       [&](Setup& s) { each_posed(s, [](Complex) { return Complex(5); }); }},
       {"a pose on a line", [&](Setup& s) { each_posed(s, [](Complex z) { return z.real(); }); }},
       {"a mirrored pose", [&](Setup& s) { each_posed(s, [](Complex z) { return std::conj(z); }); }},
       {"a pose far away", [&](Setup& s) { each_posed(s, [](Complex z) { return 1e60 * z; }); }},
@@ -188,7 +190,7 @@ TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the p
        [](Setup& s) {
          s.rest.outline = {{0, 0}, {100, 0}, {100, 1e-9}};
        }},
-      {"a brush of any strength",
+      {"brush dabs of extreme size and strength",
        [](Setup& s) {
          s.rest.stiffness.assign(3, {{50, 50}, 1e60, -1e60});
        }},
@@ -220,7 +222,7 @@ TEST_CASE("Contract: what is odd gives numbers or an Error, and never ends the p
   }
 }
 
-TEST_CASE("Contract: whatever a rest or a pose lacks or exceeds is an Error") {
+TEST_CASE("Contract: missing or invalid data in a rest or pose is an Error") {
   for (const Method& method : methods()) {
     const Setup whole = setup(method, Precision::full);
     const auto throws = [](const std::function<void()>& call) {

@@ -1,5 +1,5 @@
-// Other people's cage coordinates beside ours: mean value coordinates, and Green coordinates, which
-// are Cauchy's.
+// Cage coordinates of other authors: mean value coordinates, and Green coordinates, which are the
+// same as Cauchy coordinates.
 #include <catch2/catch.hpp>
 
 #include "core/cauchy/cauchy.h"
@@ -12,9 +12,9 @@ using namespace holomorph;
 
 namespace {
 
-/// Green coordinates (Lipman, Levin, Cohen-Or 2008) by their definition: phi_i integrates the
-/// normal derivative of the potential G = ln|w - z| / 2 pi times the hat of vertex i over the
-/// boundary, psi_j integrates -G over edge j.
+/// Green coordinates (Lipman, Levin, Cohen-Or 2008) by their definition, with the potential
+/// G = ln|w - z| / 2 pi: phi_i is the integral over the boundary of G's normal derivative times the
+/// hat function of vertex i, and psi_j is the integral of -G over edge j.
 struct Green {
   VectorXd phi, psi;
 };
@@ -53,18 +53,18 @@ TEST_CASE("Green coordinates are Cauchy coordinates") {
     for (size_t j = 0; j < n; ++j) {
       const Complex way = polygon[(j + 1) % n] - polygon[j],
                     posed_way = posed[(j + 1) % n] - posed[j];
-      // Their s_j n_j: the posed edge's outer normal, as long as the edge has grown.
+      // s_j n_j in that paper: the posed edge's outer normal, scaled by the edge's growth.
       const Complex grown_normal = -kI * posed_way / std::abs(way);
       by_green += green.phi[static_cast<Index>(j)] * posed[j] +
                   green.psi[static_cast<Index>(j)] * grown_normal;
     }
     const MatrixXc cauchy = cauchy_coordinates(cage, std::span<const Complex>(&z, 1));
     for (size_t j = 0; j < n; ++j) by_cauchy += cauchy(0, static_cast<Index>(j)) * posed[j];
-    CHECK(std::abs(by_green - by_cauchy) <= 1e-12 * 10);  // of a map of size 10
+    CHECK(std::abs(by_green - by_cauchy) <= 1e-12 * 10);  // for a map of size 10
   }
 }
 
-TEST_CASE("Mean value coordinates: along the cage, and below zero beyond a reflex corner") {
+TEST_CASE("Mean value coordinates: they follow the cage, and are negative beyond a reflex corner") {
   Rest rest;
   rest.cage = polygon_cage(shapes::l_shape());
   rest.precision = Precision::full;
@@ -85,7 +85,7 @@ TEST_CASE("Mean value coordinates: along the cage, and below zero beyond a refle
           nearest_on_segment(pose.cage.vertex(e), pose.cage.vertex(e + 1), map.f[v]).distance);
     REQUIRE(nearest <= 1e-9);
   }
-  // One vertex' own coordinate, as a displacement.
+  // The coordinate of a single vertex, read off as a displacement.
   const auto least = [&](Deformer& deformer, size_t vertex) {
     Pose one{rest.cage, {}};
     one.cage.segments[vertex][0] += 1.0;

@@ -1,4 +1,4 @@
-// The method `bounded`: drags, shapes of cages, every reference, degenerate input.
+// Method `bounded`: drags, shapes of cages, all references, and degenerate input.
 #include <catch2/catch.hpp>
 
 #include "core/cauchy/boundary_basis.h"
@@ -13,7 +13,7 @@ using namespace holomorph;
 
 namespace {
 
-/// A rest of method `bounded` over a polygon, with pins.
+/// A rest of method `bounded` with a cage and pins, its pose and its deformer.
 struct Setting {
   Rest rest;
   Pose pose;
@@ -42,7 +42,7 @@ struct Setting {
   }
 };
 
-/// The value of an option of a choice.
+/// The parameter value that selects an option of a choice.
 double option(const std::string& key, const std::string& id) {
   for (const ParameterSpec& spec : method_named("bounded").parameters)
     for (size_t i = 0; spec.key == key && i < spec.options.size(); ++i)
@@ -56,7 +56,7 @@ Points long_bar() {
 
 }  // namespace
 
-TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified and nothing flips") {
+TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle flips") {
   using Row = std::pair<const char*, const char*>;
   for (const auto& [reference, space] :
        {Row{"pins", "nu"}, Row{"har_arap", "nu"}, Row{"arap", "nu"}, Row{"pins", "psi"},
@@ -84,7 +84,7 @@ TEST_CASE("Bounded method: whatever pins do, each frame of a drag is certified a
 
 namespace {
 
-/// A square with a notch of this many degrees.
+/// A square with a notch of the given angle.
 Points notched(double degrees) {
   const double half = 700 * std::tan(0.5 * degrees * kPi / 180);
   return {{0, 0},     {1000, 0},          {1000, 1000}, {500 + half, 1000},
@@ -93,7 +93,8 @@ Points notched(double degrees) {
 
 }  // namespace
 
-TEST_CASE("A boundary basis surrounds notches, spikes and slots, and its inset stays inside") {
+TEST_CASE(
+    "Boundary basis: the polygon surrounds notches, spikes and slots, and insets stay inside") {
   std::vector<Cage> cages{polygon_cage(Points{{0, 0}, {600, 0}, {600, 3}, {0, 3}}),
                           polygon_cage(Points{{0, 0}, {400, -4}, {0, 300}}),
                           shapes::curved_star(11, 4, 0.3, 8)};
@@ -132,7 +133,7 @@ TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and
     }
 }
 
-TEST_CASE("Bounded method: a reference that knows no pins is followed in spite of them") {
+TEST_CASE("Bounded method: references that ignore pins are followed even if there are pins") {
   const auto& options = method_named("bounded").parameters[0].options;
   for (size_t reference = 0; reference < options.size(); ++reference) {
     Setting bar(polygon_cage(long_bar()), {{30, 50}, {570, 50}},
@@ -142,7 +143,8 @@ TEST_CASE("Bounded method: a reference that knows no pins is followed in spite o
   }
 }
 
-TEST_CASE("Bounded method: pins are met more nearly in L_psi, and what holds them is said") {
+TEST_CASE(
+    "Bounded method: L_psi meets pins more closely, and the note names the limit that holds them") {
   double off[2] = {};
   for (const char* space : {"nu", "psi"}) {
     Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}},
@@ -165,7 +167,7 @@ TEST_CASE("Bounded method: pins are met more nearly in L_psi, and what holds the
   far.pose.pins[2].position = {1500, 50};
   const std::string note = far.map().note;
   INFO(note);
-  CHECK(note.find("from its place, held by the bound on the largest stretch") != std::string::npos);
+  CHECK(note.find("px short; limit: max growth") != std::string::npos);
 }
 
 namespace {
@@ -176,7 +178,7 @@ const std::vector<Parameters>& specified_bounds() {
   return bounds;
 }
 
-/// All bounds at single points between the mesh's vertices.
+/// Checks all bounds at single points between the mesh's vertices.
 void check_bounds_inside(const Setting& setting, const Parameters& bounds) {
   const auto points = setting.deformer->point_map(setting.pose);
   const Mesh& mesh = *setting.rest.mesh;
@@ -193,8 +195,8 @@ void check_bounds_inside(const Setting& setting, const Parameters& bounds) {
 
 }  // namespace
 
-TEST_CASE("Bounded method: a bar bent by 270 degrees with arap has zeros, and is certified") {
-  // The specification's map (d): both ends are held in place and turned.
+TEST_CASE("Bounded method: a bar bent by 270 degrees with arap has zeros and is certified") {
+  // Map (d) of the specification: one end is held in place, and the other is rotated.
   for (const Parameters& bounds : specified_bounds()) {
     Parameters parameters = bounds;
     parameters["reference"] = option("reference", "arap");
@@ -216,7 +218,7 @@ TEST_CASE("Bounded method: a bar bent by 270 degrees with arap has zeros, and is
 }
 
 TEST_CASE("Bounded method: a cage with two zeros of f' inside is certified") {
-  // The specification's map (e): f' = 3 (z - a) (z - b) on a square.
+  // Map (e) of the specification: f' = 3 (z - a) (z - b) on a square.
   const Complex a(0.4, 0.1), b(-0.3, 0.2);
   const auto f = [&](Complex z) { return z * z * z - 1.5 * (a + b) * z * z + 3.0 * a * b * z; };
   for (const Parameters& bounds : specified_bounds()) {
@@ -240,7 +242,7 @@ TEST_CASE("Bounded method: a cage with two zeros of f' inside is certified") {
   }
 }
 
-TEST_CASE("Bounded method: a final frame depends on rest and pose alone") {
+TEST_CASE("Bounded method: a final frame depends only on rest and pose") {
   Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}});
   bar.pose.pins[2].position = {350, 180};
   const SampledMap first = bar.map();
@@ -252,11 +254,11 @@ TEST_CASE("Bounded method: a final frame depends on rest and pose alone") {
   CHECK(bar.map().fzbar == first.fzbar);
 }
 
-TEST_CASE("Bounded method: the map at single points is the map at the mesh, in all spaces") {
+TEST_CASE("Bounded method: the map at single points equals the map at the mesh, in all spaces") {
   const char* space = GENERATE("nu", "psi", "h");
   Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}},
               {{"reference", option("reference", "har_arap")}, {"space", option("space", space)}});
-  // Turned and moved as a whole, too.
+  // The pins also rotate and move as a whole.
   bar.pose.pins = {{{50, 30}}, {{50, 300}}, {{-120, 350}}};
   const SampledMap map = bar.map();
   REQUIRE(map.fzbar.cwiseAbs().maxCoeff() > 0.01);
@@ -278,7 +280,7 @@ TEST_CASE("Bounded method: the map at single points is the map at the mesh, in a
   }
 }
 
-TEST_CASE("Bounded method: a cage whose mesh has no inner vertices is placed by its boundary") {
+TEST_CASE("Bounded method: a cage whose mesh has no inner vertices is aligned by its boundary") {
   for (const char* reference : {"cage", "pins", "arap", "har_arap"}) {
     Setting thin(polygon_cage(Points{{0, 0}, {600, 0}, {600, 1}, {0, 1}}), {},
                  {{"reference", option("reference", reference)}});
@@ -292,18 +294,17 @@ TEST_CASE("Bounded method: a cage whose mesh has no inner vertices is placed by 
   }
 }
 
-TEST_CASE(
-    "Bounded method: pins without a say, or outside, are named; and no iteration is endless") {
+TEST_CASE("Bounded method: the note names ignored pins and pins outside, and the iteration ends") {
   Setting bar(polygon_cage(long_bar()), {{30, 50}, {570, 50}},
               {{"reference", option("reference", "cage")}});
   bar.pose.pins[1].position += Complex(-20, 60);
   SampledMap map = bar.map();  // the cage is at rest
   CHECK(map.ignores_pins);
-  CHECK(map.note.find("knows no pins") != std::string::npos);
+  CHECK(map.note.find("ignores pins") != std::string::npos);
   bar.pose.cage.segments[0][0] += Complex(5, 20);
   map = bar.map();
   CHECK(map.ignores_pins);
-  CHECK(map.note.find("knows no pins") != std::string::npos);
+  CHECK(map.note.find("ignores pins") != std::string::npos);
   Setting outside(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {900, 900}});
   outside.pose.pins[1].position += Complex(0, 30);
   map = outside.map();
@@ -312,13 +313,13 @@ TEST_CASE(
   CHECK(map.note.find("in 3") != std::string::npos);
 }
 
-TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
+TEST_CASE("Bounded method: degenerate input gives an error or a map") {
   const auto ends_well = [](const char* what, Setting& setting) {
     INFO(what);
     try {
       const SampledMap map = setting.map();
       CHECK(map.f.allFinite());
-      // Where the mesh is too coarse for the map it says so.
+      // A map that the mesh is too coarse for must not have the status certified.
       CHECK((setting.flips(map) == 0) == (map.status == SampledMap::Status::certified));
     } catch (const Error& error) {
       CHECK(std::string(error.what()).size() > 10);
@@ -347,7 +348,7 @@ TEST_CASE("Bounded method: degenerate input ends in an error or an answer") {
   ends_well("mirrored", mirrored);
 }
 
-TEST_CASE("Bounded method: positions are continuous, and their differences keep the bounds") {
+TEST_CASE("Bounded method: positions are continuous, and their differences satisfy the bounds") {
   constexpr double kStep = 1e-6, kSlack = 1e-4;
   for (const unsigned seed : seeds_of("bounded differences", {41, 42})) {
     std::mt19937 random(seed);
@@ -360,7 +361,7 @@ TEST_CASE("Bounded method: positions are continuous, and their differences keep 
       Rest rest = setting.rest;
       rest.precision = Precision::full;
       rest.samples.clear();
-      // Across the sides of triangles, next to the boundary, and anywhere.
+      // Points across the sides of triangles, next to the boundary, and anywhere else.
       Points at;
       for (int i = 0; i < 120; ++i) {
         const Mesh& mesh = *rest.mesh;
@@ -388,7 +389,8 @@ TEST_CASE("Bounded method: positions are continuous, and their differences keep 
         CHECK(fzbar <= (k + kSlack) * fz);
         CHECK(fz + fzbar <= 2.5 + kSlack);
         CHECK(fz - fzbar >= 0.4 - kSlack);
-        CHECK(std::abs(map.f[first + 3] - map.f[first]) <= 2e-10);  // 1e-12 of the size
+        CHECK(std::abs(map.f[first + 3] - map.f[first]) <=
+              2e-10);  // the two points are 1e-12 apart
       }
     }
   }

@@ -1,5 +1,5 @@
-// Cauchy coordinates over curved segments: the theorems of straight cages, and the defining
-// integral.
+// Cauchy coordinates on curved segments: the theorems that hold for straight cages, and the
+// defining integral.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -12,8 +12,8 @@ using shapes::curved_star;
 
 namespace {
 
-/// k! / (2 pi i) integral of B_m c' / (c - z)^(k+1) over a segment, by Gauss-free brute force: the
-/// trapezoidal rule after t = x^3 (10 - 15 x + 6 x^2), which flattens both ends.
+/// k! / (2 pi i) times the integral of B_m c' / (c - z)^(k+1) over a segment, by brute force: the
+/// trapezoidal rule with the substitution t = x^3 (10 - 15 x + 6 x^2), which flattens both ends.
 VectorXc by_definition(const Points& controls, int degree, Complex z, int order) {
   constexpr int kSteps = 3000;
   VectorXc sum = VectorXc::Zero(degree + 1);
@@ -66,7 +66,7 @@ TEST_CASE("Curved rest: rows reproduce constants and z inside, and vanish outsid
                    E = cauchy_coordinates(cage, inside, 2);
     for (size_t i = 0; i < inside.size(); ++i) {
       CHECK(std::abs(C.row(i).sum() - 1.0) <= 1e-12);
-      CHECK(std::abs((C.row(i) * b)(0) - inside[i]) <= 1e-10);  // coordinates of 300
+      CHECK(std::abs((C.row(i) * b)(0) - inside[i]) <= 1e-10);  // coordinates are up to 300
       CHECK(std::abs((D.row(i) * b)(0) - 1.0) <= 1e-10);
       CHECK(std::abs((E.row(i) * b)(0)) <= 1e-9);
     }
@@ -78,7 +78,7 @@ TEST_CASE("Curved rest: rows reproduce constants and z inside, and vanish outsid
   }
 }
 
-TEST_CASE("Curved rest: coordinates of all orders equal their defining integral") {
+TEST_CASE("Curved rest: coordinates of all orders equal their defining integrals") {
   for (const int degree : {2, 3, 5}) {
     const Cage cage = curved_star(5, degree, 0.3, degree);
     const Points points = inner_points(cage, 6, 11);
@@ -99,7 +99,7 @@ TEST_CASE("Curved rest: coordinates of all orders equal their defining integral"
   }
 }
 
-TEST_CASE("Curved rest: cutting a segment changes no map") {
+TEST_CASE("Curved rest: subdividing segments does not change the map") {
   const Cage rest = curved_star(6, 3, 0.3, 4), pose = curved_star(6, 3, 0.2, 9);
   Cage cut_rest = rest, cut_pose = pose;
   insert_vertex(cut_rest, 2, 0.37);
@@ -116,7 +116,7 @@ TEST_CASE("Curved rest: cutting a segment changes no map") {
   }
 }
 
-TEST_CASE("Curved rest: raising the degree of rest and pose changes no map") {
+TEST_CASE("Curved rest: raising the degree of rest and pose does not change the map") {
   const Cage rest = curved_star(6, 2, 0.3, 4), pose = curved_star(6, 2, 0.2, 9);
   Cage six = rest;
   for (Points& segment : six.segments) segment.resize(6);
@@ -127,8 +127,8 @@ TEST_CASE("Curved rest: raising the degree of rest and pose changes no map") {
   CHECK((low - high).cwiseAbs().maxCoeff() <= 1e-13 * 300);
 }
 
-TEST_CASE("Curved rest: a straight segment written as an uneven curve is still that segment") {
-  // The line from 0 to 200 with the parameter running unevenly, and the pose bent the same way.
+TEST_CASE("Curved rest: a straight segment with an uneven parameter gives the same map") {
+  // The line from 0 to 200 with a parameter of uneven speed, at rest and posed.
   Cage uneven = polygon_cage(shapes::l_shape()), even = uneven;
   uneven.segments[0] = {{0, 0}, {30, 0}, {150, 0}};
   const Points points{{40, 40}, {10, 190}, {199, 1}, {120, 3}};
@@ -148,7 +148,7 @@ TEST_CASE("Curved rest: boundary and vertex values are the limits from inside") 
         const Complex z = position_of(cage, at);
         const Complex limit = (cauchy_coordinates(cage, std::span(&at, 1)) * b)(0);
         const Complex same = (cauchy_coordinates(cage, std::span(&z, 1)) * b)(0);
-        CHECK(std::abs(limit - same) <= 1e-9);  // found to be on the boundary
+        CHECK(std::abs(limit - same) <= 1e-9);  // z is recognized as a boundary point
         // From inside the value differs by O(h log h).
         const Complex inward = (Complex(200, 200) - z) / std::abs(Complex(200, 200) - z);
         for (const double h : {1e-3, 1e-6, 1e-9}) {
@@ -160,7 +160,7 @@ TEST_CASE("Curved rest: boundary and vertex values are the limits from inside") 
   }
 }
 
-TEST_CASE("Curved rest: where two roots meet all orders stay accurate") {
+TEST_CASE("Curved rest: all orders stay accurate where two roots meet") {
   // The critical value of a parabola: c'(t) = 0 at a complex t outside the segment.
   Cage cage = polygon_cage(Points{{0, 0}, {100, 0}, {100, 100}, {0, 100}});
   cage.segments[0] = {{0, 0}, {50, -60}};
@@ -180,7 +180,7 @@ TEST_CASE("Curved rest: where two roots meet all orders stay accurate") {
   }
 }
 
-TEST_CASE("Curved rest: scaling by 2^k scales exactly") {
+TEST_CASE("Curved rest: scaling by 2^k is exact") {
   const Cage cage = curved_star(5, 3, 0.3, 6);
   Cage large = cage;
   for (Points& segment : large.segments)
@@ -192,7 +192,7 @@ TEST_CASE("Curved rest: scaling by 2^k scales exactly") {
           cauchy_coordinates(large, scaled, order) * std::pow(1024.0, order));
 }
 
-TEST_CASE("Roots of a segment: as many as its degree, each on the curve's continuation") {
+TEST_CASE("Roots of a segment: there are as many as its degree, each on the curve's continuation") {
   for (int degree = 1; degree <= 8; ++degree) {
     const Cage cage = curved_star(3, degree, 0.4, 40 + degree);
     const SegmentPolynomial segment(cage.controls(1));
@@ -211,14 +211,14 @@ TEST_CASE("Roots of a segment: as many as its degree, each on the curve's contin
   }
 }
 
-TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees to 8") {
+TEST_CASE("Curved rest: the map at single points equals the matrix product for degrees 1 to 8") {
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
     const Cage rest = curved_star(6, degree, 0.2, 40 + degree),
                pose = curved_star(6, degree, 0.2, 60 + degree);
     const CauchySum sum(rest, controls_of(pose) - controls_of(rest));
     Points points = inner_points(rest, 60, 2);
     const Complex center(200, 200);
-    for (Index e = 0; e < rest.size(); ++e)  // and next to the boundary
+    for (Index e = 0; e < rest.size(); ++e)  // and points next to the boundary
       for (const double off : {1e-2, 1e-5, 1e-9}) {
         const Complex z = position_of(rest, {e, 0.4});
         points.push_back(z + off * (center - z));
@@ -237,8 +237,8 @@ TEST_CASE("Curved rest: the map at single points is the matrix's for all degrees
   }
 }
 
-TEST_CASE("Curved rest: single points on the boundary are their own segment's, however it is cut") {
-  // Where a segment was cut, its neighbors' extensions pass through its points, too.
+TEST_CASE("Curved rest: single points on the boundary use their own segment, however it is cut") {
+  // Where a segment was cut, the extensions of its neighbors also pass through its points.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> by(-1, 1);
   for (const bool straight : {true, false}) {

@@ -1,4 +1,4 @@
-// The contract that every row of the table of methods fulfils, in both precisions.
+// The contract that every row of the table of methods fulfills, in both precisions.
 #include <catch2/catch.hpp>
 
 #include <Eigen/QR>
@@ -26,7 +26,7 @@ Pose mapped(const Rest& rest, Complex a, Complex b) {
   return pose;
 }
 
-/// Rounding of the operators, relative to displacements of the size of the picture.
+/// The rounding error of the operators, for displacements as large as the picture.
 double tolerance(Precision precision) {
   return precision == Precision::full ? 1e-9 : 5e-4;
 }
@@ -35,7 +35,7 @@ bool is_linear(const Method& method) {
   return method.id == "cage" || method.id == "pins";
 }
 
-/// With a bent outline for the cage's shape.
+/// Adds a bent outline as the target of the cage's shape.
 Setup outlined(Setup s) {
   s.rest.outline = flattened(s.rest.cage).points;
   s.rest.parameters["vertices"] = 60;
@@ -51,8 +51,7 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
       for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
-        // Methods without an operator compute in double anyway, and with the polygon of raised
-        // edges.
+        // Other methods compute in double anyway, and raised edges give them the same polygon.
         if (precision == Precision::single && shape != Shape::straight && !is_linear(method))
           continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
@@ -60,7 +59,7 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
         check(method, setup(method, precision, shape), tolerance(precision));
         if (outlines == Outlines::none || !method.uses_outline) continue;
         INFO("with an outline");
-        // Hundreds of short segments, whose controls lie beside the smooth curve that they give.
+        // The basis has hundreds of short segments, whose control points lie off the smooth curve.
         constexpr double kFineBasis = 1e-5;
         check(method, outlined(setup(method, precision, shape)),
               std::max(kFineBasis, tolerance(precision)));
@@ -78,7 +77,7 @@ VectorXc samples_of(const Rest& rest) {
 
 }  // namespace
 
-TEST_CASE("Contract: the rest pose gives the identity, to the last bit") {
+TEST_CASE("Contract: the rest pose gives exactly the identity") {
   for_every_method([](const Method& method, const Setup& s, double) {
     const SampledMap map = run(method, s.rest, mapped(s.rest, 1, 0));
     CHECK(map.f == samples_of(s.rest));
@@ -91,7 +90,7 @@ TEST_CASE("Contract: a similarity of the pose gives that similarity") {
   for_every_method([](const Method& method, const Setup& s, double tolerance) {
     Complex a{0.4, 1.1};
     const Complex b{30, -12};
-    if (!method.similar) a /= std::abs(a);  // a turn, at least
+    if (!method.similar) a /= std::abs(a);  // at least a rotation
     const SampledMap map = run(method, s.rest, mapped(s.rest, a, b));
     const VectorXc exact = (a * samples_of(s.rest)).array() + b;
     CHECK((map.f - exact).cwiseAbs().maxCoeff() <= tolerance);
@@ -130,7 +129,8 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else")
 TEST_CASE("Contract: derivatives agree with finite differences") {
   for_every_method(
       [](const Method& method, Setup s, double) {
-        if (s.rest.precision == Precision::single) return;  // differences of floats say nothing
+        if (s.rest.precision == Precision::single)
+          return;  // differences of floats are too inaccurate
         const Points centers{{50, 50}, {120, 40}, {60, 150}, {20, 90}};
         const double h = 1e-3;
         s.rest.samples.clear();
@@ -149,7 +149,7 @@ TEST_CASE("Contract: derivatives agree with finite differences") {
       Outlines::too);
 }
 
-TEST_CASE("Contract: the operator for the shader is the map") {
+TEST_CASE("Contract: the operator for the shader gives the map") {
   for (const Method& method : methods()) {
     const Setup s = setup(method, Precision::single);
     const auto deformer = method.prepare(s.rest, nullptr);
@@ -164,7 +164,8 @@ TEST_CASE("Contract: the operator for the shader is the map") {
   }
 }
 
-TEST_CASE("Contract: the map at single points is the map at samples, inside and on the boundary") {
+TEST_CASE(
+    "Contract: the map at single points equals the map at samples, inside and on the boundary") {
   for_every_method(
       [](const Method& method, const Setup& s, double tolerance) {
         for (const bool clockwise : {false, true}) {
@@ -179,7 +180,7 @@ TEST_CASE("Contract: the map at single points is the map at samples, inside and 
             const auto at = points->at(rest.samples[i]);
             CHECK(std::abs(at.f - map.f[static_cast<Index>(i)]) <= tolerance);
           }
-          // Derivatives by differences, well inside.
+          // Compare derivatives with differences, well inside.
           for (const Complex z : {Complex(50, 50), Complex(120, 40), Complex(60, 150)}) {
             const double h = 1e-4, rounding = s.rest.outline.empty() ? 1e-7 : 1e-6;
             const Complex fx = (points->at(z + h).f - points->at(z - h).f) / (2 * h),
@@ -203,7 +204,7 @@ TEST_CASE("Contract: single precision is full precision, rounded") {
   }
 }
 
-TEST_CASE("Contract: bad input throws and the deformer still answers") {
+TEST_CASE("Contract: bad input throws, and the deformer still works afterwards") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
         const auto deformer = method.prepare(s.rest, nullptr);
@@ -227,7 +228,7 @@ TEST_CASE("Contract: bad input throws and the deformer still answers") {
       Outlines::too);
 }
 
-TEST_CASE("Contract: a previous deformer changes nothing but the time") {
+TEST_CASE("Contract: a previous deformer does not change the map") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
         Rest fewer = s.rest;
@@ -243,7 +244,7 @@ TEST_CASE("Contract: a previous deformer changes nothing but the time") {
       Outlines::too);
 }
 
-TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
+TEST_CASE("Pins: exact pins are met, and soft pins are met more closely as their weight grows") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.rest.samples.clear();
@@ -264,13 +265,13 @@ TEST_CASE("Exact pins are met, soft pins come nearer as their weight grows") {
   CHECK(light > 1e-3);
   s.rest.parameters = {{"exact", 1}};
   const SampledMap map = run(pins, s.rest, s.pose);
-  CHECK(std::abs(map.fz[1] - std::polar(1.0, 0.3)) < 1e-8);  // the pin that turns
+  CHECK(std::abs(map.fz[1] - std::polar(1.0, 0.3)) < 1e-8);  // the pin with a frame
 }
 
-TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins") {
+TEST_CASE("Pins: soft pins solve the stacked least-squares problem of energy and pins") {
   const Method& pins = method_named("pins");
   const double smoothness = 1e-4, weight = 0.5;
-  const Points polygon = shapes::star(100, 0.1, 3);  // as many vertices as the basis wants
+  const Points polygon = shapes::star(100, 0.1, 3);  // as many vertices as the basis has
   const Cage cage = polygon_cage(polygon);
   Rest rest;
   rest.cage = cage;
@@ -286,7 +287,7 @@ TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins"
     pose.pins.push_back({z + data[i], 0});
     rest.samples.push_back(center + std::polar(45.0, 0.7 * i));
   }
-  // minimize  smoothness mean |L^2 h''|^2 + weight mean |h - data|^2  over h = C g, by one QR.
+  // Minimize smoothness mean |L^2 h''|^2 + weight mean |h - data|^2 over h = C g, by one QR.
   const double length = perimeter(polygon) / (2 * kPi), m = 5, n = 100;
   std::vector<BoundaryPoint> midpoints;
   for (Index e = 0; e < cage.size(); ++e) midpoints.push_back({e, 0.5});
@@ -302,7 +303,7 @@ TEST_CASE("Soft pins solve the stacked least-squares problem of energy and pins"
   CHECK((run(pins, rest, pose).f - expected).cwiseAbs().maxCoeff() <= 1e-7);
 }
 
-TEST_CASE("Derivatives of pins are finite and tame all over the mesh, boundary included") {
+TEST_CASE("Pins: derivatives are finite and moderate on the whole mesh, including the boundary") {
   const Method& pins = method_named("pins");
   for (const Shape shape : {Shape::straight, Shape::curved}) {
     Setup s = setup(pins, Precision::single, shape);
@@ -315,7 +316,7 @@ TEST_CASE("Derivatives of pins are finite and tame all over the mesh, boundary i
   }
 }
 
-TEST_CASE("No samples are no error") {
+TEST_CASE("Contract: a rest without samples is not an error") {
   for (const Method& method : methods()) {
     Setup s = setup(method, Precision::full);
     s.rest.samples.clear();
@@ -324,7 +325,7 @@ TEST_CASE("No samples are no error") {
   }
 }
 
-TEST_CASE("Pins of the cage's own control points: the solved cage alone gives the same map") {
+TEST_CASE("Pins: with the cage's own control points, the solved cage alone gives the same map") {
   const Method &pins = method_named("pins"), &cage = method_named("cage");
   for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved})
     for (const double exact : {0.0, 1.0}) {
@@ -351,7 +352,7 @@ TEST_CASE("Pins of the cage's own control points: the solved cage alone gives th
                   ->solved_cage(setup(pins, Precision::full).pose));
 }
 
-TEST_CASE("A pin that turns also scales") {
+TEST_CASE("Pins: a pin with a frame rotates and scales") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.rest.pins = {{{40, 40}, true}};
@@ -366,14 +367,14 @@ TEST_CASE("A pin that turns also scales") {
             .maxCoeff() < 1e-8);
 }
 
-TEST_CASE("The pins' correction minimizes the smoothness energy among maps that meet them") {
+TEST_CASE("Pins: the correction minimizes the smoothness energy among maps that meet the pins") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.pose.cage = s.rest.cage;
   s.rest.parameters = {{"exact", 1}};
   for (RestPin& pin : s.rest.pins) pin.has_frame = false;
   const auto energy = [&](const Points& samples,
-                          const SampledMap& map) {  // mean |f''|^2 by differences of f'
+                          const SampledMap& map) {  // the sum of |f''|^2, by differences of f'
     double sum = 0;
     for (size_t i = 0; i + 1 < samples.size(); i += 2)
       sum += std::norm((map.fz[i + 1] - map.fz[i]) / (samples[i + 1] - samples[i]));
@@ -387,7 +388,7 @@ TEST_CASE("The pins' correction minimizes the smoothness energy among maps that 
       s.rest.samples.push_back({x + 1e-3, y});
     }
   const double smoothest = energy(s.rest.samples, run(pins, s.rest, s.pose));
-  // Meeting a fourth pin that is off the smoothest map costs energy; one on it costs nothing.
+  // A fourth pin on the smoothest map costs no energy; a fourth pin off that map does.
   Setup more = s;
   const Complex place{150, 30};
   more.rest.samples.push_back(place);
@@ -401,7 +402,7 @@ TEST_CASE("The pins' correction minimizes the smoothness energy among maps that 
   CHECK(energy(s.rest.samples, run(pins, more.rest, more.pose)) > 1.01 * smoothest);
 }
 
-TEST_CASE("One pin moves everything, and unusable pins are named") {
+TEST_CASE("Pins: a single pin moves everything, and ignored pins are named") {
   const Method& pins = method_named("pins");
   Setup s = setup(pins, Precision::full);
   s.rest.pins = {{{40, 40}, false}};
@@ -412,11 +413,10 @@ TEST_CASE("One pin moves everything, and unusable pins are named") {
   CHECK((map.fz.array() - Complex(1)).abs().maxCoeff() < 1e-9);
   s.rest.pins = {{{40, 40}, false}, {{40, 40}, false}, {{190, 190}, false}};
   map = run(pins, s.rest, mapped(s.rest, 1, 0));
-  CHECK_THAT(map.note,
-             Catch::Contains("pin 3 lies outside") && Catch::Contains("pin 2 lies on another"));
+  CHECK_THAT(map.note, Catch::Contains("pin 3 (outside") && Catch::Contains("pin 2 (on another"));
 }
 
-TEST_CASE("An unknown method is refused by name") {
+TEST_CASE("Methods: an unknown id is refused, and the error names those that exist") {
   CHECK_THROWS_WITH(method_named("magic"),
                     Catch::Contains("magic") && Catch::Contains("cage, pins"));
 }

@@ -1,4 +1,4 @@
-// Painted stiffness: how it adds up, and that what is stiff keeps its shape better.
+// Painted stiffness: how dabs add up, and that stiff parts keep their shape better.
 #include "core/geometry/stiffness.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace holomorph;
 
 namespace {
 
-/// A bar whose right end is pulled up, by method arap; returns the map and its mesh.
+/// A bar whose right end is pulled up, deformed by method arap.
 struct Bent {
   Rest rest;
   SampledMap map;
@@ -27,7 +27,7 @@ struct Bent {
     Pose pose{rest.cage, {{{10, 30}}, {{200, 190}}}};
     map = method_named("arap").prepare(rest, nullptr)->deform(pose, {});
   }
-  /// How far the triangles between two abscissas are from rigid, on average.
+  /// The mean deviation from rigidity at the vertices between two abscissas.
   double strain(double from, double to) const {
     const VertexDerivatives d = vertex_derivatives(*rest.mesh, map.f);
     double sum = 0;
@@ -44,7 +44,7 @@ struct Bent {
 
 }  // namespace
 
-TEST_CASE("Touches add up, fall off to nothing and stay within bounds") {
+TEST_CASE("Stiffness: dabs add up, fall off to zero and stay within bounds") {
   const std::vector<BrushDab> one{{{10, 20}, 30, 0.5}};
   CHECK(stiffness_level({}, {10, 20}) == 0);
   CHECK(stiffness_level(one, {10, 20}) == 0.5);
@@ -58,12 +58,12 @@ TEST_CASE("Touches add up, fall off to nothing and stay within bounds") {
   CHECK(stiffness_level(many, {10, 20}) == Approx(-0.5));
 }
 
-TEST_CASE("What is stiff keeps its shape, and what is soft gives way") {
+TEST_CASE("Stiffness: stiff parts keep their shape, and soft parts give way") {
   const Bent plain({}), stiff({{{80, 30}, 110, 2}}), soft({{{80, 30}, 110, -1}});
   CHECK(stiff.strain(30, 130) < 0.4 * plain.strain(30, 130));
   CHECK(soft.strain(30, 130) > 1.3 * plain.strain(30, 130));
   CHECK(stiff.strain(190, 270) > plain.strain(190, 270));
-  // Pins hold however stiff it is around them.
+  // Pins hold regardless of the stiffness around them.
   for (const Bent* bent : {&plain, &stiff, &soft}) {
     const auto at = locate(*bent->rest.mesh, bent->rest.samples, {290, 30});
     REQUIRE(at);
@@ -72,12 +72,12 @@ TEST_CASE("What is stiff keeps its shape, and what is soft gives way") {
   }
 }
 
-TEST_CASE("The same stiffness everywhere is none") {
+TEST_CASE("Stiffness: the same value everywhere has no effect") {
   const Bent plain({}), even({{{150, 30}, 1e5, 1}});
   CHECK((plain.map.f - even.map.f).cwiseAbs().maxCoeff() < 0.5);
 }
 
-TEST_CASE("Only methods that know stiffness are given it") {
+TEST_CASE("Stiffness: only methods that use it receive it") {
   Rest rest;
   rest.stiffness = {{{0, 0}, 10, 1}};
   for (const Method& method : methods())

@@ -1,4 +1,4 @@
-// Strokes: curves on the picture go onto other curves and slide along them.
+// Method `strokes`: curves on the picture are mapped onto other curves and slide along them.
 #include <catch2/catch.hpp>
 
 #include "bench/outlines.h"
@@ -59,7 +59,7 @@ SampledMap run(const Rest& rest, const Pose& pose) {
   return map;
 }
 
-/// Root of the mean square of log2 of the local area.
+/// The root mean square of log2 of the local area.
 double area_rms(const SampledMap& map) {
   double sum = 0;
   for (Index i = 0; i < map.fz.size(); ++i) {
@@ -83,11 +83,11 @@ double miss(const Rest& rest, const Pose& pose) {
 
 }  // namespace
 
-TEST_CASE("Strokes: a target 1.4 times too long stretches the picture a third less than pins do") {
+TEST_CASE("Strokes: a target 1.4 times too long distorts areas a third less than pins do") {
   const Points longer = arc(1.4, 1.2);
   const Rest rest = rest_of(bar(), {middle()});
   const SampledMap slid = run(rest, pose_of(rest, {longer}));
-  // Pins hold the same points at equal shares of both lengths.
+  // Pins hold the same points at equal fractions of both lengths.
   Rest pinned = rest_of(bar(), {});
   Pose pose{pinned.cage, {}};
   const Points places = at_equal_lengths(Polyline(middle(), false), 20),
@@ -102,7 +102,7 @@ TEST_CASE("Strokes: a target 1.4 times too long stretches the picture a third le
   CHECK(miss(rest, pose_of(rest, {longer})) < 0.01 * 400);
 }
 
-TEST_CASE("Strokes: turned and moved as a whole, a stroke takes the picture along as it is") {
+TEST_CASE("Strokes: a stroke that is rotated and moved as a whole moves the picture rigidly") {
   const Rest rest = rest_of(bar(), {middle()});
   const Complex turn = std::polar(1.0, 2.2), move(50, -80);
   Points moved;
@@ -112,7 +112,7 @@ TEST_CASE("Strokes: turned and moved as a whole, a stroke takes the picture alon
     REQUIRE(std::abs(map.f[i] - turn * rest.samples[static_cast<size_t>(i)] - move) < 1e-6 * 400);
 }
 
-TEST_CASE("Strokes: how densely the lines are written changes nothing") {
+TEST_CASE("Strokes: the number of points on a line does not change the map") {
   const Points target{{20, 60}, {200, 10}, {390, 70}};
   const Rest plain = rest_of(bar(), {middle(2)}), dense = rest_of(bar(), {middle(10000)});
   const SampledMap a = run(plain, pose_of(plain, {target})),
@@ -121,19 +121,19 @@ TEST_CASE("Strokes: how densely the lines are written changes nothing") {
   CHECK((a.f - b.f).cwiseAbs().maxCoeff() < 1e-6 * 400);
 }
 
-TEST_CASE("Strokes: after a drag the picture depends on the scene alone") {
+TEST_CASE("Strokes: after a drag the map depends only on the scene") {
   const Rest rest = rest_of(bar(), {middle()});
   const auto dragged = method_named("strokes").prepare(rest, nullptr);
   SampledMap map;
   for (int frame = 1; frame <= 10; ++frame)
     map = dragged->deform(pose_of(rest, {arc(1 + 0.04 * frame, 0.12 * frame)}), {false, true});
   const SampledMap cold = run(rest, pose_of(rest, {arc(1.4, 1.2)}));
-  CHECK((map.f - cold.f).cwiseAbs().maxCoeff() < 0.05 * 400);  // near while it lasts
+  CHECK((map.f - cold.f).cwiseAbs().maxCoeff() < 0.05 * 400);  // close during the drag
   map = dragged->deform(pose_of(rest, {arc(1.4, 1.2)}), {false, false});
   CHECK(map.f == cold.f);
 }
 
-TEST_CASE("Strokes: each weight does what it is for") {
+TEST_CASE("Strokes: each weight has the intended effect") {
   const Points longer = arc(1.4, 2.5);
   const auto with = [&](Parameters parameters) {
     const Rest rest = rest_of(bar(), {middle()}, std::move(parameters));
@@ -153,7 +153,7 @@ TEST_CASE("Strokes: each weight does what it is for") {
   CHECK(area_rms(soft) < area_rms(usual));
 }
 
-TEST_CASE("Strokes and pins hold together, turning pins too") {
+TEST_CASE("Strokes: pins hold together with strokes, also pins with frames") {
   Rest rest = rest_of(bar(), {Points{{250, 40}, {370, 40}}}, {{"pin_weight", 100}});
   rest.pins = {{{40, 40}, true}};
   Pose pose = pose_of(rest, {Points{{250, 40}, {340, 110}}});
@@ -166,12 +166,13 @@ TEST_CASE("Strokes and pins hold together, turning pins too") {
   CHECK(miss(rest, pose) < 4);
 }
 
-TEST_CASE("Strokes outside the cage are clipped and named; what is no stroke is refused") {
+TEST_CASE(
+    "Strokes: parts outside the cage are clipped and named, and invalid strokes are refused") {
   Rest rest = rest_of(bar(), {Points{{300, 40}, {500, 40}}, Points{{300, 140}, {500, 140}}});
   const SampledMap map =
       run(rest, pose_of(rest, {Points{{300, 60}, {500, 60}}, Points{{300, 140}, {500, 140}}}));
-  CHECK_THAT(map.note, Catch::Contains("stroke 1 leaves the cage") &&
-                           Catch::Contains("stroke 2 lies outside"));
+  CHECK_THAT(map.note,
+             Catch::Contains("Stroke 1 leaves the cage") && Catch::Contains("Stroke 2 is outside"));
   CHECK(std::abs(map.f[0] - rest.samples[0] - Complex(0, 20)) < 1e-3);
   const Rest one = rest_of(bar(), {middle()});
   CHECK_THROWS_WITH(run(one, pose_of(one, {})), Catch::Contains("as many posed strokes"));

@@ -490,7 +490,7 @@ TEST_CASE("Outline: pins that contradict each other are reported") {
   map = onto.deformer->deform({cage, {{a}, {0.8 * a + 0.2 * b}}}, {});
   CHECK_THAT(map.note, Catch::Contains("pins contradict each other") && Catch::Contains("missed"));
   map = onto.deformer->deform({cage, {{a}, {b + 1e5}}}, {});
-  CHECK_THAT(map.note, Catch::Contains("outside of it and held inside"));
+  CHECK_THAT(map.note, Catch::Contains("outside the outline is held inside"));
 }
 
 TEST_CASE(
