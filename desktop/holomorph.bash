@@ -1,4 +1,4 @@
-# Completion of holomorph for bash: commands, what `--help` says of their options, and values of some.
+# Bash completion for holomorph: commands, their options as listed by `--help`, and the values of some options.
 _holomorph() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=
   case $before in

@@ -1,7 +1,7 @@
-// Colours the warped picture: the texture, a heat map, or a checker. Premultiplied alpha.
+// Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha.
 uniform sampler2D picture;
 uniform sampler1D colors;
-uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one colour, 4: tinted picture
+uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture
 uniform vec4 flat_color;
 
 in vec2 uv;
@@ -16,7 +16,7 @@ void main() {
   } else if (coloring == 1) {
     color = vec4(texture(colors, clamp(shade, 0.0, 1.0)).rgb, 1.0);
   } else if (coloring == 2) {
-    // A box-filtered checker: exact where a cell is large, grey where it is smaller than a pixel.
+    // A box-filtered checker: exact where cells are large, gray where they are smaller than a pixel.
     vec2 cell = place / 16.0;
     vec2 width = max(fwidth(cell), vec2(1e-6));
     vec2 wave = 2.0 * (abs(fract((cell - 0.5 * width) * 0.5) - 0.5) - abs(fract((cell + 0.5 * width) * 0.5) - 0.5)) / width;

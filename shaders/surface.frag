@@ -1,7 +1,7 @@
-// The picture on a surface, in the camera's light. The picture is premultiplied by alpha.
+// Colors a surface with the picture, lit from the camera. The picture is premultiplied by alpha.
 uniform sampler2D picture;
 uniform bool textured;
-uniform vec3 clay;     // where no picture is
+uniform vec3 clay;     // the color where there is no picture
 
 in vec2 uv;
 in vec3 seen;
@@ -9,7 +9,8 @@ in vec3 seen_normal;
 
 out vec4 color;
 
-// Just beyond the picture's edge its smaller copies still have its colours: no seam at the boundary.
+// Just outside the picture's edge, smaller mipmap levels still have its colors. Using them avoids a
+// seam at the boundary.
 vec4 bled(vec4 here) {
   for (float level = 1.0; level < 6.0 && here.a < 0.99; level += 1.0) {
     vec4 wide = textureLod(picture, uv, level);

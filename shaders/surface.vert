@@ -1,4 +1,4 @@
-// A surface in space, seen by a camera.
+// Projects a surface in space to the camera.
 uniform mat4 to_view;
 uniform mat4 to_clip;
 
@@ -7,7 +7,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 coordinates;
 
 out vec2 uv;
-out vec3 seen;         // in the camera's space
+out vec3 seen;         // position in view space
 out vec3 seen_normal;
 
 void main() {

@@ -1,9 +1,9 @@
-// Places each vertex of the domain mesh: from positions that the processor computed, or by applying a
-// method's operator to its controls here.
+// Positions each vertex of the domain mesh: at a position that the CPU computed, or by applying a
+// method's operator to its controls.
 uniform mat3 to_clip;          // plane to clip coordinates
 uniform vec2 picture_size;     // in plane units
 uniform int mode;              // 0: at rest, 1: positions, 2: operator
-uniform int column_count;      // of the operator
+uniform int column_count;      // size of the operator
 uniform int row_count;
 uniform samplerBuffer operator_matrix;  // column by column, one complex number per vertex
 uniform samplerBuffer operator_controls;
@@ -13,9 +13,9 @@ layout(location = 1) in vec2 position;
 layout(location = 2) in float value;
 
 out vec2 uv;
-out vec2 place;     // at rest, in plane units: what the checker is drawn over
+out vec2 place;     // rest position in plane units, for the checker
 out float shade;
-out vec2 warped;    // for reading back
+out vec2 warped;    // read back by transform feedback
 
 void main() {
   vec2 at = rest;

@@ -1,4 +1,4 @@
-// Angle maps and films.
+// Benchmarks of angle maps and of playing keyframes.
 #include <numeric>
 #include <optional>
 
@@ -13,7 +13,7 @@
 namespace holomorph::bench {
 namespace {
 
-/// 20 vertices by turns far and near, all of them corners: 40 angles.
+/// 20 vertices, alternately far and near. All of them are corners, so there are 40 angles.
 Points star() {
   Points star;
   for (int i = 0; i < 20; ++i)
@@ -21,7 +21,7 @@ Points star() {
   return star;
 }
 
-constexpr int kAsked = 8700;  ///< so that the mesh has about 10000 vertices
+constexpr int kAsked = 8700;  ///< requested vertices, for a mesh of about 10000
 
 Deformation star_scene() {
   Deformation deformation;

@@ -1,4 +1,4 @@
-// Every speed that an issue names is one entry of the table in measured().
+// Each benchmark is one entry of the table kEntries.
 #include "bench/bench.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Deformation scene_with(const Points& polygon) {
   return deformation;
 }
 
-/// The number of vertices to ask for so that the mesh has about 15000.
+/// The number of vertices to request for a mesh of about 15000.
 constexpr int kAsked = 13000;
 
 Image gradient(int side) {
@@ -83,7 +83,7 @@ double coordinates_ns(Kernel kernel, int order, int runs) {
 double scalar_log_ns(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {1500});
-  volatile double sum = 0;  // read by nobody, so that nothing is left out
+  volatile double sum = 0;  // volatile, so that the compiler keeps the loop
   const double ms = median_ms(runs, [&] {
     for (const Complex& z : mesh.vertices)
       for (size_t e = 0; e < cage.size(); ++e)
@@ -92,7 +92,7 @@ double scalar_log_ns(int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
-/// 20 segments around (500, 500), each a curve of `degree`.
+/// A cage of 20 segments around (500, 500), each a curve of this degree.
 Cage wavy_curves(int degree, double bulge) {
   Cage cage = polygon_cage(wavy(20, {500, 500}, 350));
   const Points corners = vertices_of(cage);
@@ -112,9 +112,10 @@ double curved_prepare_ms(int runs) {
   return median_ms(runs, [&] { prepared_map(deformation, Precision::single, {8700}); });
 }
 
-/// The way over an intermediate polygon (Lin, Chen 2024): u2 after the inverse of u1, with u1
-/// taking the polygon of the segments' ends to the curved rest. How many of the domain's samples
-/// have no preimage under u1, in percent; and how long finding the others takes.
+/// The composition through an intermediate polygon (Lin and Chen 2024, section 4.3): u2 after the
+/// inverse of u1, where u1 maps the polygon of the segments' endpoints to the curved rest cage.
+/// Measures how many percent of the domain's samples have no preimage under u1, and the time to
+/// find the preimages.
 struct PolygonRoute {
   double missing_percent = 0, milliseconds = 0;
 };
@@ -135,7 +136,7 @@ PolygonRoute polygon_route() {
   return {100.0 * missing / static_cast<double>(domain.vertices.size()), now_ms() - start};
 }
 
-/// Per point and edge of a straight cage whose pose has this degree.
+/// The time per point and edge for a straight cage whose pose has this degree.
 double raised_coordinates_ns(int degree, int runs) {
   const Cage straight = polygon_cage(wavy(100, {500, 500}, 350));
   Cage raised = straight;
@@ -150,7 +151,7 @@ double raised_coordinates_ns(int degree, int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
-/// 10000 preimages under 20 cubic segments, after the inverse is set up.
+/// 10000 preimages for a pose of 20 cubic segments, without setting up the inverse.
 double inverse_ms(int runs) {
   Deformation deformation;
   deformation.rest = polygon_cage(wavy(20, {500, 500}, 350));
@@ -161,7 +162,7 @@ double inverse_ms(int runs) {
   const std::span<const Complex> f(map.f.data(), static_cast<size_t>(map.f.size()));
   const InverseMap inverse(deformation.rest, *prepared->mesh, f, *points);
   const Mesh& mesh = *prepared->mesh;
-  Points targets;  // a quarter next to the boundary
+  Points targets;  // a quarter of them near the boundary
   for (size_t i = 0; i < 10000; ++i) {
     const Triangle& t = mesh.triangles[i * 7919 % mesh.triangles.size()];
     const size_t b = i % mesh.boundary.size(), next = (b + 1) % mesh.boundary.size();
@@ -175,7 +176,7 @@ double inverse_ms(int runs) {
   });
 }
 
-/// A bar of 16 vertices with pins, one of which is dragged around until the reference folds.
+/// A bar of 16 vertices with three pins. The benchmarks drag one of them until the reference folds.
 Deformation pulled_bar() {
   Points bar;
   for (int i = 0; i < 8; ++i) bar.push_back({100.0 * i, 0});
@@ -187,7 +188,8 @@ Deformation pulled_bar() {
   return deformation;
 }
 
-/// 300 frames of a drag: the median or the longest frame, or how many frames were not certified.
+/// What to report of a drag of 300 frames: the median or the longest time of a frame, or the number
+/// of frames that were not certified.
 enum class DragFigure { median, longest, unproved };
 
 double bounded_drag(DragFigure figure) {
@@ -210,7 +212,7 @@ double bounded_drag(DragFigure figure) {
   return times[150];
 }
 
-/// The specification's maps projected from nothing, with proof: the slowest one's median.
+/// The known maps, projected from a cold start, with proof: the median time of the slowest map.
 double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
   double slowest = 0;
   for (const known_maps::Known& known : known_maps::all()) {
@@ -316,25 +318,25 @@ const Entry kEntries[] = {
      }},
     {"coordinates: std::log of a complex ratio alone, per point and edge (for comparison)", "ns", 0,
      9, scalar_log_ns},
-    {"coordinates: degree 3 over degree 1, AVX2, the same edges", "times", 3, 9,
+    {"coordinates: degree 3 relative to degree 1, AVX2, the same edges", "times", 3, 9,
      [](int runs) { return raised_coordinates_ns(3, runs) / raised_coordinates_ns(1, runs); }},
     {"prepare: curved to curved, 20 cubic segments, 10k vertices, mesh and coordinates", "ms", 300,
      5, curved_prepare_ms},
-    {"curved rest over a polygon, as Lin and Chen: 10k vertices, inverse alone (for comparison)",
+    {"curved rest via a polygon, as Lin and Chen: 10k vertices, only the inverse (for comparison)",
      "ms", 0, 1, [](int) { return polygon_route().milliseconds; }},
-    {"curved rest over a polygon: samples of the domain that it does not reach (for comparison)",
+    {"curved rest via a polygon: samples of the domain that it does not reach (for comparison)",
      "%", 0, 1, [](int) { return polygon_route().missing_percent; }},
     {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
     {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
-    {"pins: one pin more at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
+    {"pins: one more pin at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
     {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",
      "ms", 16, 1, [](int) { return bounded_drag(DragFigure::median); }},
     {"bounded: the same, the longest frame", "ms", 33, 1,
      [](int) { return bounded_drag(DragFigure::longest); }},
-    {"bounded: the same, frames that were not proved", "", 0, 1,
+    {"bounded: the same, frames without a proof", "", 0, 1,
      [](int) { return bounded_drag(DragFigure::unproved); }},
     {"bounded: cold L1 solve and proof, 50 vertices, 300 samples, slowest of six maps", "ms", 16, 5,
      [](int runs) {
@@ -344,28 +346,28 @@ const Entry kEntries[] = {
      [](int runs) {
        return bounded_solve_ms({150, 1000}, runs);
      }},
-    {"bounded: a folded pose from nothing, end to end", "ms", 0, 9, bounded_cold_ms},
-    {"outline: of 30 random pairs, not reached", "pairs", 1, 1,
+    {"bounded: a folded pose from a cold start, end to end", "ms", 0, 9, bounded_cold_ms},
+    {"outline: 30 random pairs, pairs not reached", "pairs", 1, 1,
      [](int) { return kOutlinePairs - outline_figures(false).reached; }},
-    {"outline: the same, median time from nothing", "ms", 150, 1,
+    {"outline: the same, median time from a cold start", "ms", 150, 1,
      [](int) { return outline_figures(false).median_ms; }},
-    {"outline: the same as published, not reached (for comparison)", "pairs", 0, 1,
+    {"outline: the same as published, pairs not reached (for comparison)", "pairs", 0, 1,
      [](int) { return kOutlinePairs - outline_figures(true).reached; }},
     {"outline: the same as published, median time", "ms", 0, 1,
      [](int) { return outline_figures(true).median_ms; }},
-    {"outline: iterations to 1.01 of the last distance, 100 vertices, slowest of 30 pairs", "ms",
+    {"outline: iterations to 1.01 of the final distance, 100 vertices, slowest of 30 pairs", "ms",
      16, 3, outline_iterations_ms},
     {"outline: hard pairs (disk to star, square to E and others), slowest of six", "ms", 2000, 1,
      [](int) { return hard_outline_ms(); }},
-    {"strokes: drag, 5 strokes of 20 samples, without the map", "ms", 2, 101, strokes_drag_ms},
+    {"strokes: drag, 5 strokes of 20 samples, only the solve", "ms", 2, 101, strokes_drag_ms},
     {"angles: prepare, 20 corners, 10k vertices", "ms", 500, 5, angles_prepare_ms},
     {"angles: drag of a corner, 40 angles, 10k vertices", "ms", 2, 51, angles_drag_ms},
-    {"angles: the same, all angles anew", "ms", 0, 51, angles_pose_ms},
-    {"keyframes: a frame between two keys, 20k triangles, handles included", "ms", 16.6, 51,
+    {"angles: the same, all angles recomputed", "ms", 0, 51, angles_pose_ms},
+    {"keyframes: a frame between two keyframes, 20k triangles, with handles", "ms", 16.6, 51,
      playback_ms},
     {"keyframes: a bar bent by 270 degrees, worst area in between", "%", 2.5, 1,
      [](int) { return inbetween_loss_percent(false); }},
-    {"keyframes: the same, places blended (for comparison)", "%", 0, 1,
+    {"keyframes: the same, positions blended linearly (for comparison)", "%", 0, 1,
      [](int) { return inbetween_loss_percent(true); }},
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 60, 15,
      [](int runs) { return export_ms(runs, 2); }},
@@ -373,7 +375,7 @@ const Entry kEntries[] = {
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
 };
 
-/// The same folded bar by everyone's projection: milliseconds, and what the map is like.
+/// The same folded bar, projected by all published methods: the time, and properties of the map.
 constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
 
 std::vector<Result> comparison(const std::function<void(const Result&)>& report) {
@@ -385,9 +387,9 @@ std::vector<Result> comparison(const std::function<void(const Result&)>& report)
   compare(rest, pose_of(deformation), [&](const ComparedMap& row) {
     char detail[160];
     std::snprintf(detail, sizeof detail,
-                  "max k %.4f, tau %.4f, %d flips, turning number %.3f, %d steps%s", row.max_k,
-                  row.max_tau, row.flipped_triangles, row.turning_number, row.iterations,
-                  row.settled ? "" : ", not settled");
+                  "max k %.4f, tau %.4f, %d flipped triangles, turning number %.3f, %d steps%s",
+                  row.max_k, row.max_tau, row.flipped_triangles, row.turning_number, row.iterations,
+                  row.settled ? "" : ", not converged");
     results.push_back({kCompared + row.label, "ms", row.milliseconds, 0, 1, detail});
     report(results.back());
   });

@@ -1,4 +1,4 @@
-// The benchmarks behind `holomorph bench`: medians of repeated runs, and the goals beside them.
+// The benchmarks of `holomorph bench`: medians of repeated runs, compared with goals.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,11 @@ struct Result {
   std::string name, unit;
   double median = 0, goal = 0;  ///< goal 0: none
   int runs = 0;
-  std::string detail = {};  ///< what else was found
+  std::string detail = {};  ///< further results, as text
 };
 
-/// Runs every benchmark whose name contains `filter`; `report` is told each result as it comes.
+/// Runs every benchmark whose name contains `filter`. Calls `report` with each result as soon as it
+/// is known.
 std::vector<Result> measured(const std::string& filter,
                              const std::function<void(const Result&)>& report);
 

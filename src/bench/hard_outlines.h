@@ -1,4 +1,5 @@
-// Shapes whose conformal maps onto each other crowd: thin, with limbs, notches and sharp corners.
+// Shapes whose conformal maps onto each other suffer from crowding: thin shapes, and shapes with
+// limbs, notches and sharp corners.
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ inline Points circle(double radius, int n) {
   return points;
 }
 
-/// Their names and polygons.
+/// The shapes' names and polygons.
 inline std::vector<std::pair<std::string, Points>> hard_shapes() {
   std::vector<std::pair<std::string, Points>> shapes;
   shapes.push_back({"disk", circle(100, 120)});

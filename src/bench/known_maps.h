@@ -1,5 +1,5 @@
-// Maps known by their derivatives, ready to be projected: those of the specification of bounded
-// distortion among them.
+// Maps with known derivatives, ready to be projected. They include the maps in the specification of
+// bounded distortion.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace known_maps {
 using namespace holomorph;
 using Norm = BoundedSettings::Norm;
 
-/// A smooth map of the plane by its Wirtinger derivatives.
+/// A smooth map of the plane, given by its Wirtinger derivatives.
 struct Known {
   const char* name;
   Points domain;
@@ -33,7 +33,7 @@ inline Points bar() {
   return {{0, -0.5}, {6, -0.5}, {6, 0.5}, {0, 0.5}};
 }
 
-/// From partial derivatives.
+/// The Wirtinger derivatives from the partial derivatives.
 inline Complex fz_of(Complex fx, Complex fy) {
   return 0.5 * (fx - kI * fy);
 }
@@ -69,7 +69,7 @@ inline Known folded() {
           [=](Complex z) { return fzbar_of(fx(z), kI); }};
 }
 
-/// A bar pinched as by turning its ends: f_z vanishes inside.
+/// A bar that is pinched as if its ends were turned: f_z vanishes at a point inside.
 inline Known pinched() {
   return {"one zero in a bar", bar(), [](Complex z) { return (z - Complex(3.7, 0.05)) * 0.4; },
           [](Complex) { return Complex(0); }};
@@ -87,7 +87,7 @@ inline VectorXc values(const std::function<Complex(Complex)>& f, const Points& p
   return result;
 }
 
-/// How fine: polygon vertices and samples.
+/// The resolution: numbers of polygon vertices and samples.
 struct Fineness {
   int basis = 50, samples = 300;
 };
@@ -100,7 +100,7 @@ struct Projection {
   BoundedReference reference;
   Mesh mesh;
 
-  /// `inside`: nu counts inside the domain, too.
+  /// `inside`: nu also counts inside the domain.
   Projection(const Known& known, const Bounds& bounds, Norm norm, bool inside = true,
              Fineness fineness = {}) {
     const Cage cage = polygon_cage(known.domain);
@@ -112,7 +112,7 @@ struct Projection {
     for (size_t v = 0; v < mesh.vertices.size() && inside; ++v)
       if (!outer[v]) points.inner.push_back(mesh.vertices[v]);
     space = std::make_unique<BoundedSpace>(basis, points, BoundedSettings{bounds, norm, 1});
-    // The argument is that of the nearest holomorphic function.
+    // The argument of f_z is that of the nearest holomorphic function.
     const VectorXc fz = values(known.fz, basis->samples());
     const auto [unknowns, gamma] = HolomorphicFit(*basis, basis->samples())(fz);
     const VectorXc on_mesh = basis->whitened(basis->values(mesh.vertices)) * unknowns;
@@ -135,7 +135,7 @@ inline std::vector<Known> all() {
   return {squared(), quadratic(), spiral(), folded(), pinched(), two_zeros()};
 }
 
-/// The worst violation of bounds among points: > 0 breaks one.
+/// The worst violation of the bounds at these points; positive if a bound is violated.
 inline double violation(const BoundaryBasis& basis, const LogMap& map, const Points& points,
                         const Bounds& bounds) {
   const MatrixXc c = basis.values(points);
@@ -150,7 +150,7 @@ inline double violation(const BoundaryBasis& basis, const LogMap& map, const Poi
   return worst;
 }
 
-/// A few of the domain's boundary points between all samples, and all of a mesh's.
+/// A few boundary points of the domain between any two samples, and all vertices of a mesh.
 inline Points dense_points(const BoundaryBasis& basis, const Mesh& mesh) {
   Points points = mesh.vertices;
   for (const BoundaryPiece& piece : basis.pieces())

@@ -1,4 +1,4 @@
-// Random smooth and limbed outlines, the same for a seed everywhere.
+// Random smooth and limbed outlines. A seed gives the same outline on every machine.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@ namespace outlines {
 
 using namespace holomorph;
 
-/// A star-shaped outline of about 600 across, as a polygon: a few waves around a circle; with limbs
-/// their exponential, so that they grow long and thin.
+/// A star-shaped polygon, about 600 across: a circle with a few waves in its radius. With `limbs`,
+/// the radius is the exponential of the waves, so that they become long and thin.
 inline Points random(unsigned seed, bool limbs, int points) {
   std::mt19937 random(seed);
   const auto number = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1; };
@@ -32,7 +32,7 @@ inline Points random(unsigned seed, bool limbs, int points) {
   return outline;
 }
 
-/// A curve with the same shape whose points are `step` apart at most along it, its corners kept.
+/// A curve with the same shape and corners whose consecutive points are at most `step` apart.
 inline Points with_steps(const Polyline& line, double step) {
   Points points;
   const Points& from = line.points();

@@ -1,4 +1,4 @@
-// new and bench, and what is said of names that are neither commands nor files.
+// The commands new and bench, and the error for names that are neither commands nor files.
 #include "cli/commands.h"
 
 #include <unistd.h>
@@ -20,7 +20,7 @@
 namespace holomorph {
 namespace {
 
-/// A path of an SVG file, or the boundary of a surface's texture coordinates.
+/// The cage is a path of an SVG file, or the boundary of a surface's texture coordinates.
 Cage cage_of_file(const Path& path, const Image& picture) {
   const std::string text = read_file(path);
   if (lower_case(path.extension().string()) != ".obj")
@@ -33,7 +33,7 @@ Cage cage_of_file(const Path& path, const Image& picture) {
   }
 }
 
-/// The command's own inputs; those it has.
+/// The input files that the command was given.
 std::vector<Path> inputs_of(const NewCommand& command) {
   std::vector<Path> inputs{command.image};
   for (const auto& file : {command.cage, command.pose, command.outline})
@@ -47,7 +47,7 @@ void check_is_file(const Path& path) {
   if (is_there(path)) return;
   const bool command = path.string().find_first_of("./") == std::string::npos;
   throw Error(ErrorKind::bad_input,
-              path.string() + (command ? ": there is neither a command nor a file of this name; "
+              path.string() + (command ? ": there is neither a command nor a file with this name; "
                                          "'holomorph --help' lists the commands"
                                        : ": there is no such file"));
 }
@@ -56,9 +56,9 @@ void run(const NewCommand& command) {
   check_out(command.out, command.force, inputs_of(command));
   if (!command.force && !is_standard(command.out) && is_file(command.out))
     throw Error(ErrorKind::failed,
-                command.out.string() + ": the file already exists; --force replaces it");
+                command.out.string() + ": the file already exists; use --force to replace it");
   if (command.margin && !(*command.margin >= 0))
-    throw Error(ErrorKind::bad_input, "--margin: the distance cannot be below 0");
+    throw Error(ErrorKind::bad_input, "--margin: the distance must not be negative");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
   say_warning(loaded);
@@ -75,8 +75,8 @@ void run(const NewCommand& command) {
   if (deformation.pose.size() != deformation.rest.size())
     throw Error(ErrorKind::bad_input,
                 command.pose->string() + ": the posed cage has " +
-                    std::to_string(deformation.pose.size()) + " segments and the cage " +
-                    std::to_string(deformation.rest.size()) + "; they must agree");
+                    std::to_string(deformation.pose.size()) + " segments, but the cage has " +
+                    std::to_string(deformation.rest.size()) + "; the numbers must agree");
   if (command.outline) {
     const Flattening flattening = flattening_named(command.flattening);
     deformation.outline =
@@ -87,14 +87,14 @@ void run(const NewCommand& command) {
   const auto absolute = [](const Path& path) { return absolute_path(path); };
   const std::string text = json_of(
       portable(with_deformation(loaded.scene, deformation), absolute(command.out).parent_path()));
-  scene_from_json(text, command.out.string());  // what could not be read again is not written
+  scene_from_json(text, command.out.string());  // writes only what can be read again
   write_result(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
                static_cast<size_t>(deformation.rest.size()));
 }
 
 void run(const BenchCommand& command) {
-  // Where the table itself is not read as it grows, each line is shown on the way.
+  // If the table does not go to a terminal, each line is also shown on the terminal.
   const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
   const std::vector<bench::Result> results =
       bench::measured(command.filter, [&](const bench::Result& result) {
@@ -103,8 +103,9 @@ void run(const BenchCommand& command) {
         if (shows_progress) std::cerr << line;
       });
   if (results.empty())
-    throw Error(ErrorKind::bad_input, "--filter: no benchmark's name contains '" + command.filter +
-                                          "'; 'holomorph bench' alone lists all of them");
+    throw Error(ErrorKind::bad_input, "--filter: no benchmark has a name that contains '" +
+                                          command.filter +
+                                          "'; 'holomorph bench' without --filter runs all of them");
   if (command.json) write_standard_output(bench::json_of(results));
 }
 

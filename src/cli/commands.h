@@ -1,4 +1,4 @@
-// The program without a window: one function per subcommand.
+// The program without a window: one function per command.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace holomorph {
 
-// Paths that are "-" stand for standard input and output. `force` replaces read-only files.
-/// What all commands that read a scene share.
+// The path "-" stands for standard input or output. `force`: replace read-only files.
+/// The options that all commands share that read a scene.
 struct OfScene {
   Path scene;
-  bool outside = false;  ///< pictures may lie outside of the scene's folder
+  bool outside = false;  ///< pictures may lie outside the scene's folder
 };
 struct MapCommand : OfScene {
   Path points;
@@ -47,11 +47,11 @@ struct InfoCommand : OfScene {
 };
 struct NewCommand {
   Path image, out;
-  bool force = false;  ///< replaces existing scenes, too
+  bool force = false;  ///< replace an existing scene, too
   int vertices = 30;
   std::optional<double> margin = {};  ///< pixels; none: 2 % of the longer side
   bool curved = false;
-  std::optional<Path> cage;     ///< SVG file, or surface with texture coordinates
+  std::optional<Path> cage;     ///< SVG file or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file
   std::optional<Path> outline;  ///< SVG file, picture or surface
   std::string flattening = "lscm";
@@ -70,11 +70,11 @@ struct BenchCommand {
   bool json = false;
 };
 
-/// Throws Error when the file does not exist. For a word that may have been meant as a command, the
-/// message points to --help.
+/// Throws Error if the file does not exist. If the word may be a mistyped command, the message
+/// refers to --help.
 void check_is_file(const Path& path);
 
-/// Each does its work and throws Error when it cannot, Interrupted when the user stops it.
+/// Each function runs a command. Throws Error if it fails, Interrupted if the user stops it.
 void run(const MapCommand& command);
 void run(const InverseCommand& command);
 void run(const CoordinatesCommand& command);

@@ -1,4 +1,4 @@
-// The one executable: subcommands without a window, the editor otherwise.
+// The only executable: commands run without a window; without a command, the editor opens.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
@@ -19,7 +19,7 @@ std::string shown_number(double number) {
   return text;
 }
 
-/// All that the command line can say.
+/// The values of all options of the command line.
 struct CommandLine {
   EditorOptions editor;
   MapCommand map;
@@ -60,7 +60,7 @@ void CommandLine::add_budget(CLI::App* sub) {
           double value = 0;
           return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
                      ? std::string()
-                     : "'" + text + "' is not a limit; write a number above 0";
+                     : "'" + text + "' is not a limit; give a number above 0";
         })
         ->group("Limits");
 }
@@ -80,22 +80,22 @@ CLI::App* CommandLine::add(CLI::App& app, const char* name, const char* what,
   return sub;
 }
 
-/// The times that a command is about.
+/// Adds the options for the times at which a command evaluates the scene.
 void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
   auto* time = sub->add_option("--time", moments.time,
-                               "A time of the keyframes, in seconds; after the last keyframe, its "
-                               "pose")
+                               "Time on the timeline, in seconds; after the last keyframe, its "
+                               "pose stays")
                    ->check([](const std::string& text) {
                      double value = 0;
                      return CLI::detail::lexical_cast(text, value) && value >= 0
                                 ? std::string()
-                                : "'" + text + "' is not a time; times are 0 or more seconds";
+                                : "'" + text + "' is not a time; give 0 or more seconds";
                    });
-  sub->add_option("--frames", moments.frames, "Frames of the keyframes, A..B or all" + frames)
+  sub->add_option("--frames", moments.frames, "Frames of the timeline, A..B or all" + frames)
       ->excludes(time);
 }
 
-/// The part of the plane that pictures show.
+/// Adds the option for the part of the plane that pictures show.
 void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* crop) {
   sub->add_option_function<std::string>(
          "--rect",
@@ -105,49 +105,53 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
            if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &x, &y, &width, &height, &end) != 4 ||
                end != static_cast<int>(text.size()) || !(width > 0 && width < 1e6) ||
                !(height > 0 && height < 1e6) || !(std::abs(x) < 1e8 && std::abs(y) < 1e8))
-             throw CLI::ValidationError(
-                 "--rect", "'" + text + "' is not a rectangle; write X,Y,WIDTH,HEIGHT");
-           constexpr double kRounding = 1e-6;  // no pixel more
+             throw CLI::ValidationError("--rect",
+                                        "'" + text + "' is not a rectangle; give X,Y,WIDTH,HEIGHT");
+           constexpr double kRounding = 1e-6;  // rounding must not add a pixel
            rectangle =
                Box{x + kRounding, y + kRounding, x + width - kRounding, y + height - kRounding};
          },
-         "Show exactly X,Y,WIDTH,HEIGHT: lower left corner and size, in the picture's pixels")
+         "Show exactly X,Y,WIDTH,HEIGHT: lower left corner and size in the picture's pixels")
       ->excludes(crop);
 }
 
 void add_scene(CLI::App* sub, OfScene& command) {
   sub->add_option("SCENE", command.scene)->required();
   sub->add_flag("--allow-outside", command.outside,
-                "Read pictures that are not in the scene's folder, too");
+                "Also read pictures that are not in the scene's folder");
 }
 
-void add_force(CLI::App* sub, bool& force, const char* what = "Replace read-only files, too") {
+void add_force(CLI::App* sub, bool& force, const char* what = "Also replace read-only files") {
   sub->add_flag("--force", force, what);
 }
 
 void CommandLine::add_map(CLI::App& app) {
-  auto* sub = add(app, "map", "Map points: rows x,y to u,v,fz_re,fz_im,fzbar_re,fzbar_im", map);
+  auto* sub =
+      add(app, "map", "Map points: rows x,y become rows u,v,fz_re,fz_im,fzbar_re,fzbar_im", map);
   add_scene(sub, map);
   sub->add_option("--points", map.points, "CSV file of points")->required();
-  sub->add_option("--out", map.out, "CSV file to write; standard output when missing");
-  add_moments(sub, map.moments, ": rows start with the frame's number");
+  sub->add_option("--out", map.out, "CSV file to write; standard output by default");
+  add_moments(sub, map.moments, "; rows start with the frame number");
   add_force(sub, map.force);
 }
 
 void CommandLine::add_inverse(CLI::App& app) {
   auto* sub =
-      add(app, "inverse", "Where posed points come from: rows x,y to x,y,residual,count", inverse);
+      add(app, "inverse",
+          "Find where posed points come from: rows x,y become rows x,y,residual,count", inverse);
   add_scene(sub, inverse);
   sub->add_option("--points", inverse.points, "CSV file of points")->required();
-  sub->add_option("--out", inverse.out, "CSV file to write; standard output when missing");
-  add_moments(sub, inverse.moments, ": rows start with the frame's number");
+  sub->add_option("--out", inverse.out, "CSV file to write; standard output by default");
+  add_moments(sub, inverse.moments, "; rows start with the frame number");
   add_force(sub, inverse.force);
-  sub->add_flag("--all", inverse.all,
-                "Every preimage where the picture lies over itself: rows point,x,y,residual,count");
+  sub->add_flag(
+      "--all", inverse.all,
+      "Write every preimage where the picture overlaps itself: rows point,x,y,residual,count");
 }
 
 void CommandLine::add_coordinates(CLI::App& app) {
-  auto* sub = add(app, "coordinates", "The basis matrix at points as a NumPy file", coordinates);
+  auto* sub =
+      add(app, "coordinates", "Write the basis matrix at points to a NumPy file", coordinates);
   add_scene(sub, coordinates);
   sub->add_option("--points", coordinates.points, "CSV file of points")->required();
   sub->add_option("--order", coordinates.order, "Order of the derivative")->capture_default_str();
@@ -158,16 +162,17 @@ void CommandLine::add_coordinates(CLI::App& app) {
 void CommandLine::add_render(CLI::App& app) {
   auto* sub = add(app, "render", "Draw the posed scene to a PNG, JPEG or WebP file", render);
   add_scene(sub, render);
-  sub->add_option("--out", render.out, "File to write; its extension says the format")->required();
+  sub->add_option("--out", render.out, "File to write; its extension selects the format")
+      ->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
       ->capture_default_str();
   add_rectangle(sub, render.rectangle,
                 sub->add_flag("--crop", render.crop,
-                              "Keep the picture's rectangle; otherwise nothing is cut off"));
+                              "Crop to the picture's rectangle; by default nothing is cut off"));
   add_moments(sub, render.moments,
-              ", each to a file with its number: walk.png to walk-0007.png. All have the rectangle "
-              "that the whole motion needs, or --rect");
+              "; each becomes a numbered file, such as walk-0007.png for walk.png. All show the "
+              "rectangle of the whole motion, or --rect");
   add_force(sub, render.force);
 }
 
@@ -175,33 +180,34 @@ void CommandLine::add_info(CLI::App& app) {
   auto* sub = add(app, "info", "Measure the scene's map", info);
   add_scene(sub, info);
   sub->add_flag("--json", info.json, "Print JSON");
-  add_moments(sub, info.moments, ": one report for each");
+  add_moments(sub, info.moments, "; one report per frame");
 }
 
 void CommandLine::add_new(CLI::App& app) {
-  auto* sub = add(app, "new", "Make a scene with a cage from a picture's alpha", fresh);
+  auto* sub = add(app, "new", "Make a scene with a cage from a picture's transparency", fresh);
   sub->add_option("IMAGE", fresh.image)->required();
   sub->add_option("--out", fresh.out, "Scene to write")->required();
-  add_force(sub, fresh.force, "Replace an existing scene, and read-only files");
-  sub->add_option("--vertices", fresh.vertices, "Number of cage vertices")
+  add_force(sub, fresh.force, "Replace an existing scene and read-only files");
+  sub->add_option("--vertices", fresh.vertices, "Approximate number of cage vertices")
       ->capture_default_str();
-  sub->add_option("--margin", fresh.margin,
-                  "Distance from the content in pixels; default 2 % of the longer side");
-  sub->add_flag("--curved", fresh.curved, "Cubic segments instead of straight edges");
   sub->add_option(
-      "--cage", fresh.cage,
-      "An SVG file whose path \"rest\", else the first, is the cage, in place of alpha; or an OBJ "
-      "file: the boundary of its texture coordinates");
+      "--margin", fresh.margin,
+      "Distance of the cage from the content in pixels; by default 2 % of the longer side");
+  sub->add_flag("--curved", fresh.curved, "Use cubic segments instead of straight edges");
+  sub->add_option("--cage", fresh.cage,
+                  "Read the cage from a file: the path \"rest\", or else the first path, of an SVG "
+                  "file, or the boundary of the texture coordinates of an OBJ file");
   sub->add_option(
          "--pose", fresh.pose,
-         "An SVG file whose path \"pose\", else the first, is the posed cage; needs --cage")
+         "Read the posed cage from an SVG file: the path \"pose\", or else the first path; needs "
+         "--cage")
       ->needs("--cage");
   sub->add_option(
       "--outline", fresh.outline,
-      "What the cage's shape goes onto: an SVG file's path, another picture's alpha, or "
-      "the boundary of an OBJ surface when it is flattened");
+      "Map the cage's shape onto an outline: a path of an SVG file, the transparency of another "
+      "picture, or the boundary of a flattened OBJ surface");
   sub->add_option("--flattening", fresh.flattening,
-                  "Of an OBJ surface: lscm (free boundary) or circle")
+                  "How to flatten an OBJ surface: lscm (free boundary) or circle")
       ->capture_default_str();
 }
 
@@ -210,21 +216,22 @@ void CommandLine::add_export(CLI::App& app) {
   add_scene(sub, exported);
   sub->add_option(
          "--format", exported.format,
-         "obj, svg, npy, png, stmap, unwarp or textured; of keyframes webp, gif, apng, mp4 or webm")
+         "obj, svg, npy, png, stmap, unwarp or textured; for films webp, gif, apng, mp4 or webm")
       ->required();
-  sub->add_option("--scale", exported.scale,
-                  "Output pixels per image pixel (1), for png, stmap, unwarp, textured and films");
+  sub->add_option(
+      "--scale", exported.scale,
+      "Output pixels per image pixel, by default 1; for png, stmap, unwarp, textured and films");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,
-      sub->add_flag("--crop", exported.crop, "Keep the picture's rectangle, for png and films"));
-  add_moments(sub, exported.moments, ", for png and films");
+      sub->add_flag("--crop", exported.crop, "Crop to the picture's rectangle; for png and films"));
+  add_moments(sub, exported.moments, "; for png and films");
   add_force(sub, exported.force);
 }
 
 void CommandLine::add_bench(CLI::App& app) {
-  auto* sub = add(app, "bench", "Run the benchmarks and print their table", bench);
-  sub->add_option("--filter", bench.filter, "Only benchmarks whose name contains this");
+  auto* sub = add(app, "bench", "Run the benchmarks and print their results", bench);
+  sub->add_option("--filter", bench.filter, "Run only benchmarks whose name contains this text");
   sub->add_flag("--json", bench.json, "Print JSON");
 }
 
@@ -232,11 +239,11 @@ void CommandLine::add_to(CLI::App& app) {
   app.set_version_flag("--version", HOLOMORPH_VERSION);
   app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
   app.add_option("--state", editor.state_file,
-                 "Write what the editor shows to this file whenever it changes (for scripts)");
+                 "Write the editor's state to this file whenever it changes (for scripts)");
   app.add_flag("--allow-outside", editor.allow_outside,
-               "Show pictures that are not in a scene's folder without asking");
+               "Show pictures that are not in the scene's folder without asking");
   add_budget(&app);
-  app.footer("For scenes, points and results - stands for standard input and output.");
+  app.footer("For scenes, points and results, - stands for standard input or output.");
   app.require_subcommand(0, 1);
   app.fallthrough(false);
   add_map(app);
@@ -249,7 +256,7 @@ void CommandLine::add_to(CLI::App& app) {
   add_bench(app);
 }
 
-/// The words of a command that it does not know.
+/// The words on the command line that the program does not know.
 std::vector<std::string> unknown_words(const CLI::App& app) {
   std::vector<std::string> words = app.remaining();
   for (const CLI::App* sub : app.get_subcommands())
@@ -257,23 +264,23 @@ std::vector<std::string> unknown_words(const CLI::App& app) {
   return words;
 }
 
-/// What CLI11 found wrong, in terms of what was written.
+/// Reports an error of CLI11, naming the word that the user wrote. Returns the exit status.
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> unknown = unknown_words(app);
   constexpr std::string_view kUnread = "Could not convert: ";
   std::string what = error.what();
   if (!unknown.empty())
-    what = unknown[0] + ": there is no such option here";
+    what = unknown[0] + ": unknown option or argument";
   else if (what.starts_with(kUnread))
-    what = what.substr(kUnread.size()) + ": this is not a number that the option takes";
+    what = what.substr(kUnread.size()) + ": this is not a number that the option accepts";
   std::cerr << "holomorph: " << what << "\n"
-            << "'holomorph --help' or 'holomorph COMMAND --help' says more.\n";
+            << "See 'holomorph --help' or 'holomorph COMMAND --help'.\n";
   return 2;
 }
 
 int run_program(int argc, char** argv) {
   CLI::App app{
-      "Holomorph bends pictures by conformal maps. Without a subcommand it opens the editor."};
+      "Holomorph bends pictures with conformal maps. Without a command it opens the editor."};
   CommandLine line;
   line.add_to(app);
   try {
@@ -284,7 +291,7 @@ int run_program(int argc, char** argv) {
       if (!std::cout.flush()) throw Error(ErrorKind::failed, "standard output: cannot be written");
       return 0;
     }
-    // The first word was taken for a file to open.
+    // The first word was parsed as a file to open.
     const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     if (extras && !line.editor.file.empty()) check_is_file(line.editor.file);
     return refuse(app, error);
@@ -303,7 +310,7 @@ int fail(const std::string& what, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a pipe whose reader has gone is an error like others
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe without a reader is an ordinary error
   try {
     return run_program(argc, argv);
   } catch (const Interrupted&) {

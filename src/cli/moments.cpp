@@ -1,4 +1,4 @@
-// Frame i is at i / frames_per_second.
+// Frame i is at i / frames_per_second seconds.
 #include "cli/moments.h"
 
 #include <cstdio>
@@ -18,23 +18,25 @@ FrameRange frames_named(const std::string& text, const Scene& scene) {
   if (text != "all" &&
       (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
        end != static_cast<int>(text.size())))
-    throw Error(ErrorKind::bad_input,
-                "--frames: '" + text + "' is not a range of frames; write 0..47, or all");
+    throw Error(
+        ErrorKind::bad_input,
+        "--frames: '" + text + "' is not a range of frames; write all, or for example 0..47");
   if (range.last < range.first)
     throw Error(ErrorKind::bad_input,
                 "--frames: " + text + " runs backwards; write the lower frame first");
   if (range.first < 0 || range.last > last)
     throw Error(ErrorKind::bad_input,
                 "--frames: the scene has frames 0.." + std::to_string(last) + " at " +
-                    csv_line("%g", scene.animation.frames_per_second) + " frames a second");
+                    csv_line("%g", scene.animation.frames_per_second) + " frames per second");
   check_budget(&Budget::frames, range.last - range.first + 1.0, "--frames: the range has");
   return range;
 }
 
 void require_keyframes(const Scene& scene, const Path& path) {
   if (!has_keyframes(scene))
-    throw Error(ErrorKind::bad_input,
-                shown_name(path) + ": the scene has no keyframes, so there are no times in it");
+    throw Error(
+        ErrorKind::bad_input,
+        shown_name(path) + ": the scene has no keyframes; --time, --frames and films need them");
 }
 
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {

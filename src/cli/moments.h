@@ -1,4 +1,4 @@
-// The moments of a scene's keyframes that a command is about.
+// The times on a scene's timeline at which a command evaluates it.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace holomorph {
 
-/// As the command line has them; neither: the scene as it stands.
+/// As given on the command line. If neither is given: the scene's own pose.
 struct Moments {
   std::optional<double> time = {};         ///< seconds
   std::optional<std::string> frames = {};  ///< "A..B" or "all"
@@ -24,15 +24,16 @@ struct FrameRange {
 /// Throws Error for a text that is not a range of the scene's frames.
 FrameRange frames_named(const std::string& text, const Scene& scene);
 
-/// One of them; neither: the scene as it stands.
+/// One moment: a frame and its time, or a time alone. If neither is given: the scene's own pose.
 struct FrameTime {
   std::optional<int> frame = {};
   std::optional<double> time = {};
 };
-/// At least one. Throws Error as frames_named, and for times of a scene without keyframes.
+/// The moments that the command line asks for, at least one. Throws Error like frames_named, and if
+/// there are times but no keyframes.
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path);
 
-/// Throws Error unless a scene has keyframes. `path` is where it came from.
+/// Throws Error if the scene has no keyframes. `path` is the scene's file.
 void require_keyframes(const Scene& scene, const Path& path);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// map, inverse, coordinates and info: what a scene's map is in numbers.
+// The commands map, inverse, coordinates and info, which give a scene's map in numbers.
 #include <cstdio>
 #include <iostream>
 
@@ -19,7 +19,7 @@ std::string frame_column(const FrameTime& moment) {
   return moment.frame ? std::to_string(*moment.frame) + "," : "";
 }
 
-/// Says at how many points inside the cage, and where first, a map has no numbers.
+/// Counts the points inside the cage at which the map is not finite, and remembers the first.
 class Lost {
  public:
   void add(size_t point) {
@@ -27,17 +27,18 @@ class Lost {
   }
   void say() const {
     if (count_ > 0)
-      std::cerr << "holomorph: " << count_ << " rows inside the cage are nan: the map or its "
-                << "derivative is not finite there, first at point " << first_ << "\n";
+      std::cerr << "holomorph: " << count_
+                << " rows of points inside the cage are nan, because the map "
+                << "or its derivative is not finite there, first at point " << first_ << "\n";
   }
 
  private:
   size_t count_ = 0, first_ = 0;
 };
 
-/// How many points to map together, so that their coordinates fit into memory.
+/// How many points to map in one block, so that their coordinates fit into memory.
 size_t points_at_once(const TimedMap& map) {
-  constexpr double kShare = 0.25;  // of what the budget has
+  constexpr double kShare = 0.25;  // fraction of the budget
   const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
   return static_cast<size_t>(std::max(1.0, kShare * budget().coordinates / controls));
 }
@@ -103,7 +104,7 @@ void run(const InverseCommand& command) {
         out.write(frame_column(moments[k]) + (command.all ? std::to_string(i) + "," : "") +
                   csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
                            preimage.residual, count));
-        if (!command.all) break;  // the one on top
+        if (!command.all) break;  // only the one on top
       }
     }
   }
@@ -122,12 +123,13 @@ void run(const CoordinatesCommand& command) {
               elevated_to(scene.deformation().rest, scene.deformation().pose).control_count()),
       "the points have");
   const Progress progress("coordinates");
-  // Columns are the pose's control points: the rest cage at the pose's degrees.
+  // The columns belong to the pose's control points: the rest cage is raised to the pose's degrees.
   for (Index i = 0; i < scene.deformation().rest.size(); ++i)
     if (scene.deformation().rest.degree(i) > scene.deformation().pose.degree(i))
       throw Error(ErrorKind::bad_input, shown_name(command.scene) + ": /cage/rest/" +
                                             std::to_string(i) +
-                                            ": the rest segment's degree is above the posed one's");
+                                            ": the rest segment has a higher degree than the "
+                                            "posed segment");
   write_result(command.out, npy_of(cauchy_coordinates(
                                 elevated_to(scene.deformation().rest, scene.deformation().pose),
                                 points, command.order)));

@@ -1,4 +1,4 @@
-// render and export: what a scene becomes as pictures, films and other formats.
+// The commands render and export, which write a scene as pictures, films and other formats.
 #include <cstdio>
 
 #include "cli/commands.h"
@@ -23,7 +23,7 @@ std::string rectangle_text(int width, int height, Complex corner) {
          point_text(corner);
 }
 
-/// How other frames get the same rectangle: " (--rect 0,0,640,480)".
+/// The option that gives other frames the same rectangle: " (--rect 0,0,640,480)".
 std::string rectangle_option(int width, int height, Complex corner, double scale) {
   return csv_line(" (--rect %.10g,%.10g,%.10g,%.10g)", corner.real(), corner.imag(), width / scale,
                   height / scale);
@@ -118,7 +118,7 @@ void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
       textured(surface, loaded.scene.deformation(), loaded.image(), command.scale.value_or(1));
   const TidyStop tidy;
   write_textured(command.out, surface, on);
-  std::fprintf(stderr, "%s, with material and a picture of %d x %d pixels\n", command.out.c_str(),
+  std::fprintf(stderr, "%s, with a material and a texture of %d x %d pixels\n", command.out.c_str(),
                on.texture.width, on.texture.height);
 }
 
@@ -148,7 +148,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
-/// Which options a format of `export` takes.
+/// A format of `export`, and which options it accepts.
 struct Format {
   std::string id;
   bool scale = false, crop = false, time = false, frames = false;
@@ -166,27 +166,28 @@ const Format& format_named(const std::string& id) {
   if (is_film(id)) return film;
   const auto found = std::ranges::find(formats, id, &Format::id);
   if (found != formats.end()) return *found;
-  throw Error(ErrorKind::bad_input, "format '" + id +
-                                        "' is not available in this version; choose one of: obj, "
-                                        "svg, npy, png, stmap, unwarp, textured, webp, gif, "
-                                        "apng, mp4, webm");
+  throw Error(ErrorKind::bad_input,
+              "unknown format '" + id +
+                  "'; choose one of: obj, svg, npy, png, stmap, unwarp, textured, webp, gif, "
+                  "apng, mp4, webm");
 }
 
-/// Throws Error for options that a format has no use for.
+/// Throws Error for options that the format does not support.
 void check_options(const ExportCommand& command) {
   const Format& format = format_named(command.format);
   const auto refuse = [&](const std::string& option, const std::string& why) {
-    throw Error(ErrorKind::bad_input, option + " is not for " + command.format + ": " + why);
+    throw Error(ErrorKind::bad_input,
+                option + " cannot be used with " + command.format + ": " + why);
   };
   if (command.scale && !format.scale) refuse("--scale", "it has no pixels");
-  if (command.crop && !format.crop) refuse("--crop", "only png and films have a rectangle to keep");
+  if (command.crop && !format.crop) refuse("--crop", "only png and films can be cropped");
   if (command.rectangle && !format.crop) refuse("--rect", "only png and films have a rectangle");
   if (command.moments.frames && !format.frames)
     refuse("--frames",
-           format.time ? "it holds one moment; use --time" : "it holds the scene as it stands");
+           format.time ? "it shows a single moment; use --time" : "it shows the scene's own pose");
   if (command.moments.time && !format.time)
     refuse("--time",
-           format.frames ? "it holds all frames; use --frames" : "it holds the scene as it stands");
+           format.frames ? "it shows many frames; use --frames" : "it shows the scene's own pose");
 }
 
 }  // namespace
@@ -198,8 +199,9 @@ void run(const RenderCommand& command) {
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
   const bool standard = is_standard(command.out);
   if (standard && moments.frames)
-    throw Error(ErrorKind::bad_input, "frames are files of their own: --out must name them");
-  // Said immediately if there is no such format; standard output gets a PNG.
+    throw Error(ErrorKind::bad_input,
+                "each frame is a file of its own; give a file name with --out");
+  // Fails immediately if there is no such format. Standard output gets a PNG.
   const PictureFormat& format = picture_format_of(standard ? Path("out.png") : command.out);
   PictureOptions options;
   options.view = view_named(command.view);

@@ -1,4 +1,4 @@
-// A thread of its own shows the time, so that what has no steps shows it, too.
+// A separate thread shows the time, so that commands without steps show it, too.
 #include "cli/progress.h"
 
 #include <unistd.h>
@@ -15,7 +15,7 @@ namespace holomorph {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-std::atomic<int> tidy_stops = 0;  // lock-free: read by the handler
+std::atomic<int> tidy_stops = 0;  // lock-free, because the handler reads it
 
 void stop(int) {
   interrupted = 1;
@@ -30,7 +30,7 @@ void stop(int) {
 
 void install_signal_handlers() {
   struct sigaction action {};
-  action.sa_handler = stop;  // without SA_RESTART: what waits for a pipe is woken
+  action.sa_handler = stop;  // no SA_RESTART: waiting for a pipe is interrupted
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 

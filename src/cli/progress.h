@@ -1,4 +1,4 @@
-// How far a command has come, and its end by Ctrl-C.
+// The progress of commands, and their interruption by Ctrl-C.
 #pragma once
 
 #include <atomic>
@@ -7,15 +7,15 @@
 
 namespace holomorph {
 
-/// What commands end with when the user stops them: exit status 130.
+/// Thrown when the user stops a command; the exit status is 130.
 struct Interrupted {};
 
-/// From here on SIGINT and SIGTERM end the program immediately with status 130, or, where a
-/// TidyStop lives, make stop_if_interrupted() throw.
+/// After this call, SIGINT and SIGTERM end the program immediately with status 130, or, while a
+/// TidyStop exists, make stop_if_interrupted() throw.
 void install_signal_handlers();
 
-/// While one lives, the program ends only where it calls stop_if_interrupted(), so that nothing is
-/// left half done.
+/// While one exists, a signal ends the program only at a call of stop_if_interrupted(), so that
+/// nothing is left half done.
 class TidyStop {
  public:
   TidyStop();
@@ -24,7 +24,7 @@ class TidyStop {
   TidyStop& operator=(const TidyStop&) = delete;
 };
 bool is_interrupted();
-/// Throws Interrupted.
+/// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();
 
 /// Shows on a terminal, after the first second, what a command is doing and for how long:
@@ -36,7 +36,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// Tells that `done` of `all` steps are done. Throws Interrupted.
+  /// Reports that `done` of `all` steps are done. Throws Interrupted if a signal has arrived.
   void step(size_t done, size_t all);
 
  private:
@@ -44,7 +44,7 @@ class Progress {
 
   std::string what_, unit_;
   std::atomic<size_t> done_ = 0, all_ = 0;
-  std::jthread shown_;  ///< last, so that it ends before what it shows
+  std::jthread shown_;  ///< last member, so that it ends before the others are destroyed
 };
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Standard input is read once, so that only one thing can come from there.
+// Standard input can be read only once, so only one input can come from there.
 #include "cli/streams.h"
 
 #include <iostream>
@@ -55,7 +55,8 @@ void require_cage(const Scene& scene, const Path& input) {
 SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points, bool takes_nan) {
   if (is_standard(points) && is_standard(command.scene))
     throw Error(ErrorKind::bad_input,
-                "standard input is the scene or the points, not both: name a file for one of them");
+                "standard input can be the scene or the points, not both; name a file for one of "
+                "them");
   SceneAndPoints read{read_scene(command).scene, {}};
   require_cage(read.scene, command.scene);
   read.points = points_of_csv(read_input(points), shown_name(points), takes_nan);
@@ -68,9 +69,10 @@ void check_out(const Path& out, bool force, const std::vector<Path>& inputs) {
   for (const Path& input : inputs)
     if (is_file(out) && std::filesystem::equivalent(out, input, ignored))
       throw Error(ErrorKind::bad_input,
-                  out.string() + ": this is read by the same command; choose another name");
+                  out.string() + ": this file is read by the same command; choose another name");
   if (!force && is_read_only(out))
-    throw Error(ErrorKind::failed, out.string() + ": the file is read-only; --force replaces it");
+    throw Error(ErrorKind::failed,
+                out.string() + ": the file is read-only; use --force to replace it");
 }
 
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded) {
@@ -93,7 +95,7 @@ void ResultWriter::flush() {
 }
 
 void ResultWriter::write(std::string_view bytes) {
-  constexpr size_t kMost = 16 << 20;  // that are kept in memory
+  constexpr size_t kMost = 16 << 20;  // bytes that are kept in memory
   waiting_ += bytes;
   if (waiting_.size() > kMost) flush();
 }

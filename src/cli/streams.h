@@ -1,4 +1,4 @@
-// What commands read and write: files, pipes, and "-" for standard input and output.
+// The inputs and outputs of commands: files, pipes, and "-" for standard input and output.
 #pragma once
 
 #include <string_view>
@@ -10,37 +10,37 @@
 namespace holomorph {
 
 bool is_standard(const Path& path);
-/// How messages call an input or output: its path, or "standard input", "standard output".
+/// The name of an input or output in messages: its path, "standard input" or "standard output".
 std::string shown_name(const Path& input);
 std::string shown_output(const Path& out);
 
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
-/// A scene; its warning is printed. Throws Error.
+/// Reads a scene, and prints its warning if it has one. Throws Error.
 LoadedScene read_scene(const OfScene& command);
-/// Throws Error for a scene without a cage.
+/// Throws Error if the scene has no cage.
 void require_cage(const Scene& scene, const Path& input);
 
-/// A scene with a cage, and the points that a command is about.
+/// A scene with a cage, and the points at which a command evaluates it.
 struct SceneAndPoints {
   Scene scene;
   Points points;
 };
-/// `takes_nan`: rows that are nan, as `map` writes them, are points, too.
+/// `takes_nan`: rows of nan, as `map` writes them, are accepted as points.
 SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points,
                                      bool takes_nan = false);
 
-/// Throws Error where `out` is one of a command's own inputs or, unless forced, read-only.
+/// Throws Error if `out` is one of the command's inputs, or read-only without `force`.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
-/// The same for a command that reads a scene, whose pictures and surfaces are inputs, too.
+/// The same for a command that reads a scene, whose pictures and surfaces are also inputs.
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded);
 
-/// What a command writes piece by piece into a file, a pipe or standard output; a file is there as
-/// a whole when it is finished, or not at all.
+/// Writes the result of a command piece by piece to a file, a pipe or standard output. A file
+/// appears as a whole when it is finished, or not at all.
 class ResultWriter {
  public:
   explicit ResultWriter(Path out) : out_(std::move(out)) {}
-  /// Throw Error.
+  /// Both functions throw Error.
   void write(std::string_view bytes);
   void finish();
 
@@ -49,14 +49,14 @@ class ResultWriter {
 
   Path out_;
   std::string waiting_;
-  std::optional<TidyStop> tidy_;  ///< an interrupt leaves nothing behind
+  std::optional<TidyStop> tidy_;  ///< so that an interrupt leaves nothing behind
   std::unique_ptr<NewFile> file_;
 };
 void write_result(const Path& out, const std::string& bytes);
 
 void say_warning(const LoadedScene& loaded);
 
-/// printf of numbers, NaN without the sign that some have and no reader expects.
+/// Formats numbers like printf, but NaN without the sign that some have and no reader expects.
 template <class... Numbers>
 std::string csv_line(const char* format, Numbers... numbers) {
   char line[200];

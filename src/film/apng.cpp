@@ -1,5 +1,5 @@
-// Animated PNG: each frame is a PNG whose image data goes into a frame of its own. What is around
-// them is a few chunks, which no packaged library writes.
+// Animated PNG. Each frame is encoded as a PNG, and its image data becomes one frame of the film.
+// The few chunks around the frames are written here, because no packaged library writes them.
 #include <zlib.h>
 
 #include "film/film_writer.h"
@@ -57,8 +57,8 @@ class ApngWriter final : public FilmWriter {
       if (type == "IDAT") data += png.substr(at + 8, length);
       at += length + 12;
     }
-    // Size, place, how long, cleared before, drawn over it as it is. Rates like 24 and 23.976 are
-    // exact as 250 over a whole number.
+    // Number, size, offset, duration, disposal 1 (clear afterwards), blending 0 (replace). Rates
+    // like 24 and 23.976 make the duration exactly 250 over an integer.
     const std::uint32_t first = sequence_++;
     body_ += chunk(
         "fcTL",

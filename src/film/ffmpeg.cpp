@@ -1,5 +1,6 @@
-// Films by the program ffmpeg. It reads raw frames from a socket, so that its end is an error here
-// and no signal, and writes to a file that is open already, so that no name can lead it elsewhere.
+// Films encoded by the program ffmpeg. It reads raw frames from a socket, so that its death is an
+// error here and not a signal. It writes to a file that is already open, so that no file name can
+// redirect it.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,7 +26,7 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// The file itself, or one in a new folder where it is a pipe.
+/// `out` itself, or a file in a new temporary folder if `out` is a pipe.
 Path writable_beside(const Path& out, std::optional<NewFolder>& folder) {
   if (!is_stream(out)) return out;
   return folder.emplace(std::filesystem::temp_directory_path() / "film").path() / "film";
@@ -83,21 +84,20 @@ class FfmpegWriter final : public FilmWriter {
 
  private:
   void start(const std::vector<std::string>& words) {
-    if (!log_) throw Error(ErrorKind::failed, "no temporary file for ffmpeg can be made");
+    if (!log_) throw Error(ErrorKind::failed, "cannot create a temporary file for ffmpeg");
     if (const auto child = start_program(words, ::fileno(log_.get()), film_.descriptor())) {
       child_ = *child;
       return;
     }
     if (errno != ENOENT)
-      throw Error(ErrorKind::failed,
-                  std::string("ffmpeg cannot be started: ") + std::strerror(errno));
+      throw Error(ErrorKind::failed, std::string("cannot start ffmpeg: ") + std::strerror(errno));
     throw Error(ErrorKind::failed,
-                "films of kind " + out_.extension().string() +
-                    " are made by the program ffmpeg, which is not installed here; install it, or "
+                "films of type " + out_.extension().string() +
+                    " need the program ffmpeg, which is not installed; install it, or "
                     "choose .webp, .gif, .apng or .png");
   }
 
-  /// Waits for the end; returns the exit status.
+  /// Waits until ffmpeg ends, and returns its exit status.
   int end() {
     if (child_.socket >= 0) ::close(std::exchange(child_.socket, -1));
     if (child_.pid <= 0) return status_;
@@ -118,10 +118,10 @@ class FfmpegWriter final : public FilmWriter {
   }
 
   Path out_;
-  std::optional<NewFolder> folder_;  ///< for a pipe: the encoder goes back and forth in its file
+  std::optional<NewFolder> folder_;  ///< only for a pipe, because the encoder seeks in its file
   NewFile film_;
   bool opaque_;
-  std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< what it says; has no name
+  std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< ffmpeg's messages; has no name
   Child child_;
   int status_ = 0;
 };
@@ -129,7 +129,7 @@ class FfmpegWriter final : public FilmWriter {
 }  // namespace
 
 std::unique_ptr<FilmWriter> mp4_writer(const Path& out, const FilmShape& shape) {
-  // H.264 in its usual form has sides of even length.
+  // H.264 in its usual form needs an even width and height.
   return std::make_unique<FfmpegWriter>(
       out, shape,
       std::vector<std::string>{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v",

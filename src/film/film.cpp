@@ -1,4 +1,4 @@
-// One rectangle for all frames, so that nothing jumps.
+// All frames have the same rectangle, so that the picture does not jump.
 #include "film/film.h"
 
 #include "core/error.h"
@@ -13,12 +13,12 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
                                       const Pictures& others) {
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
-    throw Error(ErrorKind::bad_input, "the scene has no keyframes, so there is no film in it");
+    throw Error(ErrorKind::bad_input, "the scene has no keyframes, and a film needs them");
   const int last = options.last < 0 ? last_frame_of(scene) : options.last,
             frames = last - options.first + 1;
   if (options.first < 0 || frames < 1 || last > last_frame_of(scene))
     throw Error(ErrorKind::bad_input,
-                "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", and not " +
+                "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", not " +
                     std::to_string(options.first) + " to " + std::to_string(last));
   check_budget(&Budget::frames, frames, "the film has");
   const double rate = scene.animation.frames_per_second;

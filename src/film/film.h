@@ -1,4 +1,4 @@
-// A scene's keyframes as a film.
+// Exports a scene's keyframes as a film.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,23 @@
 namespace holomorph {
 
 struct FilmOptions {
-  PictureOptions picture = {};  ///< of each frame; the time is set here
-  int first = 0, last = -1;     ///< frames; the last one of all: -1
+  PictureOptions picture = {};  ///< options of each frame; write_film sets the time
+  int first = 0, last = -1;     ///< range of frames; last = -1: up to the scene's last frame
   bool loops = true;
 };
 
-/// What has been written.
+/// The film that was written.
 struct WrittenFilm {
-  int frames = 0, width = 0, height = 0;  ///< of each frame, in pixels
-  Complex corner;                         ///< each frame's lower left one, in the plane
+  int frames = 0, width = 0, height = 0;  ///< number of frames, and their size in pixels
+  Complex corner;                         ///< each frame's lower left corner, in the plane
 };
 
-/// Draws frames of a scene, as picture_of does, into a file whose extension says the kind. Without
-/// `shows` or `crop` each frame has the rectangle that the whole motion needs, so that
-/// parts fit together. `progress` is told how many frames are done and how many there are; when it
-/// returns false nothing is written. Throws Error for a scene without keyframes and for what cannot
-/// be drawn or written. Returns none when nothing is written. Cost: a picture for each frame, on
-/// all cores.
+/// Draws frames of a scene, as picture_of does, and writes them to a file whose extension selects
+/// the format. Without `shows` or `crop`, each frame has the rectangle that the whole motion
+/// covers, so that parts of a film fit together. Calls `progress` with the number of finished
+/// frames and of all frames; if that returns false, nothing is written and the result is none.
+/// Throws Error if the scene has no keyframes, or if a frame cannot be drawn or written. Cost: one
+/// picture per frame, on all cores.
 std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
                                       const FilmOptions& options,
                                       const std::function<bool(int done, int all)>& progress,

@@ -1,4 +1,4 @@
-// The table of formats, and the one that needs no encoder.
+// The table of formats, and numbered PNG files, the one format that needs no encoder.
 #include "film/film_writer.h"
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 namespace holomorph {
 namespace {
 
-/// Frames wait in a folder until all are there: what had their names stays until then.
+/// Collects the frames in a temporary folder. Files with the frames' names are replaced only when
+/// all frames are written.
 class PngFrames final : public FilmWriter {
  public:
   explicit PngFrames(const Path& out) : out_(out), waiting_(out) {}
@@ -25,7 +26,8 @@ class PngFrames final : public FilmWriter {
     for (int i = 0; i < frames_; ++i)
       if (std::filesystem::is_directory(numbered(out_, i)))
         throw Error(ErrorKind::failed,
-                    numbered(out_, i).string() + ": there is a folder of this name");
+                    numbered(out_, i).string() +
+                        ": this is a folder; move it, or choose another name for the frames");
     for (int i = 0; i < frames_; ++i) move_file(part(i), numbered(out_, i));
   }
 
@@ -64,7 +66,7 @@ const std::vector<FilmFormat>& film_formats() {
       {".webp", "Animated WebP", false, webp_writer},
       {".gif", "GIF", false, gif_writer},
       {".apng", "Animated PNG", false, apng_writer},
-      {".png", "PNG files, one for each frame", false, png_frames_writer},
+      {".png", "PNG files, one per frame", false, png_frames_writer},
       {".mp4", "MP4 (H.264)", true, mp4_writer},
       {".webm", "WebM (VP9)", true, webm_writer}};
   return formats;
@@ -77,7 +79,8 @@ const FilmFormat& film_format_of(const Path& path) {
     if (format.extension == extension) return format;
     known += (known.empty() ? "" : ", ") + format.extension;
   }
-  throw Error(ErrorKind::bad_input, path.string() + ": films are of one of these kinds: " + known);
+  throw Error(ErrorKind::bad_input,
+              path.string() + ": this is not a film format; end the name with one of " + known);
 }
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Films as files: frames are added one after another, and the file is there when all are.
+// Film formats. Frames are added one by one, and the file appears when the last one is written.
 #pragma once
 
 #include <memory>
@@ -7,20 +7,20 @@
 
 namespace holomorph {
 
-/// How many frames a second, and of which size.
+/// The size and the frame rate of a film.
 struct FilmShape {
   int width = 0, height = 0;
   double frames_per_second = 24;
-  bool loops = true;  ///< where the format knows
+  bool loops = true;  ///< if the format supports it
 };
 
-/// Destroyed before finish(), nothing of the film remains.
+/// Writes one film. If it is destroyed before finish(), nothing of the film remains.
 class FilmWriter {
  public:
   virtual ~FilmWriter() = default;
-  /// The frame must have the film's size. Throws Error.
+  /// Appends a frame, which must have the film's size. Throws Error.
   virtual void add(const Image& frame) = 0;
-  /// Throws Error, and leaves nothing then.
+  /// Completes the file. Throws Error if that fails, and leaves no file then.
   virtual void finish() = 0;
 };
 
@@ -30,26 +30,26 @@ struct FilmFormat {
   std::unique_ptr<FilmWriter> (*open)(const Path& out, const FilmShape& shape) = nullptr;
 };
 
-/// Every format, the default one first: animated WebP, GIF, APNG, numbered PNG files, MP4 and WebM.
+/// All formats, the default one first: animated WebP, GIF, APNG, numbered PNG files, MP4 and WebM.
 const std::vector<FilmFormat>& film_formats();
-/// By a path's extension; throws Error naming those that exist.
+/// The format of a path's extension. Throws Error with the known extensions if there is none.
 const FilmFormat& film_format_of(const Path& path);
 
-/// walk.png and 7: walk-0007.png.
+/// The name of a frame's file: walk-0007.png for walk.png and 7.
 Path numbered(const Path& path, int frame);
-/// The files that a film of so many frames is written to.
+/// The files that a film with this number of frames is written to.
 std::vector<Path> files_of_film(const Path& out, int frames);
 
 std::unique_ptr<FilmWriter> webp_writer(const Path& out, const FilmShape& shape);
-/// 256 colours chosen for each frame; pixels are transparent or not.
+/// 256 colors chosen for each frame. Each pixel is either opaque or fully transparent.
 std::unique_ptr<FilmWriter> gif_writer(const Path& out, const FilmShape& shape);
 std::unique_ptr<FilmWriter> apng_writer(const Path& out, const FilmShape& shape);
-/// A file for each frame, by `numbered`.
+/// One file per frame, named by `numbered`.
 std::unique_ptr<FilmWriter> png_frames_writer(const Path& out, const FilmShape& shape);
-/// By the program ffmpeg, fed with raw frames; transparency becomes white. Throws Error where it is
+/// Passes raw frames to the program ffmpeg; transparency becomes white. Throws Error if ffmpeg is
 /// not installed.
 std::unique_ptr<FilmWriter> mp4_writer(const Path& out, const FilmShape& shape);
-/// The same with transparency (VP9).
+/// Like mp4_writer, but VP9 and with transparency.
 std::unique_ptr<FilmWriter> webm_writer(const Path& out, const FilmShape& shape);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// GIF by giflib, colours by libimagequant. Times are hundredths of a second: they are rounded so
-// that the whole has the right length.
+// GIF by giflib, with colors chosen by libimagequant. Durations are hundredths of a second, rounded
+// so that the whole film has the right length.
 #include <gif_lib.h>
 #include <libimagequant.h>
 
@@ -10,7 +10,7 @@
 namespace holomorph {
 namespace {
 
-/// What a C library gives, and takes back by a function.
+/// Deletes an object of a C library by the library's own function.
 template <class T, void (*release)(T*)>
 struct Release {
   void operator()(T* what) const { release(what); }
@@ -21,10 +21,10 @@ using Owned = std::unique_ptr<T, Release<T, release>>;
 struct Quantized {
   std::vector<GifColorType> palette;
   std::vector<unsigned char> pixels;
-  int transparent = 0;  ///< a colour's number
+  int transparent = 0;  ///< index of the transparent color
 };
 
-/// 255 colours and one for what is transparent, which is more than half.
+/// 255 colors and one for transparent pixels: those that are more than half transparent.
 Quantized quantized(const Image& frame) {
   Image solid = frame;
   for (size_t i = 0; i < solid.pixels.size(); i += 4) {
@@ -33,11 +33,10 @@ Quantized quantized(const Image& frame) {
     solid.pixels[i + 3] = shows ? 255 : 0;
   }
   const auto must = [](liq_error error) {
-    if (error != LIQ_OK)
-      throw Error(ErrorKind::failed, "the colours of a GIF frame could not be chosen");
+    if (error != LIQ_OK) throw Error(ErrorKind::failed, "cannot choose the colors of a GIF frame");
   };
   const Owned<liq_attr, liq_attr_destroy> settings(liq_attr_create());
-  liq_set_max_colors(settings.get(), 255);  // and one for what is transparent
+  liq_set_max_colors(settings.get(), 255);  // and one for transparency
   liq_set_speed(settings.get(), 6);
   const Owned<liq_image, liq_image_destroy> image(
       liq_image_create_rgba(settings.get(), solid.pixels.data(), solid.width, solid.height, 0));
@@ -59,7 +58,7 @@ Quantized quantized(const Image& frame) {
   for (size_t i = 0; i < quantized.pixels.size(); ++i)
     if (solid.pixels[4 * i + 3] == 0)
       quantized.pixels[i] = static_cast<unsigned char>(palette->count);
-  size_t size = 2;  // colour maps hold powers of two
+  size_t size = 2;  // the size of a GIF color map is a power of two
   while (size < quantized.palette.size()) size *= 2;
   quantized.palette.resize(size, {0, 0, 0});
   return quantized;
@@ -79,15 +78,15 @@ void close(GifFileType* file) {
 class GifWriter final : public FilmWriter {
  public:
   GifWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
-    constexpr double kMostFramesOfGif = 50;  // viewers slow down what is faster
+    constexpr double kMostFramesOfGif = 50;  // viewers slow down faster films
     if (shape.frames_per_second > kMostFramesOfGif)
       throw Error(ErrorKind::bad_input,
                   out.string() +
-                      ": a GIF shows 50 frames a second at most; lower the frame rate, or "
+                      ": a GIF has at most 50 frames per second; lower the frame rate, or "
                       "choose .webp or .apng");
     int wrong = 0;
     file_.reset(EGifOpen(&bytes_, append, &wrong));
-    if (!file_) throw Error(ErrorKind::failed, out.string() + ": no memory for a GIF file");
+    if (!file_) throw Error(ErrorKind::failed, out.string() + ": not enough memory for a GIF file");
     EGifSetGifVersion(file_.get(), true);
     must(EGifPutScreenDesc(file_.get(), shape.width, shape.height, 8, 0, nullptr));
     if (!shape.loops) return;

@@ -1,4 +1,4 @@
-// Work on all processor cores whose results are wanted in order.
+// Runs tasks on all processor cores and delivers their results in order.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Runs tasks side by side, as many as there are cores, and hands on what they return in the order
-/// in which they were added. What a task throws comes out of add() or finish().
+/// Runs tasks in parallel, one per processor core, and passes on their results in the order in
+/// which the tasks were added. add() or finish() rethrows what a task throws.
 template <class Result>
 class OrderedTasks {
  public:

@@ -1,4 +1,4 @@
-// Animated WebP by libwebp: lossless where that is smaller, lossy elsewhere.
+// Animated WebP by libwebp: lossless where that is smaller, lossy otherwise.
 #include <webp/encode.h>
 #include <webp/mux.h>
 
@@ -15,23 +15,24 @@ namespace {
 class WebpWriter final : public FilmWriter {
  public:
   WebpWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
-    constexpr int kLargest = 16383;  // of the format
+    constexpr int kLargest = 16383;  // limit of the format
     if (shape.width > kLargest || shape.height > kLargest)
-      throw Error(ErrorKind::bad_input, "WebP pictures have at most 16383 pixels a side");
+      throw Error(ErrorKind::bad_input,
+                  "WebP pictures have at most 16383 pixels on a side; choose a smaller scale");
     WebPAnimEncoderOptions options;
     if (!WebPAnimEncoderOptionsInit(&options) || !WebPConfigInit(&config_))
-      fail(out, "another version of the library");
+      fail(out, "the library has an incompatible version");
     options.anim_params.loop_count = shape.loops ? 0 : 1;
     options.allow_mixed = 1;
     config_.quality = 90;
     config_.method = 3;
     encoder_.reset(WebPAnimEncoderNew(shape.width, shape.height, &options));
-    if (!encoder_) fail(out, "no memory");
+    if (!encoder_) fail(out, "not enough memory");
   }
 
   void add(const Image& frame) override {
     WebPPicture picture;
-    if (!WebPPictureInit(&picture)) fail(out_, "another version of the library");
+    if (!WebPPictureInit(&picture)) fail(out_, "the library has an incompatible version");
     picture.use_argb = 1;
     picture.width = frame.width;
     picture.height = frame.height;

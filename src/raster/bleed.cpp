@@ -1,4 +1,4 @@
-// Two sweeps hand the nearest covered pixel from neighbour to neighbour (Danielsson 1980).
+// Two sweeps pass the nearest covered pixel from neighbor to neighbor (Danielsson 1980).
 #include "raster/bleed.h"
 
 #include <cstring>
@@ -9,7 +9,7 @@ namespace holomorph {
 namespace {
 
 struct Pixel {
-  int c = -1, r = -1;  ///< none yet
+  int c = -1, r = -1;  ///< column and row; negative: no covered pixel found yet
 };
 
 class Nearest {
@@ -55,7 +55,7 @@ class Nearest {
 void bleed(Image& image, const std::vector<bool>& covered, double reach,
            const std::function<bool(int, int)>& is_shown) {
   check(covered.size() == static_cast<size_t>(image.width) * static_cast<size_t>(image.height),
-        "bleed: whether each pixel is covered");
+        "bleed: `covered` does not have one entry per pixel");
   const Nearest nearest(image.width, image.height, covered);
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c) {

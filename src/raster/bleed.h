@@ -1,4 +1,4 @@
-// A texture's colours carried over its edge, so that filters and slivers beyond it find them.
+// Extends a texture's colors past its edge, where texture filters and sliver triangles read them.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,11 @@
 
 namespace holomorph {
 
-/// Pixels that are not covered and lie within `reach` of a covered one take the nearest such
-/// pixel's colour, and its opacity, too, where `is_shown` says so (column, row); elsewhere they
-/// stay transparent. All others stay as they are. Nearest up to the errors of 8-neighbour
-/// propagation, well below a pixel. `covered` has an entry for each pixel, in rows from the top.
-/// Cost: linear.
+/// Gives each uncovered pixel within `reach` pixels of a covered one the color of the nearest
+/// covered pixel. It also gets that pixel's opacity if `is_shown(column, row)` is true; otherwise
+/// it becomes transparent. All other pixels keep their values. `covered` has one entry per pixel,
+/// in rows from the top. The nearest pixel is exact up to the errors of 8-neighbor propagation,
+/// which are well below a pixel. Cost: linear in the number of pixels.
 void bleed(Image& image, const std::vector<bool>& covered, double reach,
            const std::function<bool(int, int)>& is_shown);
 

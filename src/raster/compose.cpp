@@ -1,4 +1,4 @@
-// Integers throughout: what is opaque or alone stays exactly itself.
+// Integer arithmetic throughout, so that opaque pixels and pixels of a single picture stay exact.
 #include "raster/compose.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@
 namespace holomorph {
 namespace {
 
-/// `over` above `under`, one pixel of straight alpha.
+/// Blends the pixel `over` onto the pixel `under`, both in straight alpha.
 void blend(const std::uint8_t* over, std::uint8_t* under) {
   const unsigned a = over[3], b = under[3];
   if (a == 0) return;
@@ -16,7 +16,7 @@ void blend(const std::uint8_t* over, std::uint8_t* under) {
     std::memcpy(under, over, 4);
     return;
   }
-  const unsigned through = b * (255 - a), all = 255 * a + through;  // of 255^2
+  const unsigned through = b * (255 - a), all = 255 * a + through;  // in units of 1 / 255^2
   for (int k = 0; k < 3; ++k)
     under[k] = static_cast<std::uint8_t>((255 * a * over[k] + through * under[k] + all / 2) / all);
   under[3] = static_cast<std::uint8_t>((all + 127) / 255);
@@ -29,7 +29,7 @@ struct PixelOffset {
 }  // namespace
 
 RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit) {
-  // Corners are lower left ones; rows count from the top.
+  // Corners are lower left corners, but rows count from the top.
   const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
   const int right = shift(over.corner.real() - under.corner.real()),
             up = shift(over.corner.imag() - under.corner.imag());
@@ -39,7 +39,7 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
   constexpr int kLargest = 16384;
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input,
-                "the picture would have more than 16384 pixels a side; choose a smaller scale");
+                "the picture would have more than 16384 pixels on a side; choose a smaller scale");
   const auto place_of = [&](const Image& image, int x, int y) {
     return PixelOffset{x - left_edge, height - (y - bottom_edge) - image.height};
   };

@@ -1,6 +1,6 @@
-// Scan conversion by exact row crossings, computed alike from both sides of every edge, so that
-// neighbours neither overlap nor leave a gap. Pixels that a silhouette crosses are small pictures
-// of 4 x 4 coverage samples of their own; colour is always taken at the pixel's centre.
+// Scan conversion by exact crossings of edges with pixel rows. Both triangles at an edge compute
+// the same crossing, so neighbors neither overlap nor leave a gap. A pixel that a silhouette
+// crosses has 4 x 4 coverage samples, but its color is always taken at its center.
 #include "raster/drawing.h"
 
 #include "raster/sampler.h"
@@ -9,27 +9,29 @@
 namespace holomorph {
 namespace {
 
-constexpr int kSub = 4;       ///< coverage samples per pixel side
+constexpr int kSub = 4;       ///< coverage samples per pixel in each direction
 constexpr int kBand = 16;     ///< rows that one task draws
-constexpr int kMostTaps = 8;  ///< colour samples per pixel side when shrinking
+constexpr int kMostTaps = 8;  ///< most color samples per pixel in each direction when shrinking
 
-/// An output triangle and the affine map from output pixels back to its colours: source pixels, or
-/// for heat maps the value in the first coordinate.
+/// An output triangle and the affine map from output pixels to its source coordinates (u, v): a
+/// position in the source picture, or for heat maps the heat value in u.
 struct Piece {
   double x[3], y[3];  ///< output pixels, y down
   double u0, ux, uy, v0, vx, vy;
-  double low, high;  ///< of u over the corners: heat is never extrapolated
+  double low, high;  ///< range of u over the corners: heat is never extrapolated
   int taps_x, taps_y;
-  bool outside;  ///< part of the picture beyond the rest cage: drawn where the cage is not
+  bool outside;  ///< shows the undeformed picture, and is drawn only outside the rest cage
 };
 
-/// Where the edge from (ax, ay) to (bx, by) crosses height y; the same for both directions.
+/// The x at which the edge from (ax, ay) to (bx, by) crosses height y. Exactly the same value if
+/// the endpoints are exchanged.
 double crossing(double ax, double ay, double bx, double by, double y) {
   if (by < ay || (by == ay && bx < ax)) std::swap(ax, bx), std::swap(ay, by);
   return ax + (bx - ax) * ((y - ay) / (by - ay));
 }
 
-/// The half-open interval of x that a triangle covers at height y; empty when none.
+/// Finds the half-open interval of x that a triangle covers at height y. Returns false if it is
+/// empty.
 bool span_at(const Piece& piece, double y, double& left, double& right) {
   double found[3];
   int count = 0;
@@ -44,13 +46,13 @@ bool span_at(const Piece& piece, double y, double& left, double& right) {
   return left < right;
 }
 
-/// The first whole number i with i + 0.5 >= x.
+/// The smallest integer i with i + 0.5 >= x.
 int first_center(double x) {
   return static_cast<int>(std::ceil(x - 0.5));
 }
 
-/// The mean of a square wave of cells of 16 units, 1 in the first cell and -1 in the next, over
-/// `width` units around x: image.frag has the same.
+/// The mean over `width` units around x of a square wave with cells of 16 units: 1 in the first
+/// cell, -1 in the next. image.frag has the same formula.
 double wave(double x, double width) {
   const auto folded = [](double cell) {
     const double half = 0.5 * cell;
@@ -60,8 +62,8 @@ double wave(double x, double width) {
   return 2 * (folded(cell - 0.5 * w) - folded(cell + 0.5 * w)) / w;
 }
 
-/// Sorted crossings of closed polygons with a row: inside is between the first and second, and so
-/// on.
+/// Sorted crossings of closed polygons with the line at height y. The inside lies between the
+/// first and second crossing, between the third and fourth, and so on.
 void row_crossings(const std::vector<std::array<double, 4>>& edges,
                    const std::vector<int>& candidates, double y, std::vector<double>& out) {
   out.clear();
@@ -89,7 +91,7 @@ class Drawing {
 
  private:
   struct Band {
-    std::vector<int> pieces, silhouette, cage;  ///< numbers of what touches the band
+    std::vector<int> pieces, silhouette, cage;  ///< indices of those that touch the band
   };
   using Edge = std::array<double, 4>;
 
@@ -97,7 +99,7 @@ class Drawing {
   double out_y(Complex z) const { return (top_ - z.imag()) * scale_; }
   Edge edge_of(Complex a, Complex b) const { return {out_x(a), out_y(a), out_x(b), out_y(b)}; }
 
-  /// Adds a triangle at `at` whose corners have the source coordinates (u, v).
+  /// Adds a triangle with its corners at `at`, which have the source coordinates (u, v).
   void add_piece(const std::array<Complex, 3>& at, const double u[3], const double v[3],
                  bool outside) {
     Piece piece{};
@@ -175,14 +177,14 @@ class Drawing {
           static_cast<int>(i), &Band::cage);
   }
 
-  /// What a band's pixels need besides the output: whether they are inside the rest cage, and the
-  /// coverage samples of those that a silhouette crosses.
+  /// The data of a band's pixels besides the output: whether they are inside the rest cage, and
+  /// the coverage samples of the pixels that a silhouette crosses.
   struct Canvas {
     int first_row, rows, width;
-    std::vector<std::uint8_t> in_cage;  ///< per pixel centre
-    std::vector<int> slot;              ///< per pixel: number in samples, or -1
+    std::vector<std::uint8_t> in_cage;  ///< per pixel: whether its center is in the cage
+    std::vector<int> slot;              ///< per pixel: index into samples, or -1
     std::vector<std::array<Float4, kSub * kSub>> samples;
-    std::vector<std::uint16_t> sample_in_cage;  ///< per slot, a bit per sample
+    std::vector<std::uint16_t> sample_in_cage;  ///< per slot: one bit per sample
     std::vector<int> slot_pixel;
 
     size_t at(int column, int row) const {
@@ -247,7 +249,7 @@ class Drawing {
     const double u = piece.u0 + piece.ux * x + piece.uy * y,
                  v = piece.v0 + piece.vx * x + piece.vy * y;
     if (job_.view == View::checker) {
-      const double up = (job_.source ? job_.source->height : 0) - v;  // as on the canvas
+      const double up = (job_.source ? job_.source->height : 0) - v;  // y up, as on the canvas
       const double light = 0.5 - 0.5 * wave(u, std::abs(piece.ux) + std::abs(piece.uy)) *
                                      wave(up, std::abs(piece.vx) + std::abs(piece.vy));
       const Float4 dark{70, 90, 120, 255}, bright{235, 235, 235, 255};
@@ -294,7 +296,7 @@ class Drawing {
         }
       }
       if (canvas.samples.empty()) continue;
-      // Coverage samples of silhouette pixels in this row, four lines of them.
+      // The coverage samples of silhouette pixels in this row, one line of samples at a time.
       double lefts[kSub], rights[kSub], least = 1e300, most = -1e300;
       bool any = false;
       for (int sy = 0; sy < kSub; ++sy) {

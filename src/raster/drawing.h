@@ -1,4 +1,4 @@
-// One drawing: triangles and silhouettes in output pixels, bands of rows drawn independently.
+// Rasterizes the triangles and silhouettes of one job. Bands of rows are drawn independently.
 #pragma once
 
 #include "raster/raster.h"

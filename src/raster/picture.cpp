@@ -1,4 +1,4 @@
-// The exported pixels use the mesh and the precision of the screen, so both show the same picture.
+// Exports use the same mesh and precision as the screen, so both show the same picture.
 #include "raster/picture.h"
 
 #include "core/error.h"
@@ -47,19 +47,19 @@ class PictureMaker::LayerMaker {
     return rasterized(job);
   }
 
-  /// The picture as it was before anything moved.
+  /// The undeformed picture.
   RasterResult original(const PictureOptions& options, double top) const {
     return rasterized(job_of(options, top));
   }
 
-  /// Wherever the motion takes the mesh. Returns false when `go_on` says so.
+  /// Extends `box` by all positions of the mesh during the motion. Returns false if `go_on` does.
   bool include_motion(Box& box, const std::function<bool()>& go_on) {
     if (!deformation_.has_cage()) return true;
     const auto map = [&](double time) { return map_at(time, false).f; };
     VectorXc before = map(0);
     for (const Complex& z : before) box.include(z);
     for (const auto& [from, to, held] : motion_.stretches()) {
-      // A turn of half a right angle is short enough to see how the motion bends.
+      // A piece that turns by at most 45 degrees is short enough to estimate how the paths bend.
       const double turn = motion_.turned_at(to) - motion_.turned_at(from);
       const int pieces =
           held ? 0 : 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMostPieces));
@@ -86,15 +86,16 @@ class PictureMaker::LayerMaker {
   static constexpr int kMostHalves = 10;
   static constexpr double kMostPieces = 2000;
 
-  /// From one time to another: halved until the way of each vertex hardly bends, so that what it
-  /// does between can be told from its ends and its middle.
+  /// Extends `box` by the motion from one time to another. Halves the interval until the path of
+  /// each vertex hardly bends, so that its ends and its middle bound it.
   bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
                        Box& box, const std::function<bool()>& go_on, int halves) {
-    const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // of the plane
+    const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // plane units
     if (!go_on()) return false;
     const double middle = 0.5 * (from + to);
     const VectorXc at_middle = map_at(middle, false).f;
-    // A parabola leaves the chords of its halves by an eighth of this; twice that is allowed for.
+    // A parabola deviates from the chords of its halves by an eighth of `bend`. The margin below is
+    // twice that.
     const double bend = (at_from - 2 * at_middle + at_to).cwiseAbs().maxCoeff();
     if (bend > kBend && halves > 0)
       return include_between(from, middle, at_from, at_middle, box, go_on, halves - 1) &&
@@ -194,7 +195,7 @@ std::optional<Box> PictureMaker::shown(const std::function<bool()>& go_on) {
     if (layer->visible()) layer->include_picture(box);
   for (const auto& layer : layers_)
     if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, go_on)) return {};
-  // Operators in single precision are no reason for another row of pixels.
+  // The rounding of single-precision operators must not add a row of pixels.
   constexpr double kRounding = 1e-3;
   return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,
              box.top - kRounding};

@@ -1,4 +1,4 @@
-// A scene to a picture, as exported: prepare, pose, rasterize, layer by layer.
+// Draws a scene as it is exported: each layer is prepared, posed and rasterized in turn.
 #pragma once
 
 #include <functional>
@@ -10,33 +10,33 @@
 namespace holomorph {
 
 struct PictureOptions {
-  View view = View::image;  ///< others show the edited layer alone, without a background
+  View view = View::image;  ///< other views show only the edited layer, without a background
   double scale = 1;         ///< output pixels per image pixel
-  bool crop = false;        ///< keep the lowest picture's rectangle; else nothing is cut off
+  bool crop = false;        ///< crop to the lowest picture's rectangle; else nothing is cut off
   bool automatic_range = false;
-  std::optional<Box> shows = {};    ///< exactly this part of the plane
-  std::optional<double> time = {};  ///< seconds of the keyframes; none: the scene's own pose
+  std::optional<Box> shows = {};    ///< draw exactly this part of the plane
+  std::optional<double> time = {};  ///< time on the timeline in seconds; none: the scene's pose
 };
 
-/// The posed scene as a picture: its visible layers over its background. `source` is the edited
-/// layer's picture, or null when it has none; `others` has those of the other layers. Throws Error
-/// for a scene with neither picture nor cage, or nothing visible, and for what rasterized refuses.
+/// Draws the posed scene: its visible layers over its background. `source` is the edited layer's
+/// picture, or null if it has none; `others` holds the pictures of the other layers. Throws Error
+/// if the scene has neither a picture nor a cage or no layer is visible, and if rasterized throws.
 RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options = {},
                         const Pictures& others = {});
 
-/// Pictures of one scene at many times, which share what is prepared.
+/// Draws pictures of one scene at many times, and prepares its layers only once.
 class PictureMaker {
  public:
-  /// As picture_of; all must outlive this. Throws Error.
+  /// Arguments as in picture_of; all of them must outlive this object. Throws Error.
   PictureMaker(const Scene& scene, const Image* source, const Pictures& others = {});
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
-  /// The part of the plane that the whole motion needs, with the pictures' own rectangles: the same
-  /// whichever of its frames are drawn. `go_on` is asked now and then; none when it says no. Cost:
-  /// maps at the keyframes and at some ten times between two of them.
+  /// The part of the plane that the whole motion covers, including the pictures' own rectangles. It
+  /// does not depend on which frames are drawn. Calls `go_on` from time to time and returns none
+  /// if that returns false. Cost: one map per keyframe and about ten between two keyframes.
   std::optional<Box> shown(const std::function<bool()>& go_on = [] { return true; });
-  /// The lowest visible picture's rectangle, which crop keeps; empty without one.
+  /// The rectangle of the lowest visible picture, to which `crop` crops; empty if there is none.
   Box rectangle() const;
 
  private:

@@ -1,5 +1,5 @@
-// How large the picture becomes: whole pixels around the source's rectangle and wherever the map
-// takes it.
+// Finds the size of the result: whole pixels around the source's rectangle and around its image
+// under the map.
 #include "raster/raster.h"
 
 #include <cstring>
@@ -10,12 +10,13 @@
 namespace holomorph {
 namespace {
 
-/// Whole output pixels around a box, at least the source's rectangle.
+/// A rectangle of whole output pixels.
 struct PixelRect {
   int left, top, width, height;  ///< top counts down from the source's top
 };
 
-/// Cuts away transparent rows and columns that lie beyond the source's rectangle.
+/// Removes transparent rows and columns at the borders, but none inside `least`, the source's
+/// rectangle.
 void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   const auto row_empty = [&](int r) {
     for (int c = 0; c < image.width; ++c)
@@ -48,8 +49,8 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   image = std::move(cut);
 }
 
-/// The box of the places that the map takes the source's rectangle to: mesh vertices in it, and the
-/// points where mesh edges leave it.
+/// The bounding box of the source rectangle's image under the map, from the mesh vertices inside
+/// the rectangle and the points where mesh edges leave it.
 Box image_of_rectangle(const RasterJob& job) {
   const double w = job.source->width, h = job.source->height;
   const auto depth = [&](Complex z) {
@@ -78,7 +79,7 @@ Box image_of_rectangle(const RasterJob& job) {
 
 RasterResult rasterized(const RasterJob& job) {
   check(!job.mesh || job.positions.size() == job.mesh->vertices.size(),
-        "a position for each mesh vertex");
+        "rasterized: the numbers of positions and mesh vertices differ");
   const double scale = job.pixels_per_unit;
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
@@ -87,7 +88,8 @@ RasterResult rasterized(const RasterJob& job) {
   const auto check_size = [&](double width, double height) {
     if (!(width <= kLargest && height <= kLargest))
       throw Error(ErrorKind::bad_input,
-                  "the picture would have more than 16384 pixels a side; choose a smaller scale");
+                  "the picture would have more than 16384 pixels on a side; choose a smaller "
+                  "scale");
   };
   if (job.source) check_size(job.source->width * scale, height * scale);
   PixelRect least{0, 0, 0, 0};
@@ -110,7 +112,7 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.mesh && !job.shows && !(job.crop && job.source)) {
     const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
-    constexpr double kRounding = 1e-3;  // operators in single precision
+    constexpr double kRounding = 1e-3;  // for operators in single precision
     if (!box.empty()) {
       left = std::min(left, std::floor(box.left * scale + kRounding));
       right = std::max(right, std::ceil(box.right * scale - kRounding));

@@ -1,4 +1,4 @@
-// The one place that makes exported pixels: a picture warped by a mesh, on all processor cores.
+// The only source of exported pixels: warps a picture by a mesh, on all processor cores.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,21 @@
 
 namespace holomorph {
 
-/// What to draw. The mesh's vertices are taken to `positions`; `source` is sampled once, at rest
-/// coordinates. What lies outside the rest cage stays where it is.
+/// What to draw. The mesh's vertices move to `positions`; `source` is sampled once, at rest
+/// coordinates. The picture outside the rest cage does not move.
 struct RasterJob {
-  const Mesh* mesh = nullptr;          ///< null: the source alone
-  std::span<const Complex> positions;  ///< per mesh vertex
+  const Mesh* mesh = nullptr;          ///< null: draw only the source
+  std::span<const Complex> positions;  ///< one per mesh vertex
   const Image* source = nullptr;       ///< may be null for heat maps and checkers
   View view = View::image;
-  Eigen::VectorXd heat;  ///< per mesh vertex, for heat views
+  Eigen::VectorXd heat;  ///< one value per mesh vertex, for heat views
   HeatScale scale;
   double pixels_per_unit = 1;  ///< output pixels per image pixel
-  bool surroundings = true;    ///< draw the source outside the rest cage, too
-  bool crop = false;           ///< keep the source's rectangle; else nothing is cut off
-  std::optional<Box> shows;    ///< exactly this part of the plane, in whole pixels around it
-  std::optional<double> top;   ///< where rows of pixels count from; the source's height
-  int threads = 0;             ///< 0: as many as the machine has cores
+  bool surroundings = true;    ///< also draw the source outside the rest cage
+  bool crop = false;           ///< crop to the source's rectangle; else nothing is cut off
+  std::optional<Box> shows;    ///< draw exactly this part of the plane, rounded to whole pixels
+  std::optional<double> top;   ///< y from which pixel rows count; none: the source's height
+  int threads = 0;             ///< 0: one per processor core
 };
 
 /// A picture and where its lower left corner lies in the plane.
@@ -32,11 +32,12 @@ struct RasterResult {
   Complex corner;
 };
 
-/// Draws. Bilinear in premultiplied colour with up to 8 x 8 samples where pixels shrink, edges of
-/// the cage's image antialiased by coverage (4 x 4), triangles in mesh order, later ones on top.
-/// A map that moves nothing gives the source back bit for bit.
-/// Throws Error{bad_input} when the result would be larger than 16384 pixels a side, or empty.
-/// Cost: about 10 ns per pixel and core.
+/// Draws a job. Colors are interpolated bilinearly in premultiplied form, with up to 8 x 8 samples
+/// per pixel where the map shrinks. The edges of the cage's image are antialiased by 4 x 4 coverage
+/// samples. Triangles are drawn in mesh order, later ones on top. The identity map gives the source
+/// back bit for bit.
+/// Throws Error{bad_input} if the result would be empty or have more than 16384 pixels on a side.
+/// Cost: about 10 ns per pixel on one core.
 RasterResult rasterized(const RasterJob& job);
 
 }  // namespace holomorph

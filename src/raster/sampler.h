@@ -1,6 +1,7 @@
-// Colours between pixels: bilinear in premultiplied colour, exact on a pixel's centre.
+// Samples colors between pixels: bilinear in premultiplied color, exact at pixel centers.
 //
-// Four channels travel as one vector; straight (not premultiplied) unless a name says otherwise.
+// The four channels of a color are one vector, in straight (not premultiplied) alpha unless a name
+// says otherwise.
 #pragma once
 
 #ifdef __SSE2__
@@ -48,19 +49,20 @@ inline bool same(Float4 a, Float4 b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
-/// The floor of a number of moderate size; the library's is a call where SSE 4.1 is not assumed.
+/// The floor of a number that fits into an int. Without SSE 4.1, std::floor is a function call.
 inline int floor_of(double x) {
   const int i = static_cast<int>(x);
   return i - (x < i);
 }
 
-/// The source with transparent surroundings; u to the right and v down, pixel centres at halves.
+/// Samples an image that is transparent outside its rectangle. u points right and v down; pixel
+/// centers are at half-integers.
 class Sampler {
  public:
   explicit Sampler(const Image& image) : image_(image) {}
 
   Float4 at(double u, double v) const {
-    // Extrapolation at a silhouette may leave the picture far behind.
+    // Extrapolation at a silhouette may lead far outside the picture.
     const double x = std::clamp(u, -1e6, 1e6) - 0.5, y = std::clamp(v, -1e6, 1e6) - 0.5;
     const int c = floor_of(x), r = floor_of(y);
     const double tx = x - c, ty = y - r;
@@ -75,8 +77,7 @@ class Sampler {
       const int every = p[3] & p[7] & q[3] & q[7], any = p[3] | p[7] | q[3] | q[7];
       if (any == 0) return Float4{};
       t[0] = load(p), t[1] = load(p + 4), t[2] = load(q), t[3] = load(q + 4);
-      if (every == 255)
-        return w[0] * t[0] + w[1] * t[1] + w[2] * t[2] + w[3] * t[3];  // nothing to weigh
+      if (every == 255) return w[0] * t[0] + w[1] * t[1] + w[2] * t[2] + w[3] * t[3];  // all opaque
     } else {
       t[0] = texel(c, r), t[1] = texel(c + 1, r), t[2] = texel(c, r + 1),
       t[3] = texel(c + 1, r + 1);
@@ -90,7 +91,7 @@ class Sampler {
     return straight(sum);
   }
 
-  /// Colours weighted by alpha, and the alpha in the last place, to straight colour.
+  /// Converts a color whose channels are weighted by alpha, with alpha last, to straight color.
   static Float4 straight(Float4 sum) {
     const float alpha = sum[3];
     if (alpha <= 0) return Float4{};
@@ -104,11 +105,11 @@ class Sampler {
     if (c < 0 || r < 0 || c >= image_.width || r >= image_.height) return Float4{};
     return load(image_.at(c, r));
   }
-  static constexpr double kOnTexel = 1e-3;  ///< nearer to a texel's centre, the texel is copied
+  static constexpr double kOnTexel = 1e-3;  ///< this close to a texel's center, the texel is copied
   const Image& image_;
 };
 
-/// `over` in straight colour.
+/// The operator "over" in straight color: `top` composited over `below`.
 inline Float4 over(Float4 top, Float4 below) {
   if (top[3] >= 254.99f || below[3] <= 0) return top;
   if (top[3] <= 0) return below;

@@ -1,4 +1,4 @@
-// The picture is the texture: no pixel is sampled twice.
+// The posed picture is the texture itself, so no pixel is sampled twice.
 #include "raster/textured.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace holomorph {
 namespace {
 
-/// Which pixels the posed map covers wholly: a checker is opaque there.
+/// Which pixels the posed map covers completely: those where a drawn checker is opaque.
 std::vector<bool> covered(RasterJob job) {
   job.view = View::checker;
   const Image checker = rasterized(job).image;
@@ -27,10 +27,11 @@ std::vector<bool> covered(RasterJob job) {
 
 TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
                          const Image* source, double scale) {
-  // Of the picture, more than most outlines are missed by; and px that filters look at.
+  // kReach is a fraction of the texture's size, larger than the error of most outlines. kFilter is
+  // the reach of texture filters in pixels.
   constexpr double kReach = 0.03, kFilter = 2;
   if (!source || !deformation.has_cage())
-    throw Error(ErrorKind::bad_input, "a texture needs a picture and a cage");
+    throw Error(ErrorKind::bad_input, "a texture needs a scene with a picture and a cage");
   const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
   SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
   RasterJob job;

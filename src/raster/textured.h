@@ -1,4 +1,4 @@
-// A surface with the posed picture on it.
+// Exports a surface with the posed picture as its texture.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@ namespace holomorph {
 
 struct TexturedSurface {
   Image texture;
-  Points coordinates;  ///< of the surface's vertices, 0 to 1, v up
+  Points coordinates;  ///< texture coordinates of the surface's vertices: 0 to 1, v up
 };
 
-/// The posed cage's part of the picture around the surface, its colours carried to the surface's
-/// edge and a little beyond, and where on it the surface's vertices are. Throws Error for a scene
-/// without picture or cage and for what rasterized refuses.
+/// The texture is the posed picture inside the cage, cut to the surface's surroundings, with its
+/// colors extended to the surface's edge and a little beyond. `scale` is in texture pixels per
+/// plane unit. Throws Error if the scene has no picture or no cage, and if rasterized throws.
 TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
                          const Image* source, double scale = 1);
 
-/// The three files that write_textured writes for a path.
+/// The three files that write_textured writes for a path: surface, material and texture.
 std::array<std::filesystem::path, 3> files_of_textured(const std::filesystem::path& path);
 
-/// Writes PATH.obj, and beside it a material and a texture of the same name with .mtl and .png.
-/// Throws Error for another extension.
+/// Writes the surface to `path`, and next to it a material (.mtl) and a texture (.png) with the
+/// same name. Throws Error if the extension is not .obj.
 void write_textured(const std::filesystem::path& path, const LaidSurface& surface,
                     const TexturedSurface& textured);
 

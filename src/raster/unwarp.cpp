@@ -1,4 +1,4 @@
-// Unwarping is drawing with the two sides of the mesh exchanged.
+// Unwarping draws the mesh with its rest and posed positions exchanged.
 #include "raster/unwarp.h"
 
 #include <limits>
@@ -12,7 +12,7 @@
 namespace holomorph {
 namespace {
 
-/// The places of one row of pixels.
+/// Computes the positions of one row of pixels.
 void fill_row(const Cage& rest, const InverseMap& inverse, double scale, int row, double height,
               double width, StMap& map) {
   for (int c = 0; c < map.width; ++c) {
@@ -22,7 +22,7 @@ void fill_row(const Cage& rest, const InverseMap& inverse, double scale, int row
     if (!found.empty())
       z = found[0].z;
     else if (!contains(rest, w))
-      z = w;  // what lies outside the cage stays
+      z = w;  // points outside the cage do not move
     float* out = &map.st[2 * (static_cast<size_t>(row) * map.width + c)];
     out[0] = static_cast<float>(z.real() / width);
     out[1] = static_cast<float>(z.imag() / height);
@@ -37,9 +37,9 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
   const double width = picture_width, height = picture_height;
   if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
     throw Error(ErrorKind::bad_input,
-                "the scale must be positive and give at most 16384 pixels a side");
+                "the scale must be positive and give at most 16384 pixels on a side");
   if (picture_width <= 0 || picture_height <= 0)
-    throw Error(ErrorKind::bad_input, "an ST-map needs the scene's picture, and it has none");
+    throw Error(ErrorKind::bad_input, "an ST-map needs a picture, and the scene has none");
   TimedMap timed(scene);
   const auto inverse = timed.inverse(timed.frame(time));
   if (!inverse)

@@ -1,4 +1,5 @@
-// The inverse map as pictures: where each posed pixel comes from, and a posed picture straightened.
+// The inverse map as images: the rest position of each posed pixel (an ST-map), and a posed picture
+// mapped back to rest.
 #pragma once
 
 #include <functional>
@@ -8,25 +9,27 @@
 
 namespace holomorph {
 
-/// For every pixel of the picture's rectangle the place it shows, as compositors want it: s to the
-/// right and t upwards, 0 to 1 over the picture; NaN where nothing is shown. Rows from the top.
+/// For each pixel of the picture's rectangle, the position in the picture that it shows. As usual
+/// in compositing programs, s points right and t up, both 0 to 1 over the picture. NaN where
+/// nothing is shown. Rows from the top.
 struct StMap {
   int width = 0, height = 0;
-  std::vector<float> st;  ///< width x height x 2
+  std::vector<float> st;  ///< height x width x 2, row by row
 };
 
-/// The ST-map of a scene, posed or at a time of its keyframes, of a picture of this size, `scale`
-/// pixels per picture pixel. Each place is the map's own, rounded to single precision. `progress`
-/// is told, on this thread, how many rows are done and how many there are; what it throws comes
-/// out. Throws Error without a cage. Cost: 20 us a pixel and core with 10 straight edges, 45 with
-/// 20 curved ones.
+/// The ST-map of a scene in its pose, or at a time of its keyframes in seconds. The picture's size
+/// is in pixels; `scale` is in ST-map pixels per picture pixel. Each position is computed from the
+/// map itself and rounded to single precision. Calls `progress` on this thread with the number of
+/// finished rows and of all rows, and passes on what it throws. Throws Error if there is no cage or
+/// no picture, or the method has no inverse. Cost: 20 us per pixel on one core with 10 straight
+/// edges, 45 us with 20 curved edges.
 StMap st_map_of(
     const Scene& scene, int picture_width, int picture_height, double scale = 1,
     std::optional<double> time = {},
     const std::function<void(int done, int all)>& progress = [](int, int) {});
 
-/// The picture taken for one of the posed scene, and drawn as it was at rest: the rest point z
-/// shows the picture at f(z). Nothing is drawn outside the cage. Throws Error without a cage or
+/// Takes `picture` as a picture of the posed scene and maps it back to rest: the rest point z shows
+/// the picture at f(z). Nothing is drawn outside the cage. Throws Error if there is no cage or no
 /// picture.
 Image unwarped(const Scene& scene, const Image* picture, double scale = 1,
                std::optional<double> time = {});

@@ -1,5 +1,5 @@
-# Writes OUT, a header with each shader of FOLDER as a string.
-set(text "// Made from the folder shaders by the build.\n#pragma once\n\n")
+# Writes the header OUT, which has each shader of FOLDER as a string.
+set(text "// Generated from the folder shaders by the build.\n#pragma once\n\n")
 foreach(pair IN ITEMS "warp.vert=kWarpVert" "image.frag=kImageFrag" "surface.vert=kSurfaceVert"
         "surface.frag=kSurfaceFrag")
   string(REPLACE "=" ";" pair ${pair})

@@ -1,4 +1,4 @@
-// Colours are premultiplied by alpha, as everything that the renderers draw.
+// Colors are premultiplied by alpha, like everything that the renderers draw.
 #include "render/framebuffer.h"
 
 #include "core/error.h"
@@ -35,7 +35,7 @@ void Framebuffer::bind(int width, int height) {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     width_ = height_ = 0;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    throw Error(ErrorKind::failed, "this driver cannot draw into a texture");
+    throw Error(ErrorKind::failed, "this graphics driver cannot draw into a texture");
   }
   width_ = width;
   height_ = height;

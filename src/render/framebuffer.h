@@ -1,9 +1,10 @@
-// A picture that is drawn by OpenGL and then used as a texture.
+// An OpenGL render target that is then used as a texture.
 #pragma once
 
 namespace holomorph {
 
-/// Owns colour with mipmaps, depth and stencil. Needs a current OpenGL context.
+/// Owns a color texture with mipmaps, and a depth and stencil buffer. Needs a current OpenGL
+/// context.
 class Framebuffer {
  public:
   Framebuffer();
@@ -11,10 +12,10 @@ class Framebuffer {
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
-  /// What is drawn from here on goes into it, until release. A change of size loses its content.
-  /// Throws Error{failed} for a size that the driver has no memory for.
+  /// Redirects drawing into this framebuffer until release(). A change of size discards the
+  /// content. Throws Error{failed} if the driver cannot provide this size.
   void bind(int width, int height);
-  /// What is drawn goes to the window again.
+  /// Redirects drawing to the window again, and computes the mipmaps.
   void release();
 
   unsigned texture() const { return color_; }

@@ -1,4 +1,4 @@
-// The OpenGL loader: the only include of it.
+// The only include of the OpenGL loader.
 #pragma once
 
 #include <epoxy/gl.h>

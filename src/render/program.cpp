@@ -1,4 +1,4 @@
-// Compile, link, and say what the driver said.
+// Compiles and links shaders, and reports the driver's log if that fails.
 #include "render/program.h"
 
 #include "core/error.h"
@@ -33,7 +33,7 @@ Program::Program(const std::string& vertex, const std::string& fragment, const c
        {std::pair(GL_VERTEX_SHADER, &vertex), std::pair(GL_FRAGMENT_SHADER, &fragment)}) {
     const GLuint shader = compiled(static_cast<GLenum>(kind), *source);
     glAttachShader(id_, shader);
-    glDeleteShader(shader);  // once the program goes
+    glDeleteShader(shader);  // takes effect when the program is deleted
   }
   if (read_back) glTransformFeedbackVaryings(id_, 1, &read_back, GL_INTERLEAVED_ATTRIBS);
   glLinkProgram(id_);

@@ -1,4 +1,4 @@
-// Shaders as programs.
+// Shader programs.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@ namespace holomorph {
 /// Owns a linked GL program. Needs a current context.
 class Program {
  public:
-  /// `read_back` is what transform feedback records, or null. Throws Error{failed} with the
-  /// driver's log for what does not compile or link.
+  /// `read_back` is the name of the output that transform feedback records, or null. Throws
+  /// Error{failed} with the driver's log if a shader does not compile or link.
   Program(const std::string& vertex, const std::string& fragment, const char* read_back = nullptr);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
   unsigned id() const { return id_; }
-  /// A uniform's location.
+  /// The location of a uniform.
   int at(const char* uniform) const;
 
  private:
   unsigned id_ = 0;
 };
 
-/// The two programs, from the files of shaders/: a map on the plane, and a surface in space.
+/// The two programs, made from the files of shaders/: a map of the plane, and a surface in space.
 Program warp_program();
 Program surface_program();
 

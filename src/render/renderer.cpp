@@ -1,4 +1,5 @@
-// GL state is set where it is used and never assumed: the user interface draws in the same context.
+// OpenGL state is always set where it is used, because the user interface draws in the same
+// context.
 #include "render/renderer.h"
 
 #include "core/error.h"
@@ -33,7 +34,7 @@ int mode_of(Placement placement) {
   return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2;
 }
 
-/// As the fragment shader counts them.
+/// With the numbers of the fragment shader.
 enum class Coloring { picture, heat, checker, flat, ghost };
 
 void clear_canvas(const RenderFrame& frame) {
@@ -78,15 +79,15 @@ struct Renderer::Objects {
          feedback = 0, ghost = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0;
-  double width = 0, height = 0;                 ///< the picture's, in plane units
-  std::shared_ptr<const TextureLevels> levels;  ///< until all of them are uploaded
-  bool stored = false;                          ///< there is room for all of them
-  int level = 0, row = 0;                       ///< what is being uploaded
+  double width = 0, height = 0;                 ///< size of the picture, in plane units
+  std::shared_ptr<const TextureLevels> levels;  ///< kept until all of them are uploaded
+  bool stored = false;                          ///< storage for all levels is allocated
+  int level = 0, row = 0;                       ///< progress of the upload
   int columns = 0;
 
   GLint at(const char* name) const { return shaders.at(name); }
 
-  /// The program with its textures; `to_clip` by columns.
+  /// Activates the program and its textures. `to_clip` is stored by columns.
   void use(const float (&to_clip)[9], bool is_diverging) const {
     glUseProgram(program);
     glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip);
@@ -111,7 +112,7 @@ struct Renderer::Objects {
     glUniform1i(at("coloring"), static_cast<int>(coloring));
     glUniform4f(at("flat_color"), flat[0], flat[1], flat[2], alpha);
   }
-  /// In the colours that were set.
+  /// Draws the mesh in the coloring that was set by color().
   void draw_mesh(Placement placement) const {
     if (placement == Placement::by_operator && columns == 0) placement = Placement::positions;
     glUniform1i(at("mode"), mode_of(placement));
@@ -122,7 +123,7 @@ struct Renderer::Objects {
     constexpr float kStrength = 0.4f;
     for (const Ghost& each : ghosts) {
       check(static_cast<GLsizei>(each.positions.size()) == vertex_count,
-            "a position for each mesh vertex");
+            "ghosts: the numbers of positions and mesh vertices differ");
       const std::vector<float> flat = pairs(each.positions);
       upload(ghost, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
       color(Coloring::ghost, each.tint, kStrength);
@@ -131,14 +132,14 @@ struct Renderer::Objects {
       glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
     }
   }
-  /// The picture's rectangle.
+  /// Draws the picture's rectangle.
   void draw_quad() const {
     glUniform1i(at("mode"), mode_of(Placement::at_rest));
     glBindVertexArray(quad_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
 
-  /// The picture where the rest cage is not.
+  /// Draws the picture outside the rest cage.
   void draw_surroundings() const {
     if (index_count > 0) {
       glEnable(GL_STENCIL_TEST);
@@ -234,21 +235,21 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
   return levels->factor;
 }
 
-// No pixels here: making room takes long enough for one frame.
+// Uploads no pixels: allocating the texture takes long enough for one frame.
 void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   Objects& gl = *gl_;
   gl.levels = std::move(levels);
   gl.width = gl.levels ? gl.levels->width : 0;
   gl.height = gl.levels ? gl.levels->height : 0;
   if (!gl.levels) return;
-  // Another texture: the levels of the one before have other sizes.
+  // Creates another texture, because the levels of the previous one have other sizes.
   glDeleteTextures(1, &gl.picture);
   glGenTextures(1, &gl.picture);
   glActiveTexture(GL_TEXTURE0 + kPicture);
   glBindTexture(GL_TEXTURE_2D, gl.picture);
   gl.level = static_cast<int>(gl.levels->levels.size());
   gl.row = 0;
-  // With room for all levels at once, none of them is moved when a larger one comes.
+  // If the storage of all levels is allocated together, the driver need not move them later.
   gl.stored = epoxy_has_gl_extension("GL_ARB_texture_storage");
   if (gl.stored)
     glTexStorage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, gl.levels->levels[0].width,
@@ -317,7 +318,8 @@ void Renderer::set_mesh(const Mesh* mesh) {
 }
 
 void Renderer::set_triangles(const std::vector<Triangle>& triangles) {
-  check(static_cast<GLsizei>(3 * triangles.size()) == gl_->index_count, "the same triangles");
+  check(static_cast<GLsizei>(3 * triangles.size()) == gl_->index_count,
+        "set_triangles: the number of triangles differs from the mesh's");
   glBindVertexArray(gl_->vertex_array);
   upload(gl_->triangles, GL_ELEMENT_ARRAY_BUFFER, triangles.data(),
          triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
@@ -326,13 +328,14 @@ void Renderer::set_triangles(const std::vector<Triangle>& triangles) {
 
 void Renderer::set_positions(std::span<const Complex> positions) {
   check(static_cast<GLsizei>(positions.size()) == gl_->vertex_count,
-        "a position for each mesh vertex");
+        "set_positions: the numbers of positions and mesh vertices differ");
   const std::vector<float> flat = pairs(positions);
   upload(gl_->position, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
 }
 
 void Renderer::set_heat(const Eigen::VectorXf& positions) {
-  check(positions.size() == gl_->vertex_count, "a heat value for each mesh vertex");
+  check(positions.size() == gl_->vertex_count,
+        "set_heat: the numbers of values and mesh vertices differ");
   upload(gl_->value, GL_ARRAY_BUFFER, positions.data(),
          static_cast<size_t>(positions.size()) * sizeof(float), GL_STREAM_DRAW);
 }
@@ -360,7 +363,7 @@ bool Renderer::set_operator(const PlanarMatrix<float>* matrix) {
 
 void Renderer::set_controls(const VectorXc& controls) {
   Objects& gl = *gl_;
-  check(controls.size() == gl.columns, "a control for each column of the operator");
+  check(controls.size() == gl.columns, "set_controls: the numbers of controls and columns differ");
   const std::vector<float> flat = pairs(as_span(controls));
   upload(gl.controls, GL_TEXTURE_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
   glActiveTexture(GL_TEXTURE0 + kControls);
@@ -378,7 +381,7 @@ void Renderer::draw(const RenderFrame& frame) {
           single(-sy * frame.center.imag()), 1},
          frame.diverging);
   const bool picture = gl.width > 0;
-  // What shows through where the picture is transparent.
+  // The backdrop, which is visible where the picture is transparent.
   gl.color(Coloring::flat, frame.backdrop);
   if (frame.map_alone)
     gl.draw_mesh(frame.placement);

@@ -1,5 +1,5 @@
-// The warped picture in OpenGL 3.3: one mesh, one texture, one program. Handles and cages are not
-// drawn here.
+// Draws the warped picture in OpenGL 3.3: one mesh, one texture, one program. Handles and cages are
+// drawn elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -12,44 +12,46 @@
 
 namespace holomorph {
 
-/// The current context's driver, and whether it computes on the processor: then multisampling and
-/// anisotropy cost more than they give, and the CPU path places vertices faster than a shader.
+/// The driver of the current context, and whether it renders on the CPU. With such a driver,
+/// multisampling and anisotropic filtering are not worth their cost, and computing the vertex
+/// positions on the CPU is faster than in a shader.
 std::string driver_name();
 bool is_software_driver();
 
-/// How the vertices get their places.
+/// How the vertex positions are found.
 enum class Placement { at_rest, positions, by_operator };
 
-/// The picture once more, elsewhere, half transparent behind the drawn one.
+/// A tinted, half-transparent copy of the picture behind the drawn one.
 struct Ghost {
-  std::span<const Complex> positions;  ///< of the mesh's vertices
+  std::span<const Complex> positions;  ///< one per mesh vertex
   Color tint;
 };
 
-/// What of the picture: as the map takes it, all of it as it was, or only what is behind it.
+/// What is drawn of the picture: its image under the map, the undeformed original, or only the
+/// backdrop behind it.
 enum class Shows { map, original, nothing };
 
-/// One drawing of the canvas. Window px have x to the right and y down.
+/// The contents and settings of one frame of the canvas. In window pixels, x points right, y down.
 struct RenderFrame {
-  int window_width = 1, window_height = 1;  ///< of the framebuffer
+  int window_width = 1, window_height = 1;                                      ///< framebuffer px
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
-  Complex center;   ///< plane point in the canvas' middle
+  Complex center;   ///< plane point at the canvas's center
   double zoom = 1;  ///< framebuffer px per plane unit
   View view = View::image;
-  bool diverging = false;  ///< the heat map's colours
+  bool diverging = false;  ///< use the diverging colors for heat maps
   Placement placement = Placement::positions;
-  bool wireframe = false;  ///< the mesh's edges over it
+  bool wireframe = false;  ///< draw the mesh's edges over the picture
   std::vector<Ghost> ghosts = {};
-  double from = 0, to = 1;  ///< only this part of the canvas' width
-  bool map_alone = false;   ///< the mesh over nothing, opaque, in place of all of the picture
-  bool over = false;        ///< over what is there: nothing is cleared and there is no backdrop
+  double from = 0, to = 1;  ///< draw only this part of the canvas's width, as fractions
+  bool map_alone = false;   ///< draw only the mesh, opaque on a transparent canvas
+  bool over = false;        ///< draw over the canvas: do not clear it, and draw no backdrop
   Shows shows = Shows::map;
   Color background{0.2f, 0.2f, 0.2f},
-      backdrop{0.25f, 0.25f, 0.25f};  ///< canvas; behind the picture
+      backdrop{0.25f, 0.25f, 0.25f};  ///< of the canvas; behind the picture
 };
 
-/// Owns the GL objects. Needs a current OpenGL 3.3 core context during construction, calls and
-/// destruction. Throws Error{failed} when the context cannot do what is needed.
+/// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and
+/// destruction. Throws Error{failed} if the context does not support what is needed.
 class Renderer {
  public:
   Renderer();
@@ -57,32 +59,32 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The picture: straight-alpha RGBA, rows from the top; 0 x 0 takes it away. Returns the factor
-  /// by which it had to be reduced for this driver, 1 when not at all.
+  /// Sets the picture: straight-alpha RGBA, rows from the top; 0 x 0 removes it. Returns the factor
+  /// by which it was reduced for this driver, 1 if it was not.
   int set_picture(int width, int height, const std::uint8_t* pixels);
-  /// The same bit by bit, so that no frame waits: with the first call of upload_more the picture is
-  /// there, coarsely, and call by call in more detail. Null takes it away.
+  /// Sets the picture in steps, so that no frame has to wait. The first call of upload_more shows
+  /// it coarsely, and further calls add detail. Null removes the picture.
   void begin_picture(std::shared_ptr<const TextureLevels> levels);
-  /// Hands over about so many bytes. Returns whether anything is left.
+  /// Uploads about this many bytes. Returns whether any are left.
   bool upload_more(size_t bytes);
-  /// The largest side of a texture.
+  /// The largest side of a texture, in pixels.
   static int largest_side();
-  /// The mesh at rest; positions and operator start afresh. Null takes it away.
+  /// Sets the mesh at rest; resets the positions and the operator. Null removes the mesh.
   void set_mesh(const Mesh* mesh);
-  /// The mesh's triangles in another order: later ones are drawn on top.
+  /// Sets another order of the mesh's triangles; later ones are drawn on top.
   void set_triangles(const std::vector<Triangle>& triangles);
-  /// Where the vertices go, by Placement::positions.
+  /// Sets the vertex positions for Placement::positions.
   void set_positions(std::span<const Complex> positions);
-  /// Position of each vertex's value on the heat scale, in [0, 1].
+  /// Sets the position of each vertex's value on the heat scale, in [0, 1].
   void set_heat(const Eigen::VectorXf& positions);
-  /// The operator of Placement::by_operator; null takes it away. Returns false when it does not fit
-  /// this driver's texture buffers.
+  /// Sets the operator for Placement::by_operator; null removes it. Returns false if it does not
+  /// fit into this driver's texture buffers.
   bool set_operator(const PlanarMatrix<float>* matrix);
   void set_controls(const VectorXc& controls);
 
   void draw(const RenderFrame& frame);
 
-  /// The vertex places that the shader computes, read back.
+  /// The vertex positions that the shader computes, read back.
   std::vector<Complex> placed_vertices(Placement placement);
 
  private:

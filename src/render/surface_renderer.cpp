@@ -1,4 +1,4 @@
-// One vertex array; the light goes with the camera.
+// One vertex array. The light moves with the camera.
 #include "render/surface_renderer.h"
 
 #include <Eigen/Geometry>
@@ -68,7 +68,7 @@ void SurfaceRenderer::set_surface(const Surface& surface) {
 
 void SurfaceRenderer::set_coordinates(const Points& coordinates) {
   check(static_cast<int>(coordinates.size()) == vertex_count_,
-        "texture coordinates for each vertex of the surface");
+        "set_coordinates: the numbers of coordinates and vertices differ");
   Eigen::Matrix2Xf flat(2, vertex_count_);
   for (int i = 0; i < vertex_count_; ++i) {
     const Complex z = coordinates[static_cast<size_t>(i)];

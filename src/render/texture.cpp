@@ -1,4 +1,4 @@
-// One linear-filtered texture, and reading pixels back.
+// One linearly filtered texture, and reading pixels back.
 #include "render/texture.h"
 
 #include <cstring>

@@ -1,11 +1,11 @@
-// A small picture for the user interface.
+// A small texture for the user interface.
 #pragma once
 
 #include <cstdint>
 
 namespace holomorph {
 
-/// Owns a GL texture of straight-alpha RGBA pixels, rows from the top. Movable.
+/// Owns an OpenGL texture of straight-alpha RGBA pixels, rows from the top. Movable.
 class Texture {
  public:
   Texture() = default;
@@ -23,7 +23,8 @@ class Texture {
   int width_ = 0, height_ = 0;
 };
 
-/// The lower left `width` x `height` pixels of the current framebuffer, RGBA, rows from the top.
+/// Reads the lower left `width` x `height` pixels of the current framebuffer: RGBA, rows from the
+/// top.
 void read_framebuffer(int width, int height, std::uint8_t* pixels);
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
-// Averages of premultiplied colours, so that transparent pixels lend no colour to their neighbours.
+// Smaller levels average premultiplied colors, so that transparent pixels do not bleed into their
+// neighbors.
 #include "render/texture_levels.h"
 
 #include <algorithm>

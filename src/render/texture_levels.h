@@ -1,4 +1,4 @@
-// A picture as textures want it: premultiplied, with all of its smaller versions.
+// A picture in the form that textures need: premultiplied, with all mipmap levels.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ struct TextureLevel {
 
 struct TextureLevels {
   int width = 0, height = 0;  ///< the picture's own size
-  int factor = 1;             ///< by which it had to be reduced
+  int factor = 1;             ///< by which the picture was reduced
   std::vector<TextureLevel>
-      levels;  ///< the largest first, each half of the one before, down to 1 x 1
+      levels;  ///< largest first, each half the size of the previous one, down to 1 x 1
 };
 
-/// Of a picture of straight-alpha RGBA, rows from the top, which may not be empty; no level is
-/// larger than `largest` a side. Needs no OpenGL and may run on any thread. Cost: linear, about
-/// 10 ns a pixel. `go_on` is asked now and then; what is returned after it said no is incomplete.
+/// The levels of a picture in straight-alpha RGBA, rows from the top, which must not be empty. No
+/// level has more than `largest` pixels on a side. Needs no OpenGL and may run on any thread. Calls
+/// `go_on` from time to time; the result is incomplete if that returns false. Cost: linear, about
+/// 10 ns per pixel.
 TextureLevels texture_levels(
     int width, int height, const std::uint8_t* pixels, int largest,
     const std::function<bool()>& go_on = [] { return true; });

@@ -1,4 +1,4 @@
-# What the tests of the real window share.
+# Shared by the tests of the real window.
 import json
 import os
 import shutil
@@ -35,7 +35,7 @@ class WindowCase(unittest.TestCase):
         return numpy.asarray(Image.open(path).convert("RGB")).astype(int)
 
     def caged(self, size, cage):
-        """A scene file of a picture of this size with a cage."""
+        """Writes a scene file with a picture of this size and a cage."""
         Image.effect_mandelbrot(size, (-2, -1, 1, 1), 40).convert("RGBA").save(os.path.join(self.work, "caged.png"))
         path = os.path.join(self.work, "caged.json")
         with open(path, "w") as file:
@@ -51,26 +51,26 @@ class WindowCase(unittest.TestCase):
         editor.wait(lambda s: not s["modified"] and os.path.exists(path), "the saved scene")
 
     def press_in_dialog(self, editor, down):
-        """A click in the window's middle column, so many px below its middle, where dialogs are."""
+        """Clicks at the center of the window, where dialogs are, moved down by this many pixels."""
         editor.press(640, 400 + down)  # the window has 1280 x 800 px
         time.sleep(0.5)
 
     def ask(self, editor, key):
-        """Opens a dialog by its key: once more while something that goes on has swallowed it."""
+        """Opens a dialog by its key. Tries again if something in progress has swallowed the key."""
         for _ in range(5):
-            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the end of what is going on")
+            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the end of the work in progress")
             editor.key(key)
             end = time.time() + 3
             while time.time() < end and not editor.state()["asking"]:
                 time.sleep(0.05)
             if editor.state()["asking"]:
                 return time.sleep(0.8)
-        self.fail(f"no dialog comes at {key}")
+        self.fail(f"no dialog appears after {key}")
 
     def type_into_inspector(self, editor, number, text):
-        """Types into one of the inspector's number fields, the first one is 1."""
+        """Types into one of the inspector's number fields; the first one is number 1."""
         editor.key("F6")
-        editor.wait(lambda s: s["in_panel"], "a panel with the keys")
+        editor.wait(lambda s: s["in_panel"], "a panel with the keyboard focus")
         for _ in range(number):
             editor.key("Tab")
         editor.key("ctrl+a")
@@ -78,10 +78,10 @@ class WindowCase(unittest.TestCase):
         editor.key("Return")
         time.sleep(0.3)
         editor.key("Escape")
-        editor.wait(lambda s: not s["in_panel"], "the canvas with the keys")
+        editor.wait(lambda s: not s["in_panel"], "the canvas with the keyboard focus")
 
     def by_palette(self, editor, words):
-        """Runs an action by its name."""
+        """Runs an action by its name, with the command palette."""
         self.ask(editor, "ctrl+shift+p")
         editor.type(words)
         editor.key("Return")

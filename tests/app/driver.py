@@ -1,4 +1,4 @@
-# Drives the real program under a virtual display with real input events.
+# Drives the real program on a virtual display with real input events.
 import json
 import os
 import shutil
@@ -8,12 +8,12 @@ import time
 
 
 class Editor:
-    """The editor on a display of its own, with a home of its own."""
+    """The editor on its own display, with its own home directory."""
 
     def __init__(self, program, arguments=(), size="1400x900", home=None):
         self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
         self.home = home or self.folder
-        if not home:  # the first steps would cover what tests click on
+        if not home:  # hides the first steps, which would cover what tests click on
             os.makedirs(self.home + "/config/holomorph")
             with open(self.home + "/config/holomorph/preferences.json", "w") as file:
                 json.dump({"hints": False}, file)
@@ -55,7 +55,7 @@ class Editor:
             return None
 
     def wait(self, condition, what, seconds=10):
-        """Waits until the state fulfils a condition and the map is ready."""
+        """Waits until the state satisfies a condition and the map is ready."""
         end = time.time() + seconds
         while time.time() < end:
             if self.process.poll() is not None:
@@ -64,7 +64,7 @@ class Editor:
             if condition(state) and (state is None or not state["busy"]):
                 return state
             time.sleep(0.03)
-        raise AssertionError(f"waited in vain for {what}; the state is {self.state()}; " + self.messages())
+        raise AssertionError(f"timed out while waiting for {what}; the state is {self.state()}; " + self.messages())
 
     def messages(self):
         self.log.flush()
@@ -88,7 +88,7 @@ class Editor:
         self.press(*self.pixel(x, y), button)
 
     def press(self, x, y, button=1):
-        """A click at a window position."""
+        """Clicks at a window position."""
         self.xdotool("mousemove", int(x), int(y))
         since = self.taken()
         self.xdotool("click", button, pause=0.02)
@@ -103,7 +103,7 @@ class Editor:
         self.xdotool("mouseup", 1)
 
     def draw(self, line):
-        """Moves along these points with the button down."""
+        """Moves the pointer along these points with the button down."""
         self.move(*line[0])
         self.xdotool("mousedown", 1)
         for point in line[1:]:
@@ -132,7 +132,7 @@ class Editor:
             display.flush()
 
         def answer(name, seconds=5):
-            """The window's next message of this name; selection requests are served meanwhile."""
+            """The window's next message with this name. Answers selection requests while it waits."""
             end = time.time() + seconds
             while time.time() < end:
                 if not display.pending_events():
@@ -147,7 +147,7 @@ class Editor:
                     display.flush()
                 elif got.type == X.ClientMessage and got.client_type == atom(name):
                     return got
-            raise AssertionError(f"the window sends no {name}")
+            raise AssertionError(f"the window did not send {name}")
 
         send("XdndEnter", 5 << 24, atom("text/uri-list"), 0, 0)
         send("XdndPosition", 0, x << 16 | y, X.CurrentTime, atom("XdndActionCopy"))
@@ -157,12 +157,12 @@ class Editor:
         display.close()
 
     def taken(self):
-        """How many changes of keys and buttons the window has taken; 0 for a window that has written nothing yet."""
+        """How many presses and releases of keys and buttons the window has handled; 0 if it has not written its state yet."""
         return (self.state() or {"taken": 0})["taken"]
 
     def settle(self, since, changes):
-        """Waits until the window has taken so many changes of keys and buttons since then, and all that are there: each
-        is a frame of its own, and slow machines draw few of them. Another window may have got them: then for a while."""
+        """Waits until the window has handled `changes` more presses and releases than `since`, and none are pending. Each
+        one takes a frame, and slow machines draw few frames. If another window got the input, gives up after 5 s."""
         end = time.time() + 5
         while time.time() < end and self.process.poll() is None:
             state = self.state()

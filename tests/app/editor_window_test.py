@@ -1,4 +1,4 @@
-# The real window once more: layers, files that others change, keys and exports, by real input events.
+# More tests of the real window, with real input events: layers, files that other programs change, keys, exports.
 import json
 import math
 import os
@@ -25,7 +25,7 @@ class EditorWindowTest(WindowCase):
         return path
 
     def color_at(self, editor, x, y):
-        """What the canvas shows at a place of the plane."""
+        """The color that the canvas shows at a point of the plane."""
         px, py = editor.pixel(x, y)
         return self.screenshot(editor, "color")[py, px]
 
@@ -35,10 +35,10 @@ class EditorWindowTest(WindowCase):
             if numpy.abs(self.color_at(editor, *place) - color).max() < 12:
                 return
             time.sleep(0.1)
-        self.fail(f"{what}: at {place} is {self.color_at(editor, *place)}, not {color}")
+        self.fail(f"{what}: the color at {place} is {self.color_at(editor, *place)}, not {color}")
 
     def program(self, name, script):
-        """A stand-in for another program, found before the real one."""
+        """Puts a stub for another program on the path, before the real one."""
         folder = os.path.join(self.work, "bin")
         os.makedirs(folder, exist_ok=True)
         path = os.path.join(folder, name)
@@ -49,7 +49,7 @@ class EditorWindowTest(WindowCase):
         os.environ["PATH"] = folder + ":" + os.environ["PATH"]
 
     def preferences(self, **values):
-        """A home whose preferences are these."""
+        """A home directory with these preferences."""
         home = os.path.join(self.work, "home")
         os.makedirs(home + "/config/holomorph", exist_ok=True)
         with open(home + "/config/holomorph/preferences.json", "w") as file:
@@ -68,14 +68,14 @@ class EditorWindowTest(WindowCase):
             self.press_in_dialog(editor, -19)  # Add it as a layer
             editor.wait(lambda s: s["layers"] == 2 and s["edited_layer"] == 1, "a second layer")
             self.wait_color(editor, (75, 100), BLUE, "the upper layer")
-            self.wait_color(editor, (225, 100), RED, "the lower one beside it")
+            self.wait_color(editor, (225, 100), RED, "the lower one next to it")
             editor.key("ctrl+h")
             editor.wait(lambda s: not s["visible"], "a hidden layer")
-            self.wait_color(editor, (75, 100), RED, "what was under it")
+            self.wait_color(editor, (75, 100), RED, "the layer under it")
             editor.key("ctrl+h")
             editor.key("ctrl+Next")
             editor.wait(lambda s: s["visible"] and s["edited_layer"] == 0, "the layer at the bottom")
-            self.wait_color(editor, (75, 100), RED, "the layer that covers it")
+            self.wait_color(editor, (75, 100), RED, "the layer that covers the other")
             editor.key("Prior")
             editor.wait(lambda s: s["edited_layer"] == 1 and s["cage_points"] == 4, "the layer with the cage")
             editor.key("ctrl+l")
@@ -104,7 +104,7 @@ class EditorWindowTest(WindowCase):
             self.plain("caged.png", GREEN)
             self.wait_color(editor, (150, 100), GREEN, "the changed picture")
             state = editor.state()
-            self.assertEqual((state["step"], state["cage_points"]), (step, 4), "the rig stays")
+            self.assertEqual((state["step"], state["cage_points"]), (step, 4), "the cage and its pose stay")
             with open(os.path.join(self.work, "caged.png"), "w") as file:
                 file.write("half a pic")  # a program that is still writing
             time.sleep(2.5)
@@ -115,7 +115,7 @@ class EditorWindowTest(WindowCase):
     def test_pictures_come_from_the_clipboard_and_go_there(self):
         there, copied = os.path.join(self.work, "there.png"), os.path.join(self.work, "copied.png")
         self.plain("there.png", GREEN, (120, 200))
-        # xclip -out gives a picture, -in takes one and leaves a helper behind, as the real one does.
+        # xclip -out writes a picture; -in reads one and leaves a helper process behind, like the real program.
         self.program("xclip", f'case "$*" in *-out) cat {there};; *) cat > {copied}.part; mv {copied}.part {copied}; '
                               f'sleep 30 & esac\n')
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
@@ -133,7 +133,7 @@ class EditorWindowTest(WindowCase):
         self.assertEqual(image.shape, (200, 300, 3))
         self.assertEqual([tuple(image[100, x]) for x in (60, 200)], [GREEN, RED])
         file = load(path)["layers"][1]["image"]["file"]
-        self.assertEqual(os.path.dirname(file), "", "what was pasted lies beside the scene")
+        self.assertEqual(os.path.dirname(file), "", "the pasted picture is next to the scene")
         self.assertTrue(os.path.exists(os.path.join(self.work, file)))
 
     def test_the_desktops_file_dialog_is_used_where_there_is_one(self):
@@ -146,11 +146,11 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: not s["empty"], "the chosen picture")
             with open(log) as file:
                 self.assertIn("*.png", file.read())
-            self.program("zenity", "exit 1\n")  # cancelled
+            self.program("zenity", "exit 1\n")  # canceled
             editor.key("ctrl+o")
             time.sleep(0.8)
             editor.key("ctrl+n")
-            editor.wait(lambda s: s["empty"], "a window that goes on")
+            editor.wait(lambda s: s["empty"], "a window that still responds")
 
     def test_keys_are_changed_and_kept(self):
         scene = os.path.join(SOURCE, "assets/giraffe.json")
@@ -164,12 +164,12 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             time.sleep(0.3)
             self.screenshot(editor, "keys-waiting")
-            editor.key("m")  # the mesh's: once is not enough to take it
+            editor.key("m")  # belongs to the mesh: a single press does not reassign it
             time.sleep(0.3)
             self.screenshot(editor, "keys-taken")
             editor.key("j")
             time.sleep(0.3)
-            editor.key("Return")  # once more, to leave it: a held key is one press, and search takes letters
+            editor.key("Return")  # again, and Escape leaves it: a held key is one press (without Return, letters go to the search)
             time.sleep(0.3)
             editor.xdotool("keydown", "m")
             time.sleep(1.2)
@@ -205,7 +205,7 @@ class EditorWindowTest(WindowCase):
             editor.key("Up")
             editor.wait(lambda s: s["modified"], "a pose")
             self.save_as(editor, os.path.join(self.work, "s.json"))
-            time.sleep(5)  # until what was said has gone
+            time.sleep(5)  # until the message has disappeared
             self.screenshot(editor, "hints-3")
             corner = (slice(36, 110), slice(64, 400))
             self.assertGreater((numpy.abs(first[corner] - second[corner]).max(axis=2) > 40).sum(), 40)
@@ -225,7 +225,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
 
     def test_a_press_acts_where_the_pointer_was(self):
-        """However far it has gone when the program looks: twenty pixels at once, in one request."""
+        """Even if the pointer has moved on before the program reads the press: by twenty pixels, in one request."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
         with Editor(PROGRAM, [scene]) as editor:
@@ -255,7 +255,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             editor.key("ctrl+a")
             for _ in range(4):
-                editor.key("shift+Up")  # by 40 in all
+                editor.key("shift+Up")  # by 40 px in total
             editor.wait(lambda s: s["modified"], "a moved picture")
             editor.key("0")
             editor.key("shift+backslash")
@@ -268,13 +268,13 @@ class EditorWindowTest(WindowCase):
             self.screenshot(editor, "before-after")
 
     def red_scene(self):
-        """A red picture of 300 x 200 px in a cage 10 px inside of it."""
+        """A scene with a red picture of 300 x 200 px and a cage 10 px inside its border."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
         return scene
 
     def move_right(self, editor, times):
-        """Moves all of the scene's cage by 10 px each time."""
+        """Moves the whole cage to the right by 10 px, this many times."""
         editor.wait(lambda s: s["cage_points"] == 4, "the scene")
         editor.key("ctrl+a")
         for _ in range(times):
@@ -297,7 +297,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: not s["exporting"] and not s["asking"], "the end of the export")
             os.remove(target)
             editor.key("ctrl+shift+e")
-            editor.wait(lambda s: os.path.exists(target), "the export once more")
+            editor.wait(lambda s: os.path.exists(target), "the export again")
 
     def test_what_is_exported_is_chosen_without_a_mouse(self):
         target = os.path.join(self.work, "out.png")
@@ -308,15 +308,15 @@ class EditorWindowTest(WindowCase):
             editor.type(target)
             for _ in range(3):  # format, scale, region
                 editor.key("Down")
-            for key in ("Return", "Down", "Return"):  # the second one: the picture's rectangle
+            for key in ("Return", "Down", "Return"):  # the second choice: the picture's rectangle
                 editor.key(key)
                 time.sleep(0.2)
             editor.key("Down")  # background
-            for key in ("Return", "Down", "Down", "Return"):  # the third one: a colour
+            for key in ("Return", "Down", "Down", "Return"):  # the third choice: a color
                 editor.key(key)
                 time.sleep(0.2)
             self.screenshot(editor, "export-chosen")
-            for _ in range(2):  # past the colour
+            for _ in range(2):  # past the color
                 editor.key("Down")
             editor.key("Return")
             editor.wait(lambda s: os.path.exists(target), "the export")
@@ -345,8 +345,8 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["pictured"], "the picture")
             time.sleep(0.4)
             editor.key("F6")
-            editor.wait(lambda s: s["in_panel"], "the offer with the keys")
-            for key in ("Right", "Right", "Return"):  # a box, to move and scale it
+            editor.wait(lambda s: s["in_panel"], "the suggestions with the keyboard focus")
+            for key in ("Right", "Right", "Return"):  # a box for moving and scaling
                 editor.key(key)
             editor.wait(lambda s: s["cage_points"] == 4 and s["selected"] == 4, "a box around the picture")
             self.type_into_inspector(editor, 4, "50")  # x, y, degrees, size
@@ -361,21 +361,21 @@ class EditorWindowTest(WindowCase):
             numpy.testing.assert_allclose(extent, [height / 2, width / 2], atol=1e-6)
             numpy.testing.assert_allclose((pose.max(axis=0) + pose.min(axis=0)) / 2, [100, height / 2], atol=1e-6)
             editor.key("F6")
-            editor.wait(lambda s: s["in_panel"], "a panel with the keys")
+            editor.wait(lambda s: s["in_panel"], "a panel with the keyboard focus")
             editor.key("v")
             editor.key("n")
             editor.key("ctrl+z")
             editor.wait(lambda s: s["step"] == 3, "undo")
-            self.assertEqual(editor.state()["tool"], "select", "letters are not the canvas'")
+            self.assertEqual(editor.state()["tool"], "select", "letters do not go to the canvas")
             editor.click(width / 2, height / 2)
-            editor.wait(lambda s: not s["in_panel"], "a click on the canvas takes them back")
+            editor.wait(lambda s: not s["in_panel"], "a click on the canvas gives it the keyboard focus")
             editor.key("ctrl+a")
             editor.wait(lambda s: s["selected"] == 4, "everything")
             editor.key("shift+F10")
             time.sleep(0.3)
             editor.key("Escape")
             time.sleep(0.3)
-            self.assertEqual(editor.state()["selected"], 4, "Escape closed the menu and nothing else")
+            self.assertEqual(editor.state()["selected"], 4, "Escape only closed the menu")
             editor.key("F10")
             time.sleep(0.4)
             self.screenshot(editor, "menu")
@@ -392,7 +392,7 @@ class EditorWindowTest(WindowCase):
             self.screenshot(editor, "menu-cage")
             editor.key("Down")
             time.sleep(0.2)
-            editor.key("Return")  # its first entry that can be chosen: Make from picture
+            editor.key("Return")  # its first enabled entry: Make from picture
             editor.wait(lambda s: s["cage_points"] > 4, "a cage from the picture")
 
     def test_looks_are_chosen_by_name(self):
@@ -429,7 +429,7 @@ class EditorWindowTest(WindowCase):
             self.assertFalse(os.path.exists(os.path.join(self.work, "out.png")), "an export without the picture")
             editor.key("Escape")
             self.by_palette(editor, "missing")
-            editor.wait(lambda s: s["asking"], "the question where it is")
+            editor.wait(lambda s: s["asking"], "the question where the picture is")
             editor.key("ctrl+a")
             editor.type(os.path.join(away, "renamed.png"))
             editor.key("Return")
@@ -443,22 +443,22 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4 and not s["pictured"], "the scene without its picture")
             time.sleep(1.2)
             shutil.move(os.path.join(self.work, "kept.png"), os.path.join(away, "renamed.png"))
-            editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture that is there again")
+            editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture that is back")
         layer = {key: load(scene)[key] for key in ("image", "cage")}
-        with open(scene, "w") as file:  # a lock does not keep a picture away
+        with open(scene, "w") as file:  # a picture can also be found for a locked layer
             json.dump({"format": "holomorph", "version": 2, "edited": 0, "layers": [dict(layer, locked=True)]}, file)
         shutil.move(os.path.join(away, "renamed.png"), os.path.join(self.work, "kept.png"))
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["locked"] and not s["pictured"], "the locked layer without its picture")
             self.by_palette(editor, "missing")
-            editor.wait(lambda s: s["asking"], "the question where it is")
+            editor.wait(lambda s: s["asking"], "the question where the picture is")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "kept.png"))
             editor.key("Return")
             editor.wait(lambda s: s["pictured"], "the picture of a locked layer")
 
     def home_of_tests(self):
-        """One that several sessions share, without the first steps over what is clicked on."""
+        """A home directory for several sessions, without the first steps, which would cover what tests click on."""
         home = os.path.join(self.work, "home")
         os.makedirs(os.path.join(home, "config/holomorph"))
         with open(os.path.join(home, "config/holomorph/preferences.json"), "w") as file:
@@ -473,7 +473,7 @@ class EditorWindowTest(WindowCase):
         return path
 
     def change(self, path, x):
-        """As git or another window does: the file is another one."""
+        """Replaces the scene's file by another one, as git or another window does."""
         scene = load(path)
         scene["cage"]["rest"][0][0][0] = x
         scene["cage"].pop("pose", None)
@@ -489,7 +489,7 @@ class EditorWindowTest(WindowCase):
         with Editor(PROGRAM, [scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Files from elsewhere", "the question")
             self.screenshot(editor, "elsewhere")
-            editor.key("Return")  # leaves it out
+            editor.key("Return")  # leaves the picture out
             editor.wait(lambda s: not s["asking"] and not s["pictured"], "the scene without it")
             self.screenshot(editor, "withheld")
             editor.key("ctrl+q")
@@ -501,7 +501,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
-        with Editor(PROGRAM, [scene], home=home) as editor:  # for good
+        with Editor(PROGRAM, [scene], home=home) as editor:  # the answer is remembered
             editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture")
         with Editor(PROGRAM, ["--allow-outside", scene]) as editor:
             editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture without a question")
@@ -513,9 +513,9 @@ class EditorWindowTest(WindowCase):
             editor.key("plus")
             zoomed = editor.wait(lambda s: s["zoom"] > before["zoom"], "another view")
             self.change(scene, 180)
-            again = editor.wait(lambda s: s["first_point"] == [180, 100], "what the file has now")
+            again = editor.wait(lambda s: s["first_point"] == [180, 100], "the file's new content")
             self.assertEqual(again["zoom"], zoomed["zoom"], "the view stays")
-            # With unsaved work it is asked for, and neither is lost.
+            # With unsaved work there is a question, and neither version is lost.
             editor.key("ctrl+a")
             editor.key("Right")
             editor.wait(lambda s: s["modified"], "an edit")
@@ -525,7 +525,7 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+s")
             editor.wait(lambda s: s["question"] == "Changed by another program", "the question")
             self.screenshot(editor, "changed")
-            self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 250, "it is not overwritten")
+            self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 250, "the file is not overwritten")
             editor.key("Return")  # cancels
             editor.wait(lambda s: not s["asking"] and s["modified"], "no answer")
             editor.key("ctrl+s")
@@ -541,22 +541,22 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["asking"], "the question")
             time.sleep(0.3)
             self.press_in_dialog(editor, 55)  # Reload it
-            editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "what the file has")
-            editor.key("ctrl+z")  # reloading is a step like others
-            editor.wait(lambda s: s["first_point"] == [180, 100] and s["modified"], "what was here")
+            editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "the file's content")
+            editor.key("ctrl+z")  # reloading can be undone like any other step
+            editor.wait(lambda s: s["first_point"] == [180, 100] and s["modified"], "the previous content")
             editor.key("ctrl+shift+z")
             editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "the reloaded scene again")
-            # A file that is damaged or gone does not hold what is here: quitting asks.
+            # If the file is damaged or deleted, the work is unsaved, and quitting asks.
             with open(scene, "w") as file:
                 file.write('{"format"')
-            editor.wait(lambda s: s["modified"] and s["first_point"] == [300, 100], "work that is in no file")
+            editor.wait(lambda s: s["modified"] and s["first_point"] == [300, 100], "unsaved work")
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
             time.sleep(0.3)
             self.press_in_dialog(editor, 22)  # Overwrite it
             editor.wait(lambda s: not s["modified"], "the saved scene")
             os.remove(scene)
-            editor.wait(lambda s: s["modified"], "work that is in no file")
+            editor.wait(lambda s: s["modified"], "unsaved work")
             editor.key("ctrl+q")
             editor.wait(lambda s: s["question"] == "Unsaved changes", "the question")
 
@@ -614,10 +614,10 @@ class EditorWindowTest(WindowCase):
             time.sleep(0.5)
             self.screenshot(editor, "exporting")
             editor.key("Escape")
-            editor.wait(lambda s: not s["exporting"], "the end of it")
+            editor.wait(lambda s: not s["exporting"], "the end of the export")
             time.sleep(1.5)
             self.assertFalse(os.path.exists(target))
-            self.assertEqual(os.listdir(self.work), ["gecko.png"], "nothing half done is left")
+            self.assertEqual(os.listdir(self.work), ["gecko.png"], "no unfinished file is left")
 
 
 if __name__ == "__main__":

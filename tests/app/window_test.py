@@ -1,4 +1,4 @@
-# The real window: draw, drag, pin, undo, save, reopen, recover, by real input events.
+# The real window, with real input events: draw, drag, pin, undo, save, reopen, recover.
 import json
 import math
 import os
@@ -51,7 +51,7 @@ class WindowTest(WindowCase):
             self.assertEqual(scene["format"], "holomorph")
             self.assertEqual(scene["image"]["file"], "gecko.png")
             self.assertEqual(len(scene["cage"]["rest"]), 5)
-            # Places are exact to the pointer's pixel.
+            # Positions are exact to the pixel of the pointer.
             grain = 1.5 / editor.state()["zoom"]
             moved = scene["cage"]["pose"][2][0]
             self.assertLess(abs(moved[0] - 980) + abs(moved[1] - 800), 4 * grain)
@@ -68,7 +68,7 @@ class WindowTest(WindowCase):
     def test_cage_from_picture_and_editing(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
-            # The offer's first button, by the palette: the same action, found by name.
+            # The first suggested action, run by its name from the palette.
             self.ask(editor, "ctrl+shift+p")
             editor.type("make from")
             editor.key("Return")
@@ -182,7 +182,7 @@ class WindowTest(WindowCase):
             path = os.path.join(self.work, "recovered.json")
             self.save_as(editor, path)
             self.assertEqual(load(path)["cage"]["pose"], kept["cage"]["pose"])
-            self.assertEqual(os.listdir(folder), [], "nothing is left to recover")
+            self.assertEqual(os.listdir(folder), [], "no autosave is left")
         shutil.rmtree(home)
 
     def test_samples_are_copies(self):
@@ -215,8 +215,8 @@ class WindowTest(WindowCase):
             time.sleep(0.3)
             picture = self.screenshot(editor, "welcome-recent")
             rows = numpy.flatnonzero((picture[480:760, 45:240] > 150).any(axis=(1, 2)))
-            editor.press(100, 480 + rows[-1] - 4)  # the last line of the page is the recent file
-            editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe once more")
+            editor.press(100, 480 + rows[-1] - 4)  # the recent file is the last line of the page
+            editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe again")
 
     def test_export_asks_before_it_replaces(self):
         target = os.path.join(self.work, "out.png")
@@ -244,7 +244,7 @@ class WindowTest(WindowCase):
             # The editor's operators are in single precision.
             self.assertLessEqual(numpy.abs(exported.astype(int) - rendered).max(), 2)
             os.remove(target)
-            editor.key("ctrl+shift+e")  # once more, without a question
+            editor.key("ctrl+shift+e")  # again, without a question
             end = time.time() + 10
             while not os.path.exists(target) and time.time() < end:
                 time.sleep(0.05)
@@ -274,7 +274,7 @@ class WindowTest(WindowCase):
         self.assertLessEqual(report["max_k"], 0.7)
         self.assertGreaterEqual(report["min_sigma"], 0.2)
         self.assertLessEqual(report["max_sigma"], 5)
-        # The same pins without the bounds fold it: the test asks for something.
+        # Without the bounds, the same pins fold it, so the test is not trivial.
         scene = load(path)
         scene["method"] = {"id": "pins"}
         with open(os.path.join(self.work, "free.json"), "w") as file:
@@ -289,7 +289,7 @@ class WindowTest(WindowCase):
                 file.write(f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{d}"/></svg>')
         mask = os.path.join(SOURCE, "assets/mask.obj")
         with Editor(PROGRAM, [self.picture]) as editor:
-            editor.drop(mask, 400, 400)  # a surface needs a cage, and that is said
+            editor.drop(mask, 400, 400)  # a surface needs a cage, and a message says so
             time.sleep(0.5)
             self.screenshot(editor, "surface-without-cage")
             self.assertEqual((editor.state()["cage_points"], editor.state()["outline_points"]), (0, 0))
@@ -311,12 +311,12 @@ class WindowTest(WindowCase):
         with Editor(PROGRAM, [scene]) as editor:
             s = editor.wait(lambda s: s["folds"], "the fold")
             shot = self.screenshot(editor, "folded")
-            # The status bar's button stands after the red words.
+            # The button in the status bar comes after the red text.
             row = shot[int(s["top"] + s["height"]) + 4:int(s["top"] + s["height"]) + 28, :int(s["width"])]
             red = numpy.flatnonzero(((row[..., 0] > 200) & (row[..., 1] < 150)).any(axis=0))
             editor.press(red.max() + 40, s["top"] + s["height"] + 15)
             editor.wait(lambda t: abs(t["center"][0] - s["center"][0]) + abs(t["center"][1] - s["center"][1]) > 20,
-                        "the place of the fold")
+                        "the view at the fold")
             self.screenshot(editor, "folded-shown")
             editor.key("ctrl+shift+p")
             editor.type("make it fold")
@@ -402,7 +402,7 @@ class WindowTest(WindowCase):
             before = pane("surface")
             colorful = (before.max(axis=2) - before.min(axis=2) > 60).mean()
             self.assertGreater(colorful, 0.03, "the gecko is on the mask")
-            # Turning and coming nearer change the view alone.
+            # Turning and zooming change only the view.
             editor.xdotool("mousemove", *middle)
             editor.xdotool("mousedown", 1)
             for i in range(1, 6):
@@ -413,8 +413,8 @@ class WindowTest(WindowCase):
             editor.xdotool("click", 4)
             editor.wait(lambda t: t["distance"] < 0.95 * s["distance"], "a nearer camera")
             editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
-            editor.wait(lambda t: abs(t["yaw"] - s["yaw"]) < 1e-6 and t["distance"] == s["distance"], "all of it again")
-            # A pin moves the picture on the surface, already while it is dragged.
+            editor.wait(lambda t: abs(t["yaw"] - s["yaw"]) < 1e-6 and t["distance"] == s["distance"], "the whole surface again")
+            # A pin moves the picture on the surface, even while it is being dragged.
             editor.key("n")
             editor.move(400, 300)
             editor.xdotool("mousedown", 1)
@@ -432,13 +432,13 @@ class WindowTest(WindowCase):
             lines = open(textured).read().split("\n")
             uv = numpy.array([[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vt ")])
             self.assertTrue(len(uv) > 1000 and uv.min() > 0 and uv.max() < 1)
-            # Closed and shown again; saved and opened again.
+            # Closes and shows the surface; saves and reopens the scene.
             action(editor, "surface in space")
             editor.wait(lambda s: not s["on_surface"] and s["width"] == whole["width"], "the whole canvas")
             action(editor, "surface in space")
-            editor.wait(lambda s: s["on_surface"], "the surface once more")
+            editor.wait(lambda s: s["on_surface"], "the surface again")
             self.save_as(editor, scene)
-            # What was exported is a picture with a cage, and goes onto the leaf.
+            # The exported surface is a picture with a cage, and is mapped onto the leaf.
             editor.key("ctrl+o")
             time.sleep(0.8)
             editor.key("ctrl+a")
@@ -449,7 +449,7 @@ class WindowTest(WindowCase):
             editor.wait(lambda s: s["outline_points"] == 60 and s["on_surface"] and not s["playing"], "the leaf")
             on_leaf = pane("surface-leaf")
             self.assertGreater((on_leaf.max(axis=2) - on_leaf.min(axis=2) > 60).mean(), 0.02)
-            # A bent outline is no boundary any more; that is said and mended.
+            # An edited outline is no longer the surface's boundary; a message says so, and undo restores it.
             editor.key("u")
             outline = load(scene)["outline"]
             self.assertEqual(len(outline), 72)
@@ -472,7 +472,7 @@ class WindowTest(WindowCase):
             editor.key("period")
             editor.key("period")
             editor.wait(lambda s: abs(s["time"] - 2 / 24) < 1e-6, "the second frame")
-            # Two corners are turned together by their ring.
+            # The ring turns two corners together.
             editor.key("a")
             editor.wait(lambda s: s["tool"] == "angle", "the tool")
             editor.drag((270, -30), (318, 118))
@@ -490,7 +490,7 @@ class WindowTest(WindowCase):
             editor.key("i")
             editor.wait(lambda s: s["keys"] == 2 and s["shows_time"], "another key")
             bent = self.screenshot(editor, "second-key")
-            # Scrubbing on the ruler, which is two seconds long; frames snap.
+            # Scrubbing on the ruler, which is two seconds long; it snaps to frames.
             left, top = state["left"] + 18, state["top"] + state["height"] + 60
             width = state["width"] - 36
             editor.xdotool("mousemove", round(left + width / 2), round(top))
@@ -501,12 +501,12 @@ class WindowTest(WindowCase):
             editor.xdotool("mouseup", 1)
             rest = self.screenshot(editor, "first-key")
             self.assertGreater((numpy.abs(rest - bent).max(axis=2) > 40).mean(), 0.02)
-            # It plays, and a tap stops it.
+            # The space bar starts and stops playback.
             editor.key("space")
             editor.wait(lambda s: s["runs"], "the playing film")
             editor.key("space")
             editor.wait(lambda s: not s["runs"], "the stopped film")
-            # Three frames as files.
+            # Exports three frames as files.
             self.ask(editor, "ctrl+shift+p")
             editor.type("film")
             editor.key("Return")
@@ -555,7 +555,7 @@ class WindowTest(WindowCase):
                 self.assertAlmostEqual(y, expected[1], delta=2)
             editor.key("ctrl+z")
             editor.key("ctrl+d")
-            # The other side goes along, mirrored.
+            # With symmetry, the other side moves as a mirror image.
             editor.key("x")
             editor.drag((260, 60), (280, 30))
             editor.wait(lambda s: s["step"] == 1, "a symmetric drag")
@@ -565,7 +565,7 @@ class WindowTest(WindowCase):
             self.assertLess(symmetric[0][0], 45)
             editor.key("ctrl+z")
             editor.key("x")
-            # Softly.
+            # With soft selection.
             editor.key("o")
             editor.key("bracketright")
             editor.key("ctrl+d")
@@ -580,13 +580,13 @@ class WindowTest(WindowCase):
         scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
-            # A corner goes up and back while Ctrl is held, by the clock.
+            # A corner moves up and back while Ctrl is held, which records the motion in real time.
             editor.move(310, 110)
             editor.xdotool("keydown", "ctrl")
             editor.xdotool("mousedown", 1)
             for y in (130, 150, 170, 190, 210):
                 editor.move(330, y)
-            time.sleep(0.3)  # nothing moves, and time goes on
+            time.sleep(0.3)  # nothing moves, but time passes
             self.screenshot(editor, "recording")
             for y in (180, 150, 130):
                 editor.move(310, y)
@@ -594,20 +594,20 @@ class WindowTest(WindowCase):
             editor.xdotool("keyup", "ctrl")
             state = editor.wait(lambda s: s["keys"] >= 3 and s["shows_time"], "keys")
             self.assertGreater(state["time"], 1.2)
-            self.assertEqual(state["history"], 2)  # one step
+            self.assertEqual(state["history"], 2)  # a single undo step
             self.assertLess(state["keys"], 20)
-            # Escape drops one, with Ctrl still held.
+            # Escape discards a recording while Ctrl is still held.
             editor.move(10, 110)
             editor.xdotool("keydown", "ctrl")
             editor.xdotool("mousedown", 1)
             editor.move(-20, 140)
             editor.move(-40, 140)
             editor.xdotool("key", "Escape")
-            editor.wait(lambda s: not s["gesture"], "the dropped recording")
+            editor.wait(lambda s: not s["gesture"], "the discarded recording")
             editor.xdotool("mouseup", 1)
             editor.xdotool("keyup", "ctrl")
             self.assertEqual(editor.state()["history"], 2)
-            # The keys before and after are seen around a time between them.
+            # Between two keyframes, onion skins show the keyframes before and after.
             for _ in range(5):
                 editor.key("comma")
             time.sleep(0.4)
@@ -620,7 +620,7 @@ class WindowTest(WindowCase):
             left, top, width, height = (int(state[k]) for k in ("left", "top", "width", "height"))
             view = numpy.s_[top:top + height, left:left + width]
             self.assertGreater((numpy.abs(onion - plain)[view].max(axis=2) > 30).mean(), 0.003)
-            # Frames that are there already are asked about.
+            # Asks before it replaces existing frames.
             path = os.path.join(self.work, "clip.png")
             first = os.path.join(self.work, "clip-0000.png")
             with open(first, "w") as file:
@@ -678,11 +678,11 @@ class WindowTest(WindowCase):
             first = load(path)["cage"]
             self.assertEqual([len(segment) for segment in first["rest"]], [3] * 5)
 
-            def tangents(cage, vertex):  # before and after
+            def tangents(cage, vertex):  # before the vertex, after it, and the vertex
                 pose = cage["pose"] if "pose" in cage else cage["rest"]
                 return complex(*pose[vertex - 1][-1]), complex(*pose[vertex][1]), complex(*pose[vertex][0])
 
-            def bent(cage, vertex):  # how far the two are from one line
+            def bent(cage, vertex):  # how far the two tangents are from collinear
                 before, after, at = tangents(cage, vertex)
                 u, v = before - at, after - at
                 return abs((u.conjugate() * v).imag) / (abs(u) * abs(v))
@@ -693,7 +693,7 @@ class WindowTest(WindowCase):
             editor.key("ctrl+s")
             editor.wait(lambda s: not s["modified"], "saved")
             second = load(path)["cage"]
-            self.assertLess(bent(second, 2), 1e-3, "the opposite tangent turns along")
+            self.assertLess(bent(second, 2), 1e-3, "the opposite tangent turns, too")
             self.assertGreater(abs(tangents(second, 2)[0] - tangents(first, 2)[0]), 5)
             self.assertEqual(second["rest"], first["rest"])
 
@@ -728,7 +728,7 @@ class WindowTest(WindowCase):
             editor.click(x, y)
             editor.wait(lambda s: s["selected"] == 1, "a selected point")
             self.type_into_inspector(editor, 1, "321.5")  # method `cage` has no numbers before x
-            editor.wait(lambda s: s["step"] == 1 and s["modified"], "the typed place")
+            editor.wait(lambda s: s["step"] == 1 and s["modified"], "the typed position")
             path = os.path.join(self.work, "typed.json")
             self.save_as(editor, path)
             self.assertEqual(load(path)["cage"]["pose"][0][0], [321.5, y])

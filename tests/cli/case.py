@@ -1,4 +1,4 @@
-# What tests of the command line share: the program, a folder, and what good and bad calls must do.
+# Shared by the tests of the command line: the program, a folder, and checks for good and bad calls.
 import json
 import os
 import shutil

@@ -1,4 +1,4 @@
-# The command line: exact numbers, published schema, and what bad input gets.
+# The command line: exact numbers, the published schema, and errors for bad input.
 import csv
 import io
 import json
@@ -99,7 +99,7 @@ class CommandLine(Case):
             scene = json.load(open(out))
             jsonschema.validate(scene, SCHEMA)
             self.assertLessEqual(abs(len(scene["cage"]["rest"]) - 24), 12)
-            # A fresh scene shows its picture, to the last bit.
+            # A new scene shows its picture bit for bit.
             self.good("render", out, "--allow-outside", "--out", self.path("r.png"))
             self.assertEqual(Image.open(self.path("r.png")).convert("RGBA").tobytes(), Image.open(picture).convert("RGBA").tobytes())
 
@@ -137,10 +137,10 @@ class CommandLine(Case):
         path = self.write("scene.json", scene)
         report = json.loads(self.good("info", path, "--json").stdout)
         self.assertIn("met to", report["note"])
-        # Onto a smooth outline the derivative vanishes at the corners: a few specks turn over.
+        # On a smooth outline the derivative vanishes at the cage's corners, so a few tiny triangles flip.
         self.assertLessEqual(report["flipped_triangles"], 16)
         self.assertNotIn("folds", report["note"])
-        # The cage's corners go onto the ellipse.
+        # The cage's corners are mapped onto the ellipse.
         corners = "\n".join(f"{x},{y}" for (x, y), *_ in scene["cage"]["rest"])
         out = self.good("map", path, "--points", self.write("p.csv", corners)).stdout
         for line in out.strip().split("\n")[1:]:
@@ -190,13 +190,13 @@ class CommandLine(Case):
         h, w = texture.shape[:2]
         column, row = (uv[:, 0] * w).astype(int).clip(0, w - 1), ((1 - uv[:, 1]) * h).astype(int).clip(0, h - 1)
         self.assertGreater((texture[row, column, 3] > 128).mean(), 0.6)
-        # From the mask's texture onto the leaf.
+        # Maps the mask's texture onto the leaf.
         second, other = self.path("leaf.json"), self.path("leaf-textured.obj")
         self.good("new", "--force", self.path("textured.png"), "--cage", out, "--out", second, "--outline", leaf)
         self.good("export", second, "--allow-outside", "--format", "textured", "--out", other)
         moved = numpy.asarray(Image.open(self.path("leaf-textured.png")).convert("RGBA"))
         self.assertGreater((moved[..., 3] > 128).sum(), 0.05 * moved.shape[0] * moved.shape[1])
-        # What does not fit is said.
+        # Surfaces that do not fit are errors.
         bent, plain = self.path("bent.json"), self.path("plain.json")
         with open(scene) as file:
             values = json.load(file)
@@ -254,14 +254,14 @@ class CommandLine(Case):
         for time_, moved in ((0, 0), (0.5, 15), (1, 30), (7, 30)):
             self.good("render", path, "--time", time_, "--out", self.path("t.png"))
             picture = Image.open(self.path("t.png"))
-            top = max(40, 30 + moved)  # of what is drawn
+            top = max(40, 30 + moved)  # height of the drawn region
             self.assertEqual(picture.height, top, time_)
         self.good("render", path, "--frames", "all", "--out", self.path("walk.png"))
         names = sorted(name for name in os.listdir(self.folder) if name.startswith("walk"))
         self.assertEqual(names, ["walk-000%d.png" % i for i in range(5)])
         sizes = {Image.open(self.path(name)).size for name in names}
         self.assertEqual(sizes, {(70, 60)})  # one rectangle for all of them
-        # A part of them is the same files.
+        # A range of the frames gives the same files.
         whole = [open(self.path(name), "rb").read() for name in names]
         for name in names:
             os.remove(self.path(name))
@@ -291,14 +291,14 @@ class CommandLine(Case):
             self.assertLess(numpy.abs(frame - exact)[shows].mean(), 3, kind)
             self.assertLess(numpy.abs(frame[:, :, 3] - exact[:, :, 3]).mean(), 2, kind)
         self.bad("export", path, "--format", "gif", "--out", self.path("film.webp"), says="must end in .gif")
-        # What is transparent is so in every frame, however many colours there are.
+        # Transparent pixels are transparent in every frame, with any number of colors.
         out = self.path("fern.gif")
         self.good("export", os.path.join(SOURCE, "assets/fern.json"), "--format", "gif", "--scale", 0.1, "--out", out)
         film = Image.open(out)
         for i in range(film.n_frames):
             film.seek(i)
             self.assertEqual(film.convert("RGBA").getpixel((0, 0))[3], 0, i)
-        # Rates that are no whole number of milliseconds a frame.
+        # A frame rate that is not a whole number of milliseconds per frame.
         scene = {**self.keyed_scene(), "animation": {"frames_per_second": 24}}
         self.good("export", self.write("fast.json", scene), "--format", "apng", "--out", self.path("fast.apng"))
         film = Image.open(self.path("fast.apng"))
@@ -316,7 +316,7 @@ class CommandLine(Case):
         result = run("export", path, "--format", "mp4", "--out", out, env=paths)
         self.assertEqual(result.returncode, 1)
         self.assertIn("ffmpeg, which is not installed", result.stderr)
-        # One that counts what it is given, and writes its words.
+        # A stub that counts its input and writes its arguments.
         with open(stub, "w") as file:
             file.write("#!/bin/sh\nfor word in \"$@\"; do last=$word; done\n"
                        "echo \"$@\" > \"${last#file:}\"\n/usr/bin/wc -c >> \"${last#file:}\"\n")
@@ -326,7 +326,7 @@ class CommandLine(Case):
         self.assertIn("-video_size 70x60 -framerate 4", words)
         self.assertEqual(int(count), 5 * 70 * 60 * 4)
         os.remove(out)
-        # One that fails.
+        # A stub that fails.
         with open(stub, "w") as file:
             file.write("#!/bin/sh\necho no such codec >&2\nexit 3\n")
         result = run("export", path, "--format", "webm", "--out", self.path("film.webm"), env=paths)
@@ -343,11 +343,11 @@ class CommandLine(Case):
             for key in ("time", "max_k", "min_sigma", "max_sigma", "flipped_triangles", "certified", "status"):
                 self.assertIn(key, report)
         self.assertIn("blended", {r["status"] for r in reports})
-        self.assertNotEqual(reports[0]["status"], "blended", "a keyframe is the method's own map")
+        self.assertNotEqual(reports[0]["status"], "blended", "at a keyframe the map is the method's own")
         rows = self.good("map", path, "--points", points, "--frames", "1..3").stdout.split()
         self.assertEqual(rows[0], "frame,u,v,fz_re,fz_im,fzbar_re,fzbar_im")
         self.assertEqual([row.split(",")[0] for row in rows[1:]], ["1", "1", "2", "2", "3", "3"])
-        # There and back, on a keyframe and between two.
+        # map and then inverse, at a keyframe and between two keyframes.
         for time in (0, 0.05):
             there = self.good("map", path, "--points", points, "--time", time).stdout.split()[1:]
             posed = self.write("posed.csv", "".join(",".join(row.split(",")[:2]) + "\n" for row in there))
@@ -355,7 +355,7 @@ class CommandLine(Case):
             for row, wanted in zip(back, ((20, 20), (30, 25))):
                 x, y = map(float, row.split(",")[:2])
                 self.assertAlmostEqual(math.hypot(x - wanted[0], y - wanted[1]), 0, places=6)
-        # Exports at a time are the map there.
+        # Exports at a time show the map at that time.
         rest = self.write("rest.json", dict(self.keyed_scene(), keyframes=[]))
         at_rest, posed = self.obj_of(rest), self.obj_of(path, "--time", 0.3)
         points = self.write("mesh.csv", "".join("%.17g,%.17g\n" % tuple(z) for z in at_rest[0]))
@@ -466,7 +466,7 @@ class CommandLine(Case):
                 if view in ("angle", "checker") and name != "gecko":
                     continue
                 self.golden(f"{name}-{view}", name, "--view", view)
-        # On the way from one key to the next.
+        # Between one keyframe and the next.
         self.golden("fern-between", "fern", "--time", 1.3)
 
     def golden(self, title, sample, *how):
@@ -613,7 +613,7 @@ class CommandLine(Case):
         st = numpy.load(self.path("st.npy"))
         self.assertEqual(st.shape, (275, 225, 2))
         self.assertEqual(st.dtype, numpy.float32)
-        # Where the scene moves nothing the map is the identity.
+        # Where the scene does not move, the map is the identity.
         self.assertTrue(numpy.allclose(st[0, 0], [0.5 / 225, 1 - 0.5 / 275]))
         # Applying it to the source gives the rendered picture.
         self.good("render", scene, "--crop", "--out", self.path("bent.png"))
@@ -626,7 +626,7 @@ class CommandLine(Case):
         expected = source[y, x, 3]
         found = bent[rows * 4 + 2, columns * 4 + 2, 3]
         self.assertLess((numpy.abs(expected - found) > 100).mean(), 0.02)
-        # A bent picture, unwarped by the scene that bent it, is the source again.
+        # Unwarping a bent picture with the scene that bent it gives the source back.
         shutil.copy(self.path("bent.png"), self.path("giraffe.png"))
         with open(scene) as file:
             text = json.load(file)
@@ -670,7 +670,7 @@ class CommandLine(Case):
             self.assertTrue((numpy.array(Image.open(self.path("o.png")).convert("RGBA")) == pixels).all(), name)
         picture.convert("CMYK").save(self.path("cmyk.tif"))
         self.good("new", "--force", self.path("cmyk.tif"), "--out", self.path("s.json"))
-        # Parts of files, and what cannot be.
+        # Truncated files, and pictures that are not supported.
         for name in ("a.webp", "a.tif", "b.tiff"):
             with open(self.path(name), "rb") as file:
                 whole = file.read()
@@ -707,10 +707,10 @@ class CommandLine(Case):
             self.assertEqual(open(out).read(), whole)
 
 
-    # ---- pictures of other programs ------------------------------------------------------------
+    # ---- pictures from other programs ----------------------------------------------------------
 
     def opened(self, picture):
-        """A picture as the program sees it: rendered at rest."""
+        """A picture as the program reads it: rendered at rest."""
         scene, out = self.path("opened.json"), self.path("opened.png")
         self.good("new", "--force", picture, "--out", scene)
         self.good("render", scene, "--out", out)

@@ -1,5 +1,5 @@
-# What commands read and write: pipes, devices, links, protected files, standard streams; how they end when
-# they are stopped, and what they say of wrong arguments.
+# What commands read and write: pipes, devices, links, protected files and standard streams. Also how they
+# end when they are stopped, and their errors for wrong arguments.
 import json
 import os
 import pty
@@ -39,7 +39,7 @@ class Files(Case):
         self.paths = {**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]}
 
     def writers(self):
-        """Every command that writes one file: the name's extension and the words before --out."""
+        """Every command that writes one file: the file's extension and the words before --out."""
         commands = [(".csv", ["map", self.scene, "--points", self.points]),
                     (".csv", ["inverse", self.scene, "--points", self.points]),
                     (".npy", ["coordinates", self.scene, "--points", self.points]),
@@ -67,9 +67,9 @@ class Files(Case):
                     reader = subprocess.Popen(["cat", pipe], stdout=file)
                     self.good(*words, "--out", pipe, env=self.paths)
                     self.assertEqual(reader.wait(20), 0)
-                self.assertTrue(stat.S_ISFIFO(os.lstat(pipe).st_mode), "the pipe is still one")
+                self.assertTrue(stat.S_ISFIFO(os.lstat(pipe).st_mode), "the pipe is still a pipe")
                 self.assertEqual(self.bytes_of(got), wanted)
-                # A link to a link to a file that is there, and to one that is not yet.
+                # A link to a link to a file that exists, and to one that does not exist yet.
                 for there in (True, False):
                     if there and words[0] != "new":
                         self.write(os.path.basename(far), "before")
@@ -80,7 +80,7 @@ class Files(Case):
                     self.assertEqual(self.bytes_of(far), wanted)
                     for name in (link, near, far):
                         os.remove(name)
-                # Links in a circle stay, and a full device is said.
+                # Circular links stay, and a full device is reported.
                 os.symlink(link, near)
                 os.symlink(near, link)
                 self.bad(*words, "--out", link, says="symbolic links", status=1, env=self.paths)
@@ -91,7 +91,7 @@ class Files(Case):
                 self.assertEqual(os.readlink(link), "/dev/full")
                 for name in (link, near, pipe, plain, got):
                     os.remove(name)
-        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [], "nothing half done is left")
+        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [], "no unfinished file is left")
 
     def test_frames_go_into_pipes(self):
         pipe = self.path("walk-0002.png")
@@ -159,7 +159,7 @@ class Files(Case):
         self.assertEqual(self.bytes_of("there.json"), b"mine")
         if os.geteuid() != 0:
             return
-        # Somebody else's file in a folder where everybody may write.
+        # Another user's file in a folder where everyone may write.
         os.chmod(self.folder, 0o777)
         other = self.write("other.png", "mine")
         os.chmod(other, 0o644)
@@ -185,7 +185,7 @@ class Files(Case):
         small = self.path("small")
         os.mkdir(small)
         if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "none", small], capture_output=True).returncode:
-            self.skipTest("a small disk needs the right to mount one")
+            self.skipTest("mounting a small disk is not permitted here")
         try:
             out = os.path.join(small, "o.png")
             for words in (["render", FISH], ["export", FERN, "--format", "gif", "--scale", "0.2"]):
@@ -218,7 +218,7 @@ class Files(Case):
         left = os.listdir(self.folder)
         self.assertEqual([n for n in left if n.startswith(".") or n.endswith(("webp", "gif", "apng", "mp4", "npy"))], [])
         for name in (n for n in left if n.startswith("o-")):
-            Image.open(self.path(name)).load()  # frames that were done are whole
+            Image.open(self.path(name)).load()  # finished frames are complete
         pipe = self.path("pipe")
         os.mkfifo(pipe)
         process = subprocess.Popen([PROGRAM, "map", self.scene, "--points", self.points, "--out", pipe],
@@ -249,7 +249,7 @@ class Files(Case):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         said = self.good("render", path, "--frames", "7..7", "--out", self.path("a.png")).stderr
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 10)
-        # Others get the same rectangle, or any.
+        # Other frames can be given the same rectangle, or any other.
         shared = said.split("(--rect ")[1].split(")")[0]
         again = self.good("render", path, "--frames", "9..9", "--rect", shared, "--out", self.path("a.png")).stderr
         self.assertEqual(again.split(" frames of ")[1].split(":")[0], said.split(" frames of ")[1].split(":")[0])
@@ -258,7 +258,7 @@ class Files(Case):
             self.assertEqual(Image.open(self.path("b.png")).size, (40, 20))
         for wrong in ("1,2,3", "0,0,0,5", "nan,0,1,1", "0,0,1,1x"):
             self.bad("render", path, "--rect", wrong, "--out", self.path("b.png"), says="X,Y,WIDTH,HEIGHT")
-        # All of it is more than one is allowed to ask for by accident.
+        # All frames are more than the limit against accidents allows.
         self.bad("render", path, "--frames", "all", "--out", self.path("a.png"), says="--max-frames")
         self.bad("export", path, "--format", "gif", "--out", self.path("a.gif"), says="--max-frames")
 
@@ -273,7 +273,7 @@ class Files(Case):
                           ["export", "--format", "svg", "--out", self.path("o.svg")]):
                 self.bad(words[0], path, *words[1:], says="--allow-outside")
             said[file] = run("info", path).stderr.replace(file, "X").replace(os.path.normpath(self.path("in/" + file)), "X")
-        self.assertEqual(len(set(said.values())), 1, "nothing tells which of these files exist")
+        self.assertEqual(len(set(said.values())), 1, "the messages do not tell which of these files exist")
         scene["image"] = {"file": "../red.png"}
         self.good("info", self.write("in/s.json", scene), "--allow-outside")
 
@@ -292,7 +292,7 @@ class Files(Case):
                 said = self.bad(*words, option, little, says=option).stderr
                 self.assertIn("at most", said)
                 self.good(*words, option, enough)
-                # What the message asks for is enough.
+                # The limit that the message suggests is enough.
                 asked = said.split(option + " ")[1].split()[0]
                 self.good(*words, option, asked)
         self.bad("info", self.scene, "--max-pixels", "-1", says="--max-pixels")
@@ -315,7 +315,7 @@ class Files(Case):
             try:
                 while block := os.read(here, 4096):
                     said += block
-            except OSError:  # the other end has gone
+            except OSError:  # the other end is closed
                 pass
             os.close(here)
             self.assertEqual(process.wait(), 0, said)
@@ -336,8 +336,8 @@ class Files(Case):
                             (["render", self.scene, "--out", out, "--frames", "3..1"], "backwards"),
                             (["render", self.scene, "--out", out, "--time", "-1"], "'-1' is not a time"),
                             (["render", self.scene, "--out", out, "--scale", "abc"], "--scale = abc"),
-                            (["export", self.scene, "--out", out, "--format", "obj", "--crop"], "--crop is not for obj"),
-                            (["export", self.scene, "--out", out, "--format", "svg", "--scale", "2"], "--scale is not for svg"),
+                            (["export", self.scene, "--out", out, "--format", "obj", "--crop"], "--crop cannot be used with obj"),
+                            (["export", self.scene, "--out", out, "--format", "svg", "--scale", "2"], "--scale cannot be used with svg"),
                             (["export", self.scene, "--out", out, "--format", "gif", "--time", "1"], "use --frames"),
                             (["export", self.scene, "--out", out, "--format", "obj", "--frames", "all"], "use --time"),
                             (["export", self.scene, "--out", out, "--format", "doc", "--frames", "all"], "format 'doc'"),

@@ -1,4 +1,4 @@
-// Films that are not finished leave nothing, and what was there stays.
+// Films: unfinished films leave no file, and existing files stay until a film is finished.
 #include "film/film.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ using namespace holomorph;
 
 namespace {
 
-/// Two keys, half a second apart: 13 frames.
+/// Two keyframes, half a second apart: 13 frames.
 Scene film_scene() {
   Deformation deformation = with_cage({}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
   deformation = with_key(deformation, 0);
@@ -30,7 +30,7 @@ Image grey() {
 
 }  // namespace
 
-TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
+TEST_CASE("A canceled film leaves no file, and existing files stay") {
   const Image image = grey();
   for (const char* kind : {".webp", ".gif", ".apng", ".png"}) {
     INFO(kind);
@@ -46,7 +46,7 @@ TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
                });
     for (const Path& file : files_of_film(folder.path / ("other" + std::string(kind)), 13))
       std::filesystem::remove(file);
-    // While the rectangle is measured, at the first frames, in the middle, and behind the last one.
+    // While the rectangle is measured, at the first frames, in the middle, and after the last one.
     for (const int calls :
          {0, 2, calls_of_all - 14, calls_of_all - 12, calls_of_all - 7, calls_of_all - 1}) {
       int left = calls;
@@ -55,7 +55,7 @@ TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
         CHECK(done <= all);
         return left-- > 0;
       });
-      INFO("cancelled after " << calls);
+      INFO("canceled after " << calls);
       CHECK_FALSE(there.has_value());
       CHECK(folder.names() == std::vector<std::string>{before.filename().string()});
       CHECK(read_file(before) == "what was there");
@@ -66,7 +66,7 @@ TEST_CASE("A film that is cancelled leaves nothing, and what was there stays") {
   }
 }
 
-TEST_CASE("A folder in the place of a frame is said before any frame is replaced") {
+TEST_CASE("A folder with the name of a frame is reported before any frame is replaced") {
   const Folder folder;
   const Image image = grey();
   const Path out = folder.path / "film.png";
@@ -79,10 +79,10 @@ TEST_CASE("A folder in the place of a frame is said before any frame is replaced
   fast.animation.frames_per_second = 60;
   CHECK_THROWS_WITH(
       write_film(folder.path / "fast.gif", fast, &image, {}, [](int, int) { return true; }),
-      Catch::Contains("50 frames a second"));
+      Catch::Contains("50 frames per second"));
 }
 
-TEST_CASE("A film on its own thread tells how far it is, and ends when it is cancelled") {
+TEST_CASE("A film on its own thread reports its progress, and ends when it is canceled") {
   const Folder folder;
   const Path out = folder.path / "film.apng";
   const Image image = grey();
@@ -109,7 +109,7 @@ TEST_CASE("A film on its own thread tells how far it is, and ends when it is can
     REQUIRE(job.error());
   }
   { Job cancelled("Film", film_into(out)); }
-  if (std::filesystem::exists(out)) {  // it was ready before: then whole
+  if (std::filesystem::exists(out)) {  // finished before it was canceled, so it is complete
     const std::string bytes = read_file(out);
     CHECK(bytes.substr(bytes.size() - 8, 4) == "IEND");
   }
@@ -118,7 +118,7 @@ TEST_CASE("A film on its own thread tells how far it is, and ends when it is can
   CHECK_THROWS_AS(write_film(out, still, &image, {}, [](int, int) { return true; }), Error);
 }
 
-TEST_CASE("A part of the frames is that part of the film") {
+TEST_CASE("A range of frames equals the same part of the whole film") {
   const Folder folder;
   const Image image = grey();
   const auto go_on = [](int, int) { return true; };
@@ -139,7 +139,7 @@ TEST_CASE("A part of the frames is that part of the film") {
                     Catch::Contains("0 to 12"));
 }
 
-TEST_CASE("The rectangle of a film holds the whole motion, tightly, whatever its rate") {
+TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame rate") {
   const Image image = grey();
   for (const unsigned seed : seeds_of("rectangles of films", {1, 2, 3})) {
     CAPTURE(seed);

@@ -1,5 +1,5 @@
-// Runs every method of the installed library's table on triangles by the mesher and on triangles of
-// its own. Each must leave the cage at rest where it is and follow a shift of all handles.
+// Runs every method of the installed library on triangles from the mesher and on its own triangles.
+// Each method must give the identity at rest, and follow a translation of all handles.
 #include <holomorph/deformer.h>
 #include <holomorph/flatten.h>
 #include <holomorph/mesher.h>
@@ -11,7 +11,8 @@ namespace {
 
 using namespace holomorph;
 
-/// A fan around the cage's middle, its edges cut: what a caller who has no mesher might bring.
+/// A fan around the cage's center, with subdivided edges: triangles that a caller without a mesher
+/// might use.
 Mesh fan(const Cage& cage) {
   constexpr int kCuts = 4;
   const Points corners = vertices_of(cage);
@@ -23,7 +24,8 @@ Mesh fan(const Cage& cage) {
   const int rim = static_cast<int>(vertices.size());
   vertices.push_back(box_of(corners).center());
   std::vector<Triangle> triangles;
-  for (int i = 0; i < rim; ++i) triangles.push_back({rim, (i + 1) % rim, i});  // clockwise: turned
+  for (int i = 0; i < rim; ++i)
+    triangles.push_back({rim, (i + 1) % rim, i});  // clockwise; mesh_of reverses them
   return mesh_of(cage, vertices, triangles);
 }
 
@@ -50,7 +52,7 @@ Pose pose_of(const Rest& rest, Complex shift) {
   return pose;
 }
 
-/// How far the map is from the shift, at worst.
+/// The largest distance between the map and the translation.
 double miss(const Method& method, const Rest& full, Complex shift) {
   const Rest rest = used_by(method, full);
   const auto deformer = method.prepare(rest, nullptr);
@@ -65,13 +67,13 @@ double miss(const Method& method, const Rest& full, Complex shift) {
 
 int main() {
   constexpr double kPixels =
-      1.0;  // outlines are met to a share of the cage's size, the rest exactly
+      1.0;  // outlines are matched to a fraction of the cage's size, everything else exactly
   const Cage cage = polygon_cage(Points{{0, 0}, {400, 0}, {420, 280}, {180, 320}, {0, 300}});
   bool good = true;
   for (const Mesh& mesh : {domain_mesh(cage, {600}), fan(cage)})
     for (const Method& method : methods()) {
       const Rest rest = rest_with(mesh, cage);
-      // The outline rests: it has no pose.
+      // The outline does not move: it has no pose.
       const Complex shift = method.uses_outline ? 0 : Complex(30, -20);
       const double still = miss(method, rest, 0), shifted = miss(method, rest, shift);
       const bool ok = std::max(still, shifted) < kPixels;

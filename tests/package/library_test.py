@@ -1,4 +1,4 @@
-# The installed libraries, used by projects of their own: every method, and the programs of docs/library.md.
+# The installed libraries, used by separate projects: every method, and the programs in docs/library.md.
 import os
 import re
 import subprocess
@@ -36,7 +36,7 @@ class Library(unittest.TestCase):
         cls.folder.cleanup()
 
     def built(self, source, prefix):
-        """The folder where the project `source` was built against the tree `prefix`."""
+        """Builds the project in the folder `source` against the installed tree `prefix`, and returns the build folder."""
         build = tempfile.mkdtemp(dir=self.folder.name)
         run("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=" + self.prefixes[prefix])
         run("cmake", "--build", build)

@@ -1,4 +1,4 @@
-# The Debian package as it is installed: unpacked somewhere, it runs and finds its own files.
+# The Debian packages: unpacked anywhere, the program runs and finds its own files.
 import json
 import os
 import re
@@ -37,7 +37,7 @@ class Package(unittest.TestCase):
         needs = self.field("holomorph", "Depends")
         for package in ("libglfw3", "libopenblas0", "fonts-roboto-unhinted", "fonts-font-awesome", "libwebp7"):
             self.assertIn(package, needs)
-        # Each of the fonts is opened by its path: the packages named have it.
+        # Each font is opened by its path, so the packages it depends on must contain it.
         for font, package in (("Roboto-Regular.ttf", "fonts-roboto-unhinted"), ("fontawesome-webfont.ttf", "fonts-font-awesome")):
             files = subprocess.run(["dpkg", "-L", package], check=True, capture_output=True, text=True).stdout
             self.assertIn(font, files)
@@ -51,7 +51,7 @@ class Package(unittest.TestCase):
         self.assertEqual(report["method"], "pins")
 
     def test_the_window_shows_its_own_samples(self):
-        # Without them there, tiles would come from the source: the first one is another picture here.
+        # Samples that are missing here would come from the source tree. To tell them apart, the first one is replaced.
         assets = os.path.join(self.root, "usr/share/holomorph/assets")
         shutil.copy(os.path.join(assets, "fish.json"), os.path.join(assets, "giraffe.json"))
         with open(os.path.join(assets, "fish.json")) as file:
@@ -63,7 +63,7 @@ class Package(unittest.TestCase):
             self.assertEqual(name.returncode, 0)
             windows = subprocess.run(["xdotool", "search", "--class", "^holomorph$"], env=editor.environment,
                                      capture_output=True, text=True).stdout.split()
-            self.assertTrue(windows, "the window is known by the desktop file's name")
+            self.assertTrue(windows, "the window has the class that the desktop file names")
             editor.press(100, 280)  # the first tile
             editor.wait(lambda s: s["cage_points"] == points, "the sample")
 
@@ -72,7 +72,7 @@ class Package(unittest.TestCase):
         with open(os.path.join(doc, "copyright")) as file:
             text = file.read()
         self.assertIn("License: GPL-3", text)
-        for part in ("CGAL", "Dear ImGui", "CLI11"):  # compiled in: their notices must be there
+        for part in ("CGAL", "Dear ImGui", "CLI11"):  # compiled in, so their notices must be included
             self.assertIn(part, text)
         self.assertIn("/usr/share/common-licenses/GPL-3", text)
         with open(os.path.join(doc, "README.md")) as file:
@@ -86,7 +86,7 @@ class Package(unittest.TestCase):
         page = os.path.join(self.root, "usr/share/man/man1/holomorph.1")
         shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", page], capture_output=True, text=True)
         self.assertEqual((shown.returncode, shown.stderr), (0, ""))
-        manual = re.sub(".\x08", "", shown.stdout)  # bold as typewriters print it
+        manual = re.sub(".\x08", "", shown.stdout)  # bold text, which is overstruck as on a typewriter
         commands = re.findall(r"^  ([a-z]+) ", subprocess.run([self.program, "--help"], check=True, capture_output=True,
                                                              text=True).stdout.split("Subcommands:")[1], re.M)
         self.assertGreater(len(commands), 7)

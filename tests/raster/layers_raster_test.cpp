@@ -1,4 +1,5 @@
-// Layers above each other: what is opaque or alone stays bit for bit, and the order is the stack's.
+// Compositing of layers: opaque pixels and pixels of a single layer are exact, and the order is
+// that of the stack.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -33,7 +34,8 @@ ImageReference reference(const char* file) {
 
 constexpr Pixel kRed{255, 0, 0, 255}, kBlue{0, 0, 255, 255}, kNothing{0, 0, 0, 0};
 
-/// A red picture of 60 x 40 below a blue one of 30 x 20, which is edited; both with a cage.
+/// A red picture of 60 x 40 below a blue one of 30 x 20, which is the edited layer. Both have a
+/// cage.
 struct Two {
   Image blue = filled(30, 20, kBlue);
   Pictures pictures;
@@ -63,7 +65,7 @@ Scene moved(Scene scene, Complex by) {
 
 }  // namespace
 
-TEST_CASE("The upper layer covers the lower one where it is, and nothing else changes") {
+TEST_CASE("The upper layer covers the lower one in its own rectangle, and nothing else changes") {
   Two two;
   const Image image = two.drawn().image;
   REQUIRE(image.width == 60);
@@ -75,7 +77,7 @@ TEST_CASE("The upper layer covers the lower one where it is, and nothing else ch
   CHECK(two.drawn().image == filled(60, 40, kRed));
 }
 
-TEST_CASE("A layer that leaves the lowest picture enlarges the result, unless that is cropped") {
+TEST_CASE("A layer outside the lowest picture's rectangle enlarges the result, except with crop") {
   Two two;
   two.scene = moved(two.scene, {-10, 30});
   const RasterResult result = two.drawn();
@@ -94,7 +96,7 @@ TEST_CASE("A layer that leaves the lowest picture enlarges the result, unless th
   CHECK(pixel_at(cropped, 30, 0) == kRed);
 }
 
-TEST_CASE("Hidden layers are not drawn, and a scene of hidden layers says so") {
+TEST_CASE("Hidden layers are not drawn, and a scene with only hidden layers is an error") {
   Two two;
   change_layer(two.scene, [](Layer& layer) { layer.visible = false; });
   CHECK(two.drawn().image == filled(60, 40, kRed));
@@ -116,9 +118,9 @@ TEST_CASE("The background shows through where no layer is") {
   CHECK(pixel_at(two.drawn().image, 0, 0) == Pixel{9, 8, 7, 255});
   CHECK(pixel_at(two.drawn().image, 69, 0) == kBlue);
   two.scene.background.fill = Background::Fill::original;
-  CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // as it was before it moved
+  CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // the undeformed picture
   CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
-  // The same in a scene of one layer.
+  // The same in a scene with one layer.
   Scene alone = moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0});
   alone.background = {Background::Fill::original};
   const Image both = picture_of(alone, &two.blue).image;
@@ -127,14 +129,14 @@ TEST_CASE("The background shows through where no layer is") {
   CHECK(pixel_at(both, 35, 0) == kNothing);
 }
 
-TEST_CASE("Views of the map are about the edited layer alone") {
+TEST_CASE("Views of the map show only the edited layer") {
   const Two two;
   PictureOptions options;
   options.view = View::checker;
   CHECK(two.drawn(options).image.width == 30);
 }
 
-TEST_CASE("Pixels blend as light does: the mean of colours weighted by what is seen of them") {
+TEST_CASE("Blended pixels are the mean of their colors, weighted by their visible parts") {
   RasterResult under{filled(2, 1, {200, 100, 0, 255}), 0}, over{filled(2, 1, {0, 100, 200, 51}), 0};
   const Image opaque = composed(under, over, 1).image;
   CHECK(pixel_at(opaque, 0, 0) == Pixel{160, 100, 40, 255});
@@ -149,7 +151,7 @@ TEST_CASE("Pixels blend as light does: the mean of colours weighted by what is s
   CHECK(composed(under, over, 1).image == under.image);
 }
 
-TEST_CASE("Layers of other heights share one grid of pixels at any scale") {
+TEST_CASE("Layers with different heights share one pixel grid at any scale") {
   const Two two;
   PictureOptions options;
   options.scale = 0.37;
@@ -160,8 +162,8 @@ TEST_CASE("Layers of other heights share one grid of pixels at any scale") {
   CHECK(pixel_at(image, 20, 2) == kRed);
 }
 
-TEST_CASE("Where a picture lies over itself, the higher pin's part is on top") {
-  // A bar, red at the left and blue at the right, that folds back onto itself by its pins.
+TEST_CASE("Where a picture overlaps itself, the part of the higher pin is on top") {
+  // A bar, red on the left and blue on the right, whose pins fold it back onto itself.
   Image bar = filled(300, 40, kRed);
   for (int row = 0; row < 40; ++row)
     for (int column = 150; column < 300; ++column)

@@ -1,4 +1,4 @@
-// Exported pixels: identities, conservation and no seams.
+// Exported pixels: identities, conservation of area, and no seams.
 #include "raster/raster.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using namespace holomorph;
 
 namespace {
 
-/// Random colours and alphas, the hidden colours of transparent pixels among them.
+/// Random colors and alphas, including hidden colors of transparent pixels.
 Image noise(int width, int height, unsigned seed, bool opaque = false) {
   std::mt19937 random(seed);
   Image image(width, height);
@@ -40,7 +40,7 @@ RasterJob job_of(const Mesh& mesh, const Points& positions, const Image& image) 
 
 }  // namespace
 
-TEST_CASE("The identity pose gives the source back bit for bit, whatever the cage") {
+TEST_CASE("The identity pose gives the source back bit for bit, with any cage") {
   const Image image = noise(220, 190, 1);
   for (const Points& polygon : {shapes::l_shape(), shapes::star(17, 0.4, 2),
                                 shapes::rectangle(220, 190), shapes::comb(6)}) {
@@ -57,7 +57,7 @@ TEST_CASE("The identity pose gives the source back bit for bit, whatever the cag
   }
 }
 
-TEST_CASE("A move by whole pixels moves whole pixels") {
+TEST_CASE("A translation by whole pixels copies pixels exactly") {
   const Image image = noise(80, 60, 3, true);
   const Mesh mesh = domain_mesh(Points{{-4, -4}, {84, -4}, {84, 64}, {-4, 64}}, {500});
   Points moved = mesh.vertices;
@@ -73,7 +73,7 @@ TEST_CASE("A move by whole pixels moves whole pixels") {
   CHECK(different == 0);
 }
 
-TEST_CASE("One colour stays that colour: no seams, no dark fringes") {
+TEST_CASE("A uniform color stays uniform: no seams, no dark fringes") {
   Image image(200, 200);
   for (size_t i = 0; i < image.pixels.size(); i += 4)
     std::memcpy(&image.pixels[i], "\xc8\x64\x32\xff", 4);
@@ -99,14 +99,15 @@ TEST_CASE("One colour stays that colour: no seams, no dark fringes") {
   double area = 0;
   for (const Triangle& t : mesh.triangles)
     area += 0.5 * cross(bent[t[1]] - bent[t[0]], bent[t[2]] - bent[t[0]]);
-  // Coverage adds up to the area, but for the source's own border, which fades over a pixel: where
-  // an edge cuts a pixel at the part x, coverage x meets alpha x, and the mean of x - x^2 is 1/6.
+  // Coverage adds up to the area, except at the source's own border, which fades over a pixel:
+  // where an edge cuts a pixel at the fraction x, both coverage and alpha are x, and the mean of x
+  // - x^2 is 1/6.
   Points border;
   for (const int v : mesh.boundary) border.push_back(bent[v]);
   CHECK(alpha == Approx(area - perimeter(border) / 6).epsilon(5e-4));
 }
 
-TEST_CASE("The number of threads changes nothing") {
+TEST_CASE("The result does not depend on the number of threads") {
   const Image image = noise(150, 170, 9);
   const Mesh mesh = domain_mesh(shapes::star(12, 0.3, 5), {600});
   Points bent = mesh.vertices;
@@ -148,7 +149,7 @@ TEST_CASE("Later triangles lie on top, and a fold is drawn") {
   CHECK(different == 0);
 }
 
-TEST_CASE("Nothing is cut off, unless asked") {
+TEST_CASE("Nothing is cut off without crop") {
   const Image image = noise(50, 40, 6, true);
   Deformation deformation =
       with_cage(Deformation{}, Points{{-2, -2}, {52, -2}, {52, 42}, {-2, 42}});
@@ -164,7 +165,7 @@ TEST_CASE("Nothing is cut off, unless asked") {
   CHECK(picture_of(scene_of(deformation), &image, options).image.width == 50);
 }
 
-TEST_CASE("Pictures that are too large, or of nothing, are refused") {
+TEST_CASE("Pictures that are too large or empty are refused") {
   const Image image = noise(10, 10, 6, true);
   PictureOptions options;
   for (const double scale : {1e6, 1e9, 0.0, -1.0, std::nan("")}) {
@@ -185,7 +186,7 @@ TEST_CASE("Pictures that are too large, or of nothing, are refused") {
             .image.width == 10);
 }
 
-TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others stay") {
+TEST_CASE("Bleeding copies the nearest covered pixel within reach and keeps all other pixels") {
   std::mt19937 random(5);
   const int w = 61, h = 47;
   const Image before = noise(w, h, 8);
@@ -228,7 +229,7 @@ TEST_CASE("Bled pixels are the nearest covered ones, within reach; all others st
   CHECK(none.pixels == before.pixels);
 }
 
-TEST_CASE("A texture has the picture's colours up to the surface's edge and a little beyond") {
+TEST_CASE("A texture has the picture's colors up to the surface's edge and a little beyond") {
   Image image(200, 160);
   for (int r = 0; r < 160; ++r)
     for (int c = 0; c < 200; ++c)
@@ -247,7 +248,7 @@ TEST_CASE("A texture has the picture's colours up to the surface's edge and a li
   for (const double scale : {0.5, 1.0, 3.0}) {
     const TexturedSurface on = textured(laid_surface_of(deformation), deformation, &image, scale);
     const int w = on.texture.width, h = on.texture.height;
-    CHECK(on.texture.at(0, 0)[3] == 0);  // what is around the surface is not part of it
+    CHECK(on.texture.at(0, 0)[3] == 0);  // around the surface it is transparent
     for (const Complex& uv : on.coordinates) {
       REQUIRE(std::min({uv.real(), uv.imag(), 1 - uv.real(), 1 - uv.imag()}) > 0);
       for (const Complex& off : {Complex(0), Complex(1, 0), Complex(-1, 0), Complex(0, 1)}) {
@@ -258,7 +259,7 @@ TEST_CASE("A texture has the picture's colours up to the surface's edge and a li
         REQUIRE(on.texture.at(c, r)[1] == 40);
       }
     }
-    // The same similarity everywhere: a pixel is a pixel.
+    // The coordinates are one similarity of the plane, so texture pixels are not stretched.
     const LaidSurface laid = laid_surface_of(deformation);
     const Complex first = on.coordinates[0], last = on.coordinates.back();
     CHECK((last - first).real() * w ==

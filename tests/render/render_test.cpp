@@ -1,4 +1,4 @@
-// OpenGL against the processor: the operator in the shader, and the picture on the screen.
+// Compares OpenGL with the CPU: the operator in the shader, and the picture on the screen.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -24,7 +24,7 @@ namespace {
 struct Context {
   GLFWwindow* window = nullptr;
   Context(int width, int height) {
-    // Once for the program: a virtual display starts afresh when its last client leaves.
+    // Once per program, because a virtual display resets when its last client disconnects.
     static const int ready = glfwInit();
     REQUIRE(ready);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
@@ -42,7 +42,7 @@ struct Context {
 
 }  // namespace
 
-TEST_CASE("The shader's operator places vertices as the processor does, to 1e-4 px") {
+TEST_CASE("The shader's operator positions vertices like the CPU, to 1e-4 px") {
   const Context context(64, 64);
   Renderer renderer;
   for (const Method& method : methods()) {
@@ -114,11 +114,11 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
     const double mean = sum / (3.0 * width * height);
     INFO(name << ", mean difference " << mean << ", far " << far << ", " << driver_name());
     CHECK(mean < 0.8);                        // of 255
-    CHECK(far < 0.002 * 3 * width * height);  // silhouettes and small details alone
+    CHECK(far < 0.002 * 3 * width * height);  // only silhouettes and small details
   }
 }
 
-TEST_CASE("Ghosts of the picture are tinted, half transparent and behind it") {
+TEST_CASE("Ghosts of the picture are tinted, half transparent, and drawn behind it") {
   constexpr int kSide = 60;
   const Context context(kSide, kSide);
   Renderer renderer;
@@ -146,7 +146,7 @@ TEST_CASE("Ghosts of the picture are tinted, half transparent and behind it") {
   CHECK((beside[0] == 0 && beside[1] == 0));
 }
 
-TEST_CASE("A picture beyond the driver's textures is shown reduced, in its own place") {
+TEST_CASE("A picture too large for the driver is reduced, but keeps its position and size") {
   const Context context(64, 64);
   Renderer renderer;
   GLint largest = 0;
@@ -172,7 +172,7 @@ TEST_CASE("A picture beyond the driver's textures is shown reduced, in its own p
   CHECK(shown.at(54, 32)[0] < 50);
 }
 
-TEST_CASE("A mesh or an operator that is taken away is not drawn") {
+TEST_CASE("A removed mesh or operator is not drawn") {
   const Context context(32, 32);
   Renderer renderer;
   renderer.set_mesh(nullptr);
@@ -189,7 +189,7 @@ TEST_CASE("A mesh or an operator that is taken away is not drawn") {
   CHECK(shown.at(5, 5)[1] == 0);
 }
 
-TEST_CASE("A heat map on the canvas has the colours of the exported one") {
+TEST_CASE("A heat map on the canvas has the colors of the exported one") {
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   deformation.pose.segments[2][0] += Complex(40, -25);
   const auto prepared = prepared_map(deformation, Precision::single, {3000});
@@ -235,14 +235,14 @@ TEST_CASE("A heat map on the canvas has the colours of the exported one") {
       }
     INFO("view " << static_cast<int>(view) << ", far " << far << " of " << compared);
     CHECK(compared > 20000);
-    CHECK(far < compared / 50);  // edges of the checker, and nothing else
+    CHECK(far < compared / 50);  // only at edges of the checker
   }
 }
 
-TEST_CASE("A surface in space shows its texture upright, its clay, its back and what is in front") {
+TEST_CASE("A surface in space shows its texture upright, its clay, its back and its nearest part") {
   const Context context(64, 64);
   Framebuffer flat, space;
-  // A texture of four colours: red and green below, blue and nothing above.
+  // A texture with four colors: red and green at the bottom, blue and transparent at the top.
   const int n = 256;
   flat.bind(n, n);
   glEnable(GL_SCISSOR_TEST);
@@ -267,7 +267,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
                      flat.texture(),
                      {0.1f, 0.1f, 0.1f},
                      {1, 1, 1}};
-  frame.to_view(2, 3) = -2;  // before the camera
+  frame.to_view(2, 3) = -2;  // in front of the camera
   frame.to_clip.diagonal() << 0.8, 0.8, -0.1, 1;
   SurfaceRenderer renderer;
   const auto pixel = [&](int x, int y) {  // y up
@@ -285,11 +285,11 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   CHECK((green[1] > 200 && green[0] < 10));
   CHECK((blue[2] > 200 && blue[0] < 10));
   CHECK((clay[0] > 200 && clay[0] == clay[1] && clay[1] == clay[2]));
-  CHECK(pixel(2, 2)[0] == 26);  // beside it, the background
+  CHECK(pixel(2, 2)[0] == 26);  // the background next to it
   frame.texture = 0;
   CHECK(pixel(30, 30) == clay);
   frame.texture = flat.texture();
-  // Just outside the picture its nearest colour is still there.
+  // Just outside the picture, its nearest color is still visible.
   renderer.set_coordinates({{0.505, 0}, {0.51, 0}, {0.51, 0.49}, {0.505, 0.49}});
   CHECK(pixel(50, 50)[1] > 200);
   renderer.set_coordinates({{0.2, 0.505}, {0.21, 0.505}, {0.21, 0.51}, {0.2, 0.51}});
@@ -297,7 +297,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   renderer.set_coordinates({{0.505, 0.7}, {0.505, 0.7}, {0.505, 0.7}, {0.505, 0.7}});
   const auto bled = pixel(50, 50);
   CHECK((bled[2] > 200 && bled[0] < 10));
-  // From behind it is darker.
+  // The back is darker.
   renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
   const auto front = pixel(50, 50);
   std::swap(square.triangles[0][1], square.triangles[0][2]);
@@ -306,7 +306,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
   const auto back = pixel(50, 50);
   CHECK((back[0] < 0.7 * front[0] && back[0] > 0));
-  // Far from the origin nothing trembles.
+  // Far from the origin the result is the same.
   Surface far = square;
   const Eigen::Vector3d away(3e7, -2e7, 1e7);
   for (Eigen::Vector3d& p : far.vertices) p += away;
@@ -315,7 +315,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   frame.to_view.topRightCorner<3, 1>() -= away;
   CHECK(pixel(50, 50) == back);
   frame.to_view.topRightCorner<3, 1>() += away;
-  // What is nearer hides what is behind it, in whatever order they come.
+  // Nearer parts hide those behind them, in any order of triangles.
   Surface two = square;
   for (int k = 0; k < 4; ++k)
     two.vertices.push_back(square.vertices[static_cast<size_t>(k)] + Eigen::Vector3d(0, 0, 0.5));
@@ -333,7 +333,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   CHECK(pixel(50, 50)[1] > 200);
 }
 
-TEST_CASE("The map alone is opaque where it is and nothing elsewhere") {
+TEST_CASE("The map alone is opaque on its image and transparent elsewhere") {
   const Context context(64, 64);
   const LoadedScene loaded = load_scene(std::string(HOLOMORPH_SOURCE) + "/assets/gecko.json");
   const auto prepared = prepared_map(loaded.scene.deformation(), Precision::single, {1000});
