@@ -1,5 +1,6 @@
-// The content's distance field has the offset outline as a level curve; marching squares traces it,
-// and simplified_around thins it without giving up a lower level curve, which holds the content.
+// The offset outline is a level curve of the distance field of the content. Marching squares traces
+// it, and simplified_around simplifies it while it keeps a lower level curve, which contains the
+// content, inside.
 #include "scene/auto_cage.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ struct Grid {
   T operator()(int c, int r) const { return cells[static_cast<size_t>(r) * width + c]; }
 };
 
-/// A stretch of ones in a row, and the run that stands for its part so far (union-find).
+/// A run of ones in a row, and the run that represents its connected part so far (union-find).
 struct Run {
   int row, begin, end;
   size_t parent;
@@ -48,7 +49,7 @@ size_t root_of(std::vector<Run>& runs, size_t run) {
 /// Keeps the largest 8-connected set of ones.
 void keep_largest_part(Grid<std::uint8_t>& mask) {
   std::vector<Run> runs = runs_of(mask);
-  size_t above = 0;  // the first run of the row before that may touch this one
+  size_t above = 0;  // the first run of the previous row that may touch this one
   for (size_t i = 0; i < runs.size(); ++i) {
     while (runs[above].row < runs[i].row - 1 ||
            (runs[above].row == runs[i].row - 1 && runs[above].end < runs[i].begin))
@@ -100,7 +101,7 @@ void transform_line(const std::vector<double>& f, std::vector<double>& d, std::v
   }
 }
 
-/// Distance of every cell's centre to the nearest centre of a cell of the mask, in cells.
+/// The distance of the center of each cell to the nearest center of a cell of the mask, in cells.
 Grid<double> distance_field(const Grid<std::uint8_t>& mask) {
   Grid<double> field(mask.width, mask.height, 1e20);
   const int longest = std::max(mask.width, mask.height);
@@ -121,10 +122,11 @@ Grid<double> distance_field(const Grid<std::uint8_t>& mask) {
   return field;
 }
 
-/// The longest level curve {field = level} as a closed polygon in cell coordinates (centre of cell
-/// (c, r) at (c, r), r downwards), the lower side on its left seen with r upwards.
+/// The level curve {field = level} of largest area, as a closed polygon. The center of cell (c, r)
+/// is at c - i r, with r downwards. Lower values are to its left.
 Points level_curve(const Grid<double>& field, double level) {
-  // Crossings are numbered by the grid edge they lie on: horizontal ones first, then vertical ones.
+  // Crossings are numbered by the grid edge on which they lie: horizontal edges first, then
+  // vertical ones.
   const int w = field.width, h = field.height;
   const auto horizontal = [&](int c, int r) { return r * w + c; };
   const auto vertical = [&](int c, int r) { return w * h + r * w + c; };
@@ -144,7 +146,7 @@ Points level_curve(const Grid<double>& field, double level) {
         if (!corner[k] && corner[(k + 1) % 4]) leaving[outs++] = k;
       }
       for (int k = 0; k < ins; ++k) {
-        // In a saddle the inside is one piece: each entry joins the exit before it around the cell.
+        // In a saddle the inside is connected: each entry joins the exit before it around the cell.
         int to = leaving[0];
         if (ins == 2) to = leaving[0] == (entering[k] + 3) % 4 ? leaving[1] : leaving[0];
         next[edge[entering[k]]] = edge[to];
@@ -188,8 +190,8 @@ std::vector<std::uint8_t> largest_part(const Image& image) {
 
 namespace {
 
-/// Level curves of the distance to the content: the cage follows the outer one and keeps the inner
-/// one. Both are empty when there is no content to follow.
+/// Level curves of the distance to the content. The cage follows the outer one and contains the
+/// inner one. Both are empty if there is no content to follow.
 struct Levels {
   Points outline, kept;
 };
@@ -198,12 +200,12 @@ Levels levels_of(const Image& image, double margin) {
   if (!has_transparency(image)) return {};
   const std::vector<std::uint8_t> part = largest_part(image);
   if (part.empty()) return {};
-  // Cells of `scale` pixels: a cell with any pixel of the part counts whole.
+  // Each cell has scale x scale pixels; it is set if any of them belongs to the part.
   constexpr int kMostCells = 768;
   const int longest = std::max(image.width, image.height);
   const int scale = (longest + kMostCells - 1) / kMostCells;
-  // Distances are roots of whole numbers; a level between them never passes through a cell's
-  // centre, where a level curve could touch itself.
+  // Distances are square roots of integers. A level between two of them never passes through the
+  // center of a cell, where a level curve could touch itself.
   constexpr double kBetween = 0.0073;
   const double level = std::max(margin / scale, 1.6) + kBetween,
                kept_level = std::max(0.45 * level, 0.75) + kBetween;
@@ -217,12 +219,12 @@ Levels levels_of(const Image& image, double margin) {
   const Grid<double> field = distance_field(cells);
   Levels levels{level_curve(field, level), level_curve(field, kept_level)};
   for (Points* curve : {&levels.outline, &levels.kept})
-    for (Complex& z : *curve)  // cell centres to image pixels, y up
+    for (Complex& z : *curve)  // cell centers to image pixels, y up
       z = {(z.real() - border + 0.5) * scale, image.height + (z.imag() + border - 0.5) * scale};
   return levels;
 }
 
-/// Rounding to 1/16 px reads well in files and cannot reach the content, 0.7 cells away.
+/// Rounded to 1/16 px, which reads well in files and cannot reach the content, 0.7 cells away.
 Cage rounded(Cage cage) {
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};
@@ -237,7 +239,8 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
                 "a cage has 3 to 500 vertices, not " + std::to_string(options.vertices));
   const int longest = std::max(image.width, image.height);
   if (!std::isfinite(options.margin) || options.margin > 4.0 * longest)
-    throw Error(ErrorKind::bad_input, "the margin is larger than four times the picture");
+    throw Error(ErrorKind::bad_input,
+                "the margin must be at most four times the longer side of the picture");
   const double margin = options.margin < 0 ? std::max(3.0, 0.02 * longest) : options.margin;
   const Levels levels = levels_of(image, margin);
   if (levels.outline.empty()) return polygon_cage(rectangle(image, margin));

@@ -1,4 +1,4 @@
-// A cage from a picture's alpha.
+// Builds a cage around a picture's content from its alpha channel.
 #pragma once
 
 #include "core/geometry/cage.h"
@@ -10,21 +10,21 @@ namespace holomorph {
 inline constexpr int kOpaqueAlpha = 8;
 
 struct AutoCageOptions {
-  int vertices = 30;    ///< wanted number of cage vertices, 3 to 500
+  int vertices = 30;    ///< requested number of cage vertices, 3 to 500
   double margin = -1;   ///< distance from the content in pixels; negative: 2 % of the longer side
-  bool curved = false;  ///< cubic segments instead of edges
+  bool curved = false;  ///< cubic segments instead of straight edges
 };
 
 /// A simple counter-clockwise cage around the largest connected part of a picture's content
-/// (8-neighbours): it contains every pixel of that part, keeps about `margin` away and has about
-/// the wanted number of vertices (more where fewer would cut the content).
-/// A picture without transparency, or without content, gets a rectangle around it.
-/// Throws Error for options out of range. Cost: a few ns per pixel, then about 50 ms for the
-/// outline on a grid of at most 768 cells a side.
+/// (8-neighbors). It contains every pixel of that part, keeps about `margin` away from it and has
+/// about the requested number of vertices, or more where fewer would cut the content. A picture
+/// without transparency, or without content, gets a rectangle around it. Throws Error for options
+/// out of range. Cost: a few ns per pixel, plus about 50 ms for the outline on a grid of at most
+/// 768 cells per side.
 Cage auto_cage(const Image& image, const AutoCageOptions& options = {});
 
-/// The largest connected part of the content as a mask of width x height bytes, 1 inside; empty
-/// when there is no content.
+/// The largest connected part of the content, as a mask of width x height bytes with 1 inside.
+/// Empty if there is no content.
 std::vector<std::uint8_t> largest_part(const Image& image);
 
 }  // namespace holomorph

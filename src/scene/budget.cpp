@@ -1,4 +1,4 @@
-// One table says what each budget is called, for messages and for the command line.
+// A single table has the names of all limits, for messages and for the command line.
 #include "scene/budget.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ Budget& current() {
   return budget;
 }
 
-/// Rounded up, with three digits at least.
+/// The amount as text, rounded up to at least three digits.
 std::string shown(double amount) {
   char text[40];
   const double step = amount >= 100 ? 1 : std::pow(10, std::floor(std::log10(amount)) - 2);
@@ -35,11 +35,11 @@ const std::vector<BudgetOption>& budget_options() {
   static const std::vector<BudgetOption> all{
       {"--max-pixels", "megapixels", "Limit for all pictures of a scene", &Budget::pixels, 1e6},
       {"--max-coordinates", "million coordinates",
-       "Limit for control points times mesh vertices, or points", &Budget::coordinates, 1e6},
+       "Limit for control points times mesh vertices or points", &Budget::coordinates, 1e6},
       {"--max-keyframe-memory", "MB", "Limit for the memory of the maps at keyframes",
        &Budget::operators, 1e6},
-      {"--max-scene-size", "MB", "Limit for a scene file", &Budget::scene, 1e6},
-      {"--max-groups", "levels", "Limit for groups in an SVG file", &Budget::groups, 1},
+      {"--max-scene-size", "MB", "Limit for the size of a scene file", &Budget::scene, 1e6},
+      {"--max-groups", "levels", "Limit for nested groups in an SVG file", &Budget::groups, 1},
       {"--max-frames", "frames", "Limit for one film", &Budget::frames, 1}};
   return all;
 }
@@ -49,10 +49,9 @@ void check_budget(double Budget::*limit, double amount, const std::string& what)
   if (!(amount > most)) return;
   const auto found = std::ranges::find(budget_options(), limit, &BudgetOption::limit);
   const std::string needed = shown(amount / found->per_unit);
-  throw Error(ErrorKind::bad_input, what + " " + needed + " " + found->unit + "; at most " +
-                                        shown(most / found->per_unit) +
-                                        " are allowed. Start with " + found->name + " " + needed +
-                                        " to raise the limit");
+  throw Error(ErrorKind::bad_input, what + " " + needed + " " + found->unit + "; the limit is " +
+                                        shown(most / found->per_unit) + ". Start with " +
+                                        found->name + " " + needed + " to raise it");
 }
 
 }  // namespace holomorph

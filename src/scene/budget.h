@@ -1,4 +1,5 @@
-// What files may cost at most, so that no stranger's file takes all memory or time.
+// Limits on the memory and time that a file may use, so that an untrusted file cannot exhaust the
+// machine.
 #pragma once
 
 #include <string>
@@ -11,18 +12,20 @@ namespace holomorph {
 /// Limits on what is read and prepared. Each can be raised on the command line.
 struct Budget {
   double pixels = 256e6;      ///< of all pictures of a scene together
-  double coordinates = 50e6;  ///< control points, those of curves twice, times places of a map
-  double operators = 1e9;     ///< bytes of the maps that are kept for a layer's keyframes
+  double coordinates = 50e6;  ///< control points (those of curves count twice) times sample points
+  double operators = 1e9;     ///< bytes of the maps kept for keyframes
   double scene = 64e6;        ///< bytes of a scene file
-  double groups = 256;        ///< levels of groups in an SVG file
+  double groups = 256;        ///< nesting levels of groups in an SVG file
   double frames = 100000;     ///< of one film
 };
 
-/// What the program allows. Set before anything is read; not guarded against threads.
+/// The limits in force. Set them before anything is read; access is not synchronized between
+/// threads.
 const Budget& budget();
 void set_budget(const Budget& budget);
 
-/// A budget's option on the command line, the unit that it counts in, and what that unit is called.
+/// The command-line option of a limit: its name, the name of its unit, its help text, and the size
+/// of one unit.
 struct BudgetOption {
   const char *name, *unit, *what;
   double Budget::*limit;
@@ -30,8 +33,8 @@ struct BudgetOption {
 };
 const std::vector<BudgetOption>& budget_options();
 
-/// Throws Error{bad_input} where `amount` is above a limit: "WHAT need 300 megapixels; at most 256
-/// are allowed. Start with --max-pixels 300 to raise the limit."
+/// Throws Error{bad_input} if `amount` is above a limit: "WHAT 300 megapixels; the limit is 256.
+/// Start with --max-pixels 300 to raise it".
 void check_budget(double Budget::*limit, double amount, const std::string& what);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// The two halves that maps are made of: what rests and what moves.
+// Splits a deformation into the two inputs of its map: the rest state and the pose.
 #include "scene/deformation.h"
 
 #include "core/error.h"
@@ -37,7 +37,7 @@ Pose pose_of(const Deformation& deformation) {
   return used_by(method_named(deformation.method), whole_pose_of(deformation));
 }
 
-// A pose without corners is one from before they were listed: none of them had turned.
+// A pose without corners was made before corners were listed, so none of them is turned.
 bool fits(const Deformation& deformation, const Pose& pose) {
   return pose.cage.size() == deformation.rest.size() &&
          pose.pins.size() == deformation.pins.size() &&
@@ -75,7 +75,7 @@ Deformation at_rest(Deformation deformation) {
 
 Deformation with_cage(Deformation deformation, Cage cage) {
   deformation.rest = std::move(cage);
-  deformation.corners.clear();  // other vertices
+  deformation.corners.clear();  // the vertices have changed
   return at_rest(std::move(deformation));
 }
 

@@ -1,4 +1,5 @@
-// What methods and tools know of a layer: handles at rest and posed, the method, keyframes.
+// The deformation of a layer as methods and tools see it: handles at rest and posed, the method,
+// and keyframes.
 #pragma once
 
 #include <memory>
@@ -11,11 +12,12 @@
 
 namespace holomorph {
 
-/// JSON object text of keys that this version does not know; they are kept and written back.
+/// The keys that this version does not know, as the text of a JSON object. They are kept and
+/// written back.
 using Extra = std::string;
 
-/// A surface in space whose flat boundary is the outline. In a file the path is relative to the
-/// scene's folder, in a loaded scene absolute.
+/// A surface in space whose flattened boundary is the outline. The path is relative to the scene's
+/// folder in a file, and absolute in a loaded scene.
 struct SurfaceReference {
   std::string file;
   Flattening flattening = Flattening::lscm;
@@ -23,24 +25,25 @@ struct SurfaceReference {
   bool operator==(const SurfaceReference&) const = default;
 };
 
-/// A point handle; with an angle it turns and scales the picture around it, too.
+/// A point handle. With an angle, it also rotates and scales the picture around it.
 struct Pin {
   Complex rest, pose;
   std::optional<double> angle;
   Extra extra;
-  double scale = 1;  ///< acts with an angle only
-  int depth = 0;     ///< what lies around a higher one is drawn over the rest
+  double scale = 1;  ///< has an effect only with an angle
+  int depth = 0;     ///< the picture around a pin of greater depth is drawn on top
   bool operator==(const Pin&) const = default;
 };
 
-/// A line on the picture and where it goes; both run the same way.
+/// A line on the picture and its target. Both run in the same direction.
 struct Stroke {
   Points rest, pose;
   Extra extra;
   bool operator==(const Stroke&) const = default;
 };
 
-/// A vertex of the cage whose angles method `angles` sets. Without any, all vertices are corners.
+/// A cage vertex whose boundary angles method `angles` sets. If no corners are listed, all vertices
+/// are corners.
 struct Corner {
   Index vertex = 0;
   PoseCorner pose = {};
@@ -48,8 +51,9 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-/// How a keyframe goes on to the next one: smooth ones pass their keys without a stop and rest at
-/// both ends, linear ones go evenly, hold stays until the next key.
+/// How the motion runs from a keyframe to the next one. Smooth: it passes through keys without
+/// stopping and comes to rest at both ends. Linear: it runs at constant speed. Hold: the pose stays
+/// until the next key.
 enum class Ease { smooth, linear, hold };
 
 /// A pose at a time.
@@ -57,55 +61,56 @@ struct Keyframe {
   double time = 0;  ///< seconds
   Pose pose = {};
   Ease ease = Ease::smooth;
-  int turns = 0;  ///< whole turns on the way from the key before, beyond the shortest
+  int turns = 0;  ///< whole turns since the previous key, in addition to the shortest rotation
   Extra pose_extra = {}, extra = {};
   bool operator==(const Keyframe&) const = default;
 };
 
 inline constexpr double kMostPinTurn = 1e5;                    ///< radians
-inline constexpr int kMostDepth = 1000;                        ///< of a pin, up or down
+inline constexpr int kMostDepth = 1000;                        ///< of a pin, in absolute value
 inline constexpr double kLongestTime = 3600;                   ///< seconds
-inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< a second
-inline constexpr int kMostTurns = 150;                         ///< on the way to a keyframe
+inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< per second
+inline constexpr int kMostTurns = 150;                         ///< between two keyframes
 inline constexpr size_t kMostKeyframes = 2000;
 
-/// How a picture is deformed. Rest and pose of the cage have the same number of segments; both are
+/// How a picture is deformed. The rest and posed cages have the same number of segments; both are
 /// empty until a cage is drawn. Value type.
 struct Deformation {
   Cage rest, pose;
   std::vector<Pin> pins = {};
   std::vector<Stroke> strokes = {};
-  Points outline = {};  ///< closed; where method `outline` takes the cage's shape
+  Points outline = {};  ///< closed; the target shape of the cage for method `outline`
   std::optional<SurfaceReference> surface = {};
-  std::vector<Corner> corners = {};      ///< by increasing vertex
+  std::vector<Corner> corners = {};      ///< sorted by vertex
   std::vector<BrushDab> stiffness = {};  ///< painted, for methods that use it
-  /// By increasing time. Those whose structure differs from the handles' are kept, but do not play.
+  /// Sorted by time. Keyframes whose structure differs from that of the handles are kept but do not
+  /// play.
   std::vector<Keyframe> keyframes = {};
   std::string method = usual_method(MethodUse::cage).id;
   Parameters parameters = {};
-  std::map<std::string, Parameters> other_parameters = {};  ///< of methods it had before, by id
+  std::map<std::string, Parameters> other_parameters = {};  ///< of earlier methods, by id
   Extra cage_extra = {}, method_extra = {};
 
   bool has_cage() const { return rest.size() > 0; }
   bool operator==(const Deformation&) const = default;
 };
 
-/// Everything that moves, whatever the method uses.
+/// The pose of all handles, including those that the method does not use.
 Pose whole_pose_of(const Deformation& deformation);
-/// Whether a pose has the deformation's structure.
+/// Whether a pose has the structure of the deformation.
 bool fits(const Deformation& deformation, const Pose& pose);
-/// The deformation in a pose that fits.
+/// The deformation in this pose, which must fit.
 Deformation posed_as(Deformation deformation, const Pose& pose);
 
-/// What the deformation's method precomputes from, without samples; degrees are high enough for all
-/// keyframes.
+/// The rest state from which the deformation's method precomputes, without samples. Its degrees are
+/// high enough for all keyframes.
 Rest rest_of(const Deformation& deformation, Precision precision);
-/// What moves.
+/// The pose of the handles that the method uses.
 Pose pose_of(const Deformation& deformation);
-/// The deformation with everything posed as it rests.
+/// The deformation with all handles at rest.
 Deformation at_rest(Deformation deformation);
-/// The deformation with this cage, everything at rest: pins and strokes keep their rest and
-/// return to it.
+/// The deformation with this cage and all handles at rest. Pins and strokes keep their rest
+/// positions and return to them.
 Deformation with_cage(Deformation deformation, Cage cage);
 Deformation with_cage(Deformation deformation, const Points& polygon);
 

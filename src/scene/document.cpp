@@ -1,4 +1,4 @@
-// Saving elsewhere rewrites what the scene names; an autosave names it absolutely.
+// Saving to another folder rewrites the paths in the scene. An autosave has absolute paths.
 #include "scene/document.h"
 
 #include <random>
@@ -66,7 +66,7 @@ bool Document::changed_on_disk() {
   } catch (const Error&) {
     return true;
   }
-  stamp_.time = time;  // touched, and the same
+  stamp_.time = time;  // touched but unchanged
   return false;
 }
 
@@ -104,7 +104,8 @@ bool Document::commit(const std::string& label, Scene scene, std::optional<doubl
 
 namespace {
 
-/// With the pictures as they are now, and copies of pasted ones beside the scene.
+/// The scene with its pictures as they are in memory, and with copies of pasted ones next to its
+/// file.
 Scene with_present_pictures(Scene scene, Pictures& pictures, const Path& target) {
   std::vector<Layer> layers = layers_of(scene);
   for (Layer& layer : layers) {
@@ -116,7 +117,7 @@ Scene with_present_pictures(Scene scene, Pictures& pictures, const Path& target)
     if (file.parent_path() != pasted_folder() || !picture) continue;
     const Path copy =
         target.parent_path() / (target.stem().string() + "-" + file.stem().string() + ".png");
-    // What was pasted is known by its contents: a copy that is there is this one.
+    // A pasted picture is named after its content, so an existing file of this name is the copy.
     if (!is_there(copy)) write_file(copy, encode_png(*picture->image));
     Picture copied = *picture;
     std::error_code ignored;
@@ -151,7 +152,7 @@ bool Document::autosave(const Path& folder) {
   std::error_code ignored;
   if (!lock_) {
     fs::create_directories(folder, ignored);
-    fs::permissions(folder, fs::perms::owner_all, ignored);  // it is nobody else's business
+    fs::permissions(folder, fs::perms::owner_all, ignored);  // for this user alone
   }
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));

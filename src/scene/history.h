@@ -8,21 +8,21 @@
 
 namespace holomorph {
 
-/// A line of scenes and a place in it. There is always at least one scene.
+/// A sequence of scenes with a current position. It always has at least one scene.
 class History {
  public:
   struct Entry {
     std::string label;
     Scene scene;
-    std::optional<double> at = {};  ///< the time that was shown when it was made
+    std::optional<double> at = {};  ///< the time that was displayed when it was made
   };
 
   explicit History(Scene scene, std::string label = "Open") {
     entries_.push_back({std::move(label), std::move(scene)});
   }
 
-  /// Adds a scene after the current one; what had been undone is forgotten. A scene equal to the
-  /// current one is not added: returns false.
+  /// Adds a scene after the current one and discards the scenes that were undone. Returns false,
+  /// and adds nothing, if the scene equals the current one.
   bool commit(std::string label, Scene scene, std::optional<double> at = {}) {
     if (scene == current()) return false;
     entries_.resize(index_ + 1);
@@ -31,12 +31,13 @@ class History {
     index_ = entries_.size() - 1;
     return true;
   }
-  /// Replaces the current scene: a step that goes on where the last one stopped.
+  /// Replaces the current scene, to continue the last step, and discards the scenes that were
+  /// undone.
   void amend(Scene scene) {
     entries_.resize(index_ + 1);
     entries_[index_].scene = std::move(scene);
   }
-  /// The current scene, said in another way: what was undone can still be done again.
+  /// Replaces the current scene by an equivalent one. What was undone can still be redone.
   void replace(Scene scene) { entries_[index_].scene = std::move(scene); }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }

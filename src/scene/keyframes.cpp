@@ -1,4 +1,4 @@
-// Keyframes are sorted by time and no two are at one time.
+// Keyframes are sorted by time, and no two have the same time.
 #include "scene/keyframes.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ bool has_playing_keys(const Scene& scene) {
 
 Error no_key_plays() {
   return {ErrorKind::bad_input,
-          "none of the keyframes has the scene's cage points, pins and strokes"};
+          "none of the keyframes matches the scene's cage points, pins and strokes"};
 }
 
 bool plays(const Scene& scene) {

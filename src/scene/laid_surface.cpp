@@ -1,4 +1,4 @@
-// The deformation knows where the boundary lies; the rest follows from it.
+// The deformation stores the boundary; the positions of all other vertices follow from it.
 #include "scene/laid_surface.h"
 
 #include "core/error.h"
@@ -43,7 +43,7 @@ LaidSurface laid_along(LaidSurface laid, const Points& outline) {
   if (!(off <= kSame * box_of(outline).diagonal()))
     throw Error(ErrorKind::bad_input,
                 "the scene's outline is not this surface's boundary; take the outline from the "
-                "surface, and do not bend it");
+                "surface, and only move, rotate or scale it");
   return laid;
 }
 
@@ -64,7 +64,7 @@ LaidSurface laid_surface_of(const Deformation& deformation) {
 Points texture_boundary(const SurfaceFile& file, int width, int height) {
   const std::vector<int> loop = disk_boundary(file.surface);
   if (file.texture.empty())
-    throw Error(ErrorKind::bad_input, "the surface has no texture coordinates of its own");
+    throw Error(ErrorKind::bad_input, "the surface has no texture coordinates");
   Points boundary = along(loop, file.texture);
   for (Complex& z : boundary) z = {z.real() * width, z.imag() * height};
   return boundary;

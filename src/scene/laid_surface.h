@@ -1,4 +1,4 @@
-// A flattened surface in the picture's plane: what its texture is made of.
+// A flattened surface placed in the plane of the picture. Its texture is made from this placement.
 #pragma once
 
 #include "core/mesh/mesh.h"
@@ -7,29 +7,30 @@
 
 namespace holomorph {
 
-/// A surface and where its vertices lie in the plane. Value type.
+/// A surface and the positions of its vertices in the plane. Value type.
 struct LaidSurface {
   Surface surface;
   Points plane;
 
-  /// The boundary there, counter-clockwise: what a picture's shape is taken onto.
+  /// The boundary in the plane, counter-clockwise: the target outline for the picture.
   Points outline() const;
 };
 
-/// Flattened, moved and scaled so that its box has the middle and the diagonal of `onto`. Throws
-/// Error as flattened does.
+/// Flattens a surface, then moves and scales it so that its bounding box has the center and the
+/// diagonal of `onto`. Throws Error as flattened() does.
 LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto);
 
-/// Turned, scaled and moved so that its boundary is this outline, to 1e-6 of the outline's size.
-/// Throws Error when it is of another shape.
+/// Rotates, scales and moves the surface so that its boundary is this outline, to 1e-6 of the
+/// outline's size. Throws Error if the boundary has another shape.
 LaidSurface laid_along(LaidSurface laid, const Points& outline);
 
-/// The deformation's surface, read from its file and laid along the outline. Throws Error when
-/// there is none, for what the file is not, and when the outline is not its boundary.
+/// The deformation's surface, read from its file and placed along the outline. Throws Error if
+/// there is no surface, if the file is not a valid one, or if the outline is not its boundary.
 LaidSurface laid_surface_of(const Deformation& deformation);
 
-/// The boundary of a surface's texture coordinates in a picture of this size: the cage of what the
-/// surface shows. Throws Error when it has no such coordinates, or is no disk.
+/// The boundary of a surface's texture coordinates in a picture of this size: a cage around the
+/// part of the picture that the surface shows. Throws Error if the surface has no texture
+/// coordinates or is not a disk.
 Points texture_boundary(const SurfaceFile& file, int width, int height);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Layers are known by their ids, which outlive their places.
+// Layers are identified by their ids, which do not change when layers move.
 #include "scene/layer_maps.h"
 
 namespace holomorph {

@@ -8,27 +8,29 @@
 
 namespace holomorph {
 
-/// A LiveMap for each layer, which it keeps while layers are reordered and chosen.
+/// One LiveMap per layer. A layer keeps its map when layers are reordered or another one is
+/// selected.
 class LayerMaps {
  public:
   explicit LayerMaps(MeshOptions options = {}) : options_(options) {}
 
-  /// Called by workers when a preparation has ended, to wake an event loop. Set before use.
+  /// Sets a function that workers call when a preparation has ended, to wake an event loop. Call it
+  /// before use.
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
-  /// The map of the layer of this id; a new one if it has none yet.
+  /// The map of the layer with this id, created if it has none yet.
   LiveMap& of(int id) const;
-  /// Brings the maps of all visible layers but the edited one up to date, at a time when there is
-  /// one, and lets those of layers go that are not there any more. Returns whether any changed.
+  /// Updates the maps of all visible layers except the edited one for the given moment, and
+  /// releases the maps of deleted layers. Returns whether any map changed.
   bool update_others(const Scene& scene, const Moment& moment);
-  /// Forgets all of them and whatever workers are busy with.
+  /// Discards all maps, including those that workers are preparing.
   void clear();
 
  private:
   MeshOptions options_;
   std::function<void()> wake_;
-  // Asking for a map makes it. Maps that are not needed any more are kept for the next layer, so
-  // that nobody waits for a worker to end.
+  // Maps are created on first request. Unused maps are kept for later layers, so that no caller has
+  // to wait for a worker to end.
   mutable std::map<int, std::unique_ptr<LiveMap>> maps_;
   mutable std::vector<std::unique_ptr<LiveMap>> spare_;
 };

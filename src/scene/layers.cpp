@@ -1,4 +1,4 @@
-// Layers are shared values: an edit copies the one that it changes.
+// Layers are shared values: an edit copies only the layer that it changes.
 #include "scene/layers.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Scene scene_of(Deformation deformation) {
 
 namespace {
 
-/// Never one that was given before, even to a layer that is gone: the history may bring it back.
+/// An id that was never used before, not even by a deleted layer, which the history may bring back.
 int fresh_id() {
   static std::atomic<int> last = 1'000'000;
   return ++last;
@@ -87,14 +87,14 @@ Scene with_layer_doubled(const Scene& scene) {
 }
 
 Scene without_layer(Scene scene) {
-  check(scene.layers.size() > 1, "without_layer: one stays");
+  check(scene.layers.size() > 1, "without_layer: one layer is left");
   scene.layers.erase(scene.layers.begin() + static_cast<long>(scene.edited));
   if (scene.edited > 0) --scene.edited;
   return scene;
 }
 
 Scene with_layer_moved(Scene scene, size_t to) {
-  check(to < scene.layers.size(), "with_layer_moved: a number in the stack");
+  check(to < scene.layers.size(), "with_layer_moved: the index is in the stack");
   const auto from = scene.layers.begin() + static_cast<long>(scene.edited),
              target = scene.layers.begin() + static_cast<long>(to);
   if (from < target)

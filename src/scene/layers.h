@@ -1,4 +1,4 @@
-// Edits of a scene's stack of layers, numbered from the bottom to the top.
+// Edits of a scene's stack of layers, which are numbered from bottom to top.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,29 +7,30 @@ namespace holomorph {
 
 inline constexpr size_t kMostLayers = 100;
 
-/// The number of the layer with this id; none: the number of layers.
+/// The index of the layer with this id; the number of layers if there is none.
 size_t layer_of_id(const Scene& scene, int id);
-/// Its name, its picture's, or "Layer 2".
+/// The layer's name, else that of its picture, else "Layer 2" for the second one.
 std::string title_of_layer(const Scene& scene, size_t layer);
-/// Whether the scene is more than one plain layer.
+/// Whether the scene is anything other than a single plain layer.
 bool has_layers(const Scene& scene);
 
-/// With a layer in place of the one of this number, whose id it keeps.
+/// Replaces the layer at this index; the replacement takes over its id.
 Scene with_layer_at(Scene scene, size_t number, Layer layer);
-/// With the layers of another scene above the edited one; that one's edited layer is edited from
-/// then on. Throws Error when there would be more than kMostLayers.
+/// Adds the layers of another scene above the edited one. The edited layer of `added` becomes the
+/// edited layer. Throws Error if there would be more than kMostLayers.
 Scene with_layers_added(Scene scene, const Scene& added);
-/// A copy of the edited layer, above it and edited.
+/// Adds a copy of the edited layer above it, which becomes the edited layer.
 Scene with_layer_doubled(const Scene& scene);
-/// Without the edited layer: the one below is edited, or the one above. There must be another.
+/// Removes the edited layer. The layer below it becomes the edited one, or the layer above it if
+/// there is none below. There must be another layer.
 Scene without_layer(Scene scene);
-/// The edited layer moved to another number, which must exist.
+/// Moves the edited layer to another index, which must exist.
 Scene with_layer_moved(Scene scene, size_t to);
 
-/// With other animation settings.
+/// Replaces the animation settings.
 Scene with_animation(Scene scene, const AnimationSettings& settings);
 
-/// The layers, to be changed and put back.
+/// Copies of the layers, for editing; shared() converts them back.
 std::vector<Layer> layers_of(const Scene& scene);
 std::vector<SharedLayer> shared(std::vector<Layer> layers);
 

@@ -1,5 +1,5 @@
-// Values are compared instead of dirty flags: the worker is asked when a preparation's input
-// differs.
+// Values are compared instead of keeping dirty flags: the worker gets a request when the input of a
+// preparation differs.
 #include "scene/live_map.h"
 
 #include <algorithm>
@@ -32,19 +32,19 @@ LiveMap::~LiveMap() {
 void LiveMap::work() {
   std::unique_lock lock(mutex_);
   constexpr auto kIdle = std::chrono::milliseconds(300);
-  std::shared_ptr<PreparedMap> tried;  ///< the one that was made ready for playing, if it could be
+  std::shared_ptr<PreparedMap> tried;  ///< the map for which in-betweens were last tried
   while (true) {
     const auto wanted_now = [this] { return stop_ || waiting_; };
     if (!base_ || base_ == tried || base_->between.load()) {
       changed_.wait(lock, wanted_now);
     } else if (!changed_.wait_for(lock, kIdle, wanted_now)) {
-      // Nobody waits: what playing will need is made before.
+      // Idle: prepare in advance what playback will need.
       const std::shared_ptr<PreparedMap> base = tried = base_;
       lock.unlock();
       try {
         inbetween_of(*base);
       } catch (const std::exception&) {
-        // Playing the keyframes will fail in the same way, and say why.
+        // Playback will fail in the same way and say why.
       }
       lock.lock();
       continue;
@@ -74,8 +74,8 @@ void LiveMap::work() {
     lock.lock();
     working_ = false;
     if (result) base_ = result;
-    // When the deformation has moved on meanwhile, what it was like is shown until the next one is
-    // ready; an error of then is not.
+    // If the deformation has changed in the meantime, the map of its earlier state is shown until
+    // the next one is ready. An error of the earlier state is not shown.
     if (document == document_ && (result || wanted == generation_)) {
       finished_ = true;
       result_ = std::move(result);
@@ -104,8 +104,8 @@ void LiveMap::take_result(const Deformation& deformation, EvalOptions options) {
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
-  // Mesh and map always belong together: when the deformation has moved on, it is posed as it was
-  // asked for.
+  // Mesh and map always belong together: if the deformation has changed since the request, it is
+  // posed as it was requested.
   pose(same_rest(*result_scene_, deformation) ? deformation : *result_scene_, options);
 }
 
@@ -158,7 +158,7 @@ std::optional<Complex> LiveMap::pin_place(const Deformation& deformation, size_t
   return shown_->pins[i]->in(*shown_->mesh, as_span(map_.f));
 }
 
-/// What there is to say of a map that was just posed.
+/// Evaluates the map that was just posed: its injectivity, and the images of its zeros.
 void LiveMap::describe() {
   const Mesh& mesh = *shown_->mesh;
   injectivity_ = injectivity_of(mesh, map_.f);
@@ -188,10 +188,10 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-/// Whether the maps at keyframes are wanted and would hold up whoever asks. Keys that were asked
-/// for and have none cannot be mapped.
+/// Whether the maps at keyframes are needed and would block the caller noticeably. Keys that were
+/// requested and still have no map cannot be mapped.
 bool LiveMap::needs_worker(const Deformation& deformation) const {
-  constexpr double kNoticed = 50, kShape = 4;  // ms; a key's logarithms
+  constexpr double kNoticed = 50, kShape = 4;  // both in ms; kShape is for the logarithms of a key
   if (!moment_.time || !shown_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == deformation.keyframes) return false;
   if (posed_moment_.time && posed_ && posed_->keyframes == deformation.keyframes) return false;

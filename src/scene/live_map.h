@@ -1,5 +1,5 @@
-// The map of a deformation that is being edited: prepared on a worker thread, posed on the
-// caller's.
+// The map of a deformation that is being edited. It is prepared on a worker thread and posed on the
+// caller's thread.
 #pragma once
 
 #include <condition_variable>
@@ -13,9 +13,9 @@
 
 namespace holomorph {
 
-/// Follows a deformation. update() never waits: while a changed rest, or the maps of many
-/// keyframes, are prepared on the worker the last map stays; errors are kept for showing and leave
-/// it, too.
+/// Keeps the map of a deformation up to date. update() never waits: while the worker prepares a
+/// changed rest state or the maps of many keyframes, the last map stays. It also stays after an
+/// error, which is kept for display.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {});
@@ -23,47 +23,50 @@ class LiveMap {
   LiveMap(const LiveMap&) = delete;
   LiveMap& operator=(const LiveMap&) = delete;
 
-  /// Called by the worker when a preparation has ended, to wake an event loop. Set before use.
+  /// Sets a function that the worker calls when a preparation has ended, to wake an event loop.
+  /// Call it before use.
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
-  /// Takes what the worker has finished, asks for what the deformation needs, and poses the map
-  /// when it fits the deformation. Returns whether the map changed. At a time, where there are
-  /// keyframes that play, the map is theirs.
+  /// Takes over the worker's result, requests what the deformation needs, and poses the map if it
+  /// matches the deformation. If `moment` has a time and there are keyframes that play, the map is
+  /// the one of the keyframes at that time. Returns whether the map changed.
   bool update(const Deformation& deformation, EvalOptions options, const Moment& moment = {});
-  /// Forgets deformation, map and whatever the worker is busy with.
+  /// Discards the deformation, the map and what the worker is preparing.
   void clear();
-  /// update(), then waits for the worker until the map is the deformation's or failed. For tests.
+  /// Calls update() and waits until the worker has prepared the deformation's map or failed. For
+  /// tests.
   void finish(const Deformation& deformation, EvalOptions options);
 
   const PreparedMap* prepared() const { return shown_.get(); }
-  /// The prepared mesh as it is drawn and picked in.
+  /// The prepared mesh in drawing order, as it is drawn and picked.
   const std::shared_ptr<const Mesh>& drawn() const { return drawn_; }
   /// The map at mesh->vertices; empty until there is one.
   const SampledMap& map() const { return map_; }
   bool has_map() const { return shown_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }
-  /// Of the shown map.
+  /// The injectivity of the displayed map.
   const Injectivity& injectivity() const { return injectivity_; }
-  /// Where the map takes the place that pin `i` of a deformation holds at rest; none when pins have
-  /// no say or the deformation has other pins by now.
+  /// The image of the rest position of pin `i` of a deformation. None if the map ignores pins, if
+  /// the pin lies outside the mesh, or if the map belongs to another rest state.
   std::optional<Complex> pin_place(const Deformation& deformation, size_t i) const;
-  /// Where the map takes the zeros that it reports.
+  /// The images of the zeros that the map reports.
   const Points& zero_places() const { return zero_places_; }
-  /// The deformation that map() shows; it may lag behind the one being edited.
+  /// The deformation to which map() belongs. It may lag behind the one being edited.
   const std::optional<Deformation>& posed() const { return posed_; }
-  /// The deformation with its handles at the shown time; none where no time is shown.
+  /// The deformation with its handles at the displayed time; none if no time is displayed.
   const std::optional<Deformation>& timed() const { return timed_; }
-  /// The maps at the posed deformation's keyframes: up to date where a time is shown, and after
-  /// follow_keys().
+  /// The maps at the posed deformation's keyframes. They are up to date while a time is displayed,
+  /// and after follow_keys().
   const Motion& motion() const { return motion_; }
   void follow_keys() {
     if (shown_ && posed_) motion_.follow(*posed_, moment_.linear_blend, shown_);
   }
-  /// Where the keyframes of the posed deformation take places at rest; those outside the mesh stay.
+  /// The images of rest positions at a time of the posed deformation's keyframes. Positions outside
+  /// the mesh stay.
   Points places_at(double time, std::span<const Complex> rest);
   double pose_milliseconds() const { return pose_milliseconds_; }
-  /// Grows by one whenever a newly prepared map is taken over.
+  /// Increases by one whenever a newly prepared map is taken over.
   unsigned preparation() const { return preparation_; }
 
  private:
@@ -78,34 +81,34 @@ class LiveMap {
   std::function<void()> wake_;
   std::shared_ptr<PreparedMap> shown_;
   std::shared_ptr<const Mesh> drawn_;
-  std::vector<Depth> depths_;  ///< that it is ordered by
+  std::vector<Depth> depths_;  ///< by which drawn_ is ordered
   SampledMap map_;
   std::optional<Error> error_;
   Injectivity injectivity_;
   Points zero_places_;
-  std::optional<Deformation> requested_;  ///< the deformation whose rest was last asked for
-  bool requested_keys_ = false;           ///< and whether with the maps at its keyframes
+  std::optional<Deformation> requested_;  ///< the deformation whose rest state was last requested
+  bool requested_keys_ = false;           ///< whether the maps at its keyframes were requested too
   EvalOptions posed_options_;
-  std::optional<Deformation> posed_;  ///< the deformation that map_ shows
+  std::optional<Deformation> posed_;  ///< the deformation to which map_ belongs
   Motion motion_;
   Moment moment_, posed_moment_;
   std::optional<Deformation> timed_;
   bool busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
-  double solve_milliseconds_ = 0;  ///< of a final pose, in-betweens aside
+  double solve_milliseconds_ = 0;  ///< of a final pose, without in-betweens
   unsigned preparation_ = 0;
 
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable changed_;
   std::optional<Deformation> waiting_;
   bool waiting_keys_ = false, waiting_blend_ = false;
   Motion result_motion_;
-  double result_milliseconds_ = 0;  ///< of one of its keys
+  double result_milliseconds_ = 0;  ///< per keyframe
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
   std::optional<Deformation> result_scene_;
-  unsigned generation_ = 0;  ///< grows with every request
-  unsigned document_ = 0;    ///< grows when all is forgotten: what the worker has is dropped then
+  unsigned generation_ = 0;  ///< increases with every request
+  unsigned document_ = 0;    ///< increases in clear(); the worker's result is then dropped
   bool working_ = false, finished_ = false, stop_ = false;
   std::thread worker_;
 };

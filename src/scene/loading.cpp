@@ -1,5 +1,4 @@
-// Paths are the subtle part: a scene names its files relative to itself, and in memory they are
-// absolute.
+// A scene file names its files by paths relative to itself. In memory all paths are absolute.
 #include "scene/loading.h"
 
 #include "core/error.h"
@@ -16,18 +15,18 @@ namespace holomorph {
 namespace fs = std::filesystem;
 namespace {
 
-/// The absolute path of what a scene file names.
+/// The absolute path of a file that a scene file names.
 Path beside(const Path& scene, const Path& file) {
   return absolute_path(file.is_absolute() ? file : scene.parent_path() / file);
 }
 
-/// The other way: relative to an absolute folder, as it is when that is empty.
+/// The inverse: the path relative to an absolute folder, or unchanged if the folder is empty.
 std::string relative_to(const Path& folder, const Path& file) {
   const Path relative = folder.empty() ? Path() : file.lexically_relative(folder);
   return relative.empty() ? file.string() : relative.generic_string();
 }
 
-/// Every file that the layers of a scene name.
+/// Calls `use` for every file that the layers of a scene name.
 template <class Use>
 void for_each_file(std::vector<Layer>& layers, Use use) {
   for (Layer& layer : layers) {
@@ -36,7 +35,8 @@ void for_each_file(std::vector<Layer>& layers, Use use) {
   }
 }
 
-/// Lets a reference name the picture's namesake beside the scene when that is the picture.
+/// Redirects a reference to the file of the same name next to the scene if that is the same
+/// picture.
 void look_beside(const Path& scene, ImageReference& reference, const Reach& reach,
                  PictureFiles& files) {
   const Path name = Path(reference.file).filename();
@@ -46,12 +46,12 @@ void look_beside(const Path& scene, ImageReference& reference, const Reach& reac
   try {
     if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
   } catch (const Error&) {
-    // There is none either.
+    // It is not there either.
   }
 }
 
-/// Reads the picture of a layer. Returns what is to be said of it, such as that it is missing where
-/// it may be.
+/// Reads the picture of a layer. Returns a warning or "", for example that the picture is missing,
+/// if it may be.
 std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
                          const std::string& pointer, const LoadOptions& options) {
   if (!layer.image) return "";
@@ -80,7 +80,7 @@ std::string read_scene_file(const Path& path) {
   std::error_code missing;
   const auto size = fs::file_size(path, missing);
   if (!missing)
-    check_budget(&Budget::scene, static_cast<double>(size), path.string() + ": the scene has");
+    check_budget(&Budget::scene, static_cast<double>(size), path.string() + ": its size is");
   return read_file(path);
 }
 
@@ -90,8 +90,8 @@ LoadedScene load_scene(const Path& path, const LoadOptions& options) {
 
 namespace {
 
-/// Withholds what is out of a scene's reach, before anything is looked at; throws Error where it
-/// must be there. A picture that lies beside the scene, too, is taken from there.
+/// Withholds the files that are out of a scene's reach, before any file is accessed. Throws Error
+/// if pictures may not be missing. A picture that also lies next to the scene is taken from there.
 void keep_in_reach(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
                    PictureFiles& files, Pictures& pictures) {
   const Path folder = scene.parent_path();
@@ -161,8 +161,8 @@ void check_not_a_source(const Path& out, const Sources& sources) {
                   out.string() + ": this is the " + what + "; choose another name");
   };
   refuse_if(sources.scene, "scene itself");
-  for (const Path& image : sources.images) refuse_if(image, "picture that the scene bends");
-  for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene covers");
+  for (const Path& image : sources.images) refuse_if(image, "picture that the scene deforms");
+  for (const Path& surface : sources.surfaces) refuse_if(surface, "surface that the scene uses");
 }
 
 void check_may_write(const Path& out, const Sources& sources) {
@@ -172,7 +172,7 @@ void check_may_write(const Path& out, const Sources& sources) {
 
 namespace {
 
-/// One layer with a picture of a file.
+/// A layer with a picture from a file.
 Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles& files,
                        Pictures& pictures) {
   const ImageReference reference = reference_in(file, entry);
@@ -217,7 +217,7 @@ LoadedScene scene_of_pasted(const std::string& png) {
   if (pasted_folder().empty())
     throw Error(ErrorKind::failed,
                 "Pasted pictures cannot be kept: this user has no home folder. Save the picture "
-                "as a file and open that");
+                "as a file and open it");
   std::error_code ignored;
   fs::create_directories(pasted_folder(), ignored);
   const Path file = pasted_folder() / (sha256_hex(png).substr(0, 16) + ".png");
@@ -233,18 +233,19 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
   const SurfaceFile file = surface_of_obj(read_file(obj), obj.string());
   const auto in_reach = [&](const Path& named) {
     if (reach.covers(named, obj.parent_path())) return named;
-    throw Error(ErrorKind::bad_input, obj.string() + ": it names " + named.string() +
-                                          ", which is not in its folder; put it there");
+    throw Error(ErrorKind::bad_input, obj.string() + ": it refers to " + named.string() +
+                                          ", which is not in its folder; move it there");
   };
   const auto texture = [&]() -> std::string {
     if (file.materials.empty()) return "";
     return texture_of_materials(read_file(in_reach(beside(obj, file.materials))));
   }();
   if (texture.empty())
-    throw Error(ErrorKind::bad_input,
-                obj.string() +
-                    ": this surface has no picture on it. Open a picture, give it a cage and drop "
-                    "the surface onto it");
+    throw Error(
+        ErrorKind::bad_input,
+        obj.string() +
+            ": this surface has no texture picture. Open a picture, give it a cage and drop "
+            "the surface onto it");
   LoadedScene loaded = scene_of_image(in_reach(beside(beside(obj, file.materials), texture)));
   try {
     const Image& texture_image = *loaded.image();

@@ -1,4 +1,4 @@
-// Left to right through the middle of a deformation's cage at rest.
+// Reflection about the vertical line through the middle of a deformation's rest cage.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,16 @@ class Mirror {
     far_ = 0.02 * box.diagonal();
   }
 
-  /// Where the line is.
+  /// The x coordinate of the line.
   double axis() const { return axis_; }
   Complex operator()(Complex z) const { return {2 * axis_ - z.real(), z.imag()}; }
   Points operator()(Points line) const {
     for (Complex& z : line) z = (*this)(z);
     return line;
   }
-  /// Which of these places, z among them, lies where the mirror takes z, and is taken to z; to 2 %
-  /// of the cage's size.
+  /// The index of the counterpart of z among these points, z being one of them: the point nearest
+  /// to the mirror image of z, provided that it is within 2 % of the cage's size and that z is the
+  /// point nearest to its own mirror image.
   std::optional<size_t> counterpart(const Points& places, Complex z) const {
     const auto nearest_to = [&](Complex wanted) {
       return std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });

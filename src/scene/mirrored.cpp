@@ -1,4 +1,4 @@
-// A pose's mirror image: everything takes what its counterpart at rest has.
+// The mirror image of a pose: each handle takes the mirrored pose of its counterpart at rest.
 #include <algorithm>
 
 #include "core/error.h"
@@ -22,7 +22,8 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   const size_t n = vertices.size();
   Cage result;
   for (size_t e = 0; e < n; ++e) {
-    // The mirrored cage runs the other way: segment e's counterpart starts at its end's.
+    // The mirrored cage runs in the opposite direction: the counterpart of segment e starts at the
+    // counterpart of its end.
     const size_t start = counterpart(mirror, vertices, vertices[e], "cage point"),
                  end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
     if ((end + 1) % n != start)
@@ -60,7 +61,8 @@ std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Str
   for (size_t i = 0; i < strokes.size(); ++i) {
     const size_t other = counterpart(mirror, middles, middles[i], "stroke");
     result.push_back(mirror(posed[other]));
-    // Drawn the other way round, its start is the other one's end.
+    // If it was drawn in the opposite direction, its start corresponds to the end of the
+    // counterpart.
     const Points &rest = strokes[i].rest, &theirs = strokes[other].rest;
     if (std::abs(mirror(theirs.back()) - rest.front()) <
         std::abs(mirror(theirs.front()) - rest.front()))
@@ -80,10 +82,10 @@ std::vector<PoseCorner> mirrored_corners(const Mirror& mirror, const Deformation
     const auto other = std::ranges::find(deformation.corners, vertex, &Corner::vertex);
     if (other == deformation.corners.end())
       throw Error(ErrorKind::bad_input,
-                  "the pose cannot be mirrored: a corner's counterpart is none",
+                  "the pose cannot be mirrored: the counterpart of a corner is not a corner",
                   deformation.rest.vertex(vertex));
     const size_t at = static_cast<size_t>(other - deformation.corners.begin());
-    // What comes after a corner comes before its counterpart.
+    // The edge after a corner corresponds to the edge before its counterpart.
     result.push_back(
         {-posed[at].after, -posed[at].before, posed[(at + count - 1) % count].tension});
   }

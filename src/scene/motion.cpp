@@ -1,4 +1,4 @@
-// Maps at keys come from the deformer, everything between from their shapes.
+// The maps at keys come from the deformer; the maps between keys are blended from their shapes.
 #include "scene/motion.h"
 
 #include <algorithm>
@@ -12,17 +12,17 @@ namespace {
 
 constexpr double kTie = 1e-3;
 
-/// How much of the way to the next key is behind.
+/// The fraction of the way to the next key that is covered at the fraction u of the time.
 double eased(Ease ease, double u) {
   return ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
 }
 
-/// How much the picture is meant to turn from one pose to another, whole turns included: as a pin
-/// that turns does, or as corners do on average.
+/// The expected rotation of the picture from one pose to another, including whole turns: that of
+/// the first pin with an angle, or else the average over the corners.
 ExpectedTurn expected_turn(const Deformation& deformation, const Pose& from, const Pose& to,
                            int turns) {
   ExpectedTurn expected;
-  // Of two ways that are half a turn each, the shorter one.
+  // Slightly less than whole turns: of two equally near rotations, the smaller one is chosen.
   expected.radians = 2 * kPi * turns * (1 - kTie);
   const Method& method = method_named(deformation.method);
   if (method.uses_pins)
@@ -42,7 +42,8 @@ ExpectedTurn expected_turn(const Deformation& deformation, const Pose& from, con
   return expected;
 }
 
-/// A segment's control points at rest, written with a degree.
+/// The control points of a segment at rest, raised to a degree. If the segment has a higher degree,
+/// points along its curve.
 Points rest_controls(const Cage& rest, Index segment, int degree) {
   const Points controls = rest.controls(segment);
   if (static_cast<int>(controls.size()) - 1 <= degree) return elevated(controls, degree);
@@ -131,7 +132,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   align(deformation);
 }
 
-/// Whole turns from key to key.
+/// Determines the whole turns from key to key.
 void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
@@ -153,7 +154,7 @@ const Inbetween::Shape& Motion::shape_at(size_t key) const {
   constexpr size_t kKept = 12;
   const auto known = shapes_.find(key);
   if (known != shapes_.end()) return known->second;
-  if (shapes_.size() >= kKept) {  // the farthest goes
+  if (shapes_.size() >= kKept) {  // drop the farthest
     const auto first = shapes_.begin(), last = std::prev(shapes_.end());
     const auto from = [&](size_t k) { return k > key ? k - key : key - k; };
     shapes_.erase(from(first->first) > from(last->first) ? first : last);
@@ -195,13 +196,13 @@ const VectorXc* Motion::key_beside(double time, bool later) const {
 }
 
 const Pose* Motion::pose_at(double time) const {
-  constexpr double kHere = 1e-9;  // seconds: frames' times are rounded
+  constexpr double kHere = 1e-9;  // seconds; the times of frames are rounded
   for (const Key& key : keys_)
     if (std::abs(key.time - time) < kHere) return &key.pose;
   const auto [i, u] = place_of(time);
   if (u == 0) return &keys_[i].pose;
-  // Between two keys of one pose nothing moves, unless the motion swings through them.
-  constexpr double kStill = 1e-9;  // of the size
+  // Between two keys with the same pose nothing moves, unless a smooth motion passes through them.
+  constexpr double kStill = 1e-9;  // relative to the size
   const Key &from = keys_[i], &to = keys_[i + 1];
   if (!(from.pose == to.pose) || to.turns != 0) return nullptr;
   const double moved = (map_at(time) - from.f).cwiseAbs().maxCoeff();
@@ -282,7 +283,7 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   if (u == 0) return posed_as(deformation, a.pose);
   const Key& b = keys_[i + 1];
   const double s = eased(a.ease, u);
-  // What stays where it is stays there on the way; other handles go with the picture.
+  // A handle with the same position at both keys stays there. Other handles follow the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
     if (at_a == at_b && b.turns == 0) return at_a;
     const Frame now = frame_at(rest, map), before = frame_at(rest, a.f),
@@ -298,7 +299,7 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
                  to = elevated(b.pose.cage.controls(e), degree);
     Points& segment = pose.cage.segments[static_cast<size_t>(e)];
     segment.resize(static_cast<size_t>(degree));
-    // Where the cage gives directions alone, the picture is elsewhere.
+    // If the cage only prescribes directions, the picture is not at the cage.
     for (size_t m = 0; m < segment.size(); ++m)
       segment[m] = method_named(deformation.method).uses_corners ? (1 - s) * from[m] + s * to[m]
                                                                  : carried(rest[m], from[m], to[m]);
@@ -312,7 +313,7 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   for (size_t k = 0; k < pose.strokes.size(); ++k) {
     const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k],
                  &rest = deformation.strokes[k].rest;
-    if (from.size() != to.size()) {  // drawn anew: no points belong to each other
+    if (from.size() != to.size()) {  // redrawn: the points do not correspond
       pose.strokes[k] = s < 0.5 ? from : to;
       continue;
     }

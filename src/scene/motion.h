@@ -1,4 +1,4 @@
-// A deformation's keyframes as one map at any time.
+// The map of a deformation's keyframes at any time.
 #pragma once
 
 #include <map>
@@ -9,59 +9,60 @@
 
 namespace holomorph {
 
-/// Which time of its keyframes a deformation is shown at: none, its own pose; and how poses between
-/// them are blended, as AnimationSettings has it.
+/// The time of its keyframes at which a deformation is displayed (none: its own pose), and how
+/// poses are blended between keyframes, as in AnimationSettings.
 struct Moment {
   std::optional<double> time = {};  ///< seconds
   bool linear_blend = false;
   bool operator==(const Moment&) const = default;
 };
 
-/// The map that is linear in a mesh's triangles, from its values at the vertices.
+/// The map that is linear in each triangle of a mesh, from its values at the vertices.
 SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives);
 
-/// The maps at keyframes, kept until what they depend on changes; and what is between them.
+/// The maps at keyframes, kept until their inputs change, and the maps in between.
 class Motion {
  public:
-  /// Brings the maps at a deformation's keyframes up to date: those whose pose has changed are
-  /// asked of the deformer. The prepared map must be the deformation's. Keyframes that cannot be
-  /// mapped are left out; the first one's reason is error(). Cost: a final pose for each changed
-  /// keyframe. Throws Error{bad_input} when the maps would need more memory than the budget has.
+  /// Updates the maps at a deformation's keyframes; the deformer recomputes those whose pose has
+  /// changed. `prepared` must be prepared for the deformation. Keyframes that cannot be mapped are
+  /// left out; error() gives the reason for the first one. Cost: a final pose for each changed
+  /// keyframe. Throws Error{bad_input} if the maps would need more memory than the budget allows.
   void follow(const Deformation& deformation, bool linear_blend,
               std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
 
-  /// How many final poses follow() would cost now.
+  /// The number of final poses that follow() would compute.
   size_t unknown(const Deformation& deformation,
                  const std::shared_ptr<PreparedMap>& prepared) const;
 
-  /// Whether there is a map at any time.
+  /// Whether there are maps at keys. If so, there is a map at any time.
   bool plays() const { return !keys_.empty(); }
   const std::optional<Error>& error() const { return error_; }
 
-  /// The map at the last key before a time, or the first one behind it; null without one.
+  /// The map at the last key before a time or, if `later`, at the first key after it. Null if there
+  /// is no such key.
   const VectorXc* key_beside(double time, bool later) const;
-  /// The pose that is shown at a time: a key's, where one is or is held, and before the first and
-  /// after the last; null on the way between two.
+  /// The key pose that is displayed at a time: at a key, while a key is held, before the first key
+  /// and after the last one. Null while the pose changes between two keys.
   const Pose* pose_at(double time) const;
-  /// By how much the picture has turned at a time, on average; whole turns count.
+  /// The average rotation of the picture at a time, in radians, including whole turns.
   double turned_at(double time) const;
-  /// Between the first key and the last.
+  /// Whether a time is between the first key and the last.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
   }
 
-  /// From one key that plays to the next.
+  /// The interval from one key that plays to the next.
   struct Stretch {
     double from = 0, to = 0;
-    bool held = false;  ///< nothing moves until the end
+    bool held = false;  ///< nothing moves until its end
   };
   std::vector<Stretch> stretches() const;
 
-  /// f at the mesh's vertices; before the first key and behind the last one as there.
+  /// f at the mesh's vertices. It is constant before the first key and after the last one.
   VectorXc map_at(double time) const;
-  /// The deformation with its handles as they are in that map, which is map_at: on the way from one
-  /// keyframe to the next one they go with the picture around them.
+  /// The deformation with its handles as they are in `map`, which must be map_at(time). Between two
+  /// keyframes the handles follow the picture around them.
   Deformation deformation_at(const Deformation& deformation, double time,
                              const VectorXc& map) const;
 
@@ -72,20 +73,21 @@ class Motion {
     int turns = 0;
     Pose pose;
     VectorXc f;           ///< at the mesh's vertices
-    int whole_turns = 0;  ///< of its shape
-    double turned = 0;    ///< radians, on average
+    int whole_turns = 0;  ///< whole turns of its shape
+    double turned = 0;    ///< average rotation in radians
   };
-  /// How fast each quantity passes the keys of one interval.
+  /// The rates of change of all quantities at the two keys of an interval.
   struct Slopes {
     size_t from = 0;
     VectorXc at_from, at_to;
   };
-  /// Where a time lies: at key `from`, or on the way to the next one.
+  /// The position of a time: at key `from` or, for u > 0, at the fraction u of the way to the next
+  /// key.
   struct Place {
     size_t from = 0;
     double u = 0;
   };
-  /// What a map does near a place at rest: w -> f + fz (w - z).
+  /// The first-order behavior of a map near a rest position z: w -> f + fz (w - z).
   struct Frame {
     Complex f, fz;
   };
@@ -102,14 +104,14 @@ class Motion {
   bool linear_blend_ = false;
   std::optional<Error> error_;
   mutable std::map<std::pair<double, double>, Location> locations_;
-  // A shape takes eight times the memory of its map: those around the time that is asked for are
+  // A shape takes eight times the memory of its map, so only those near the requested time are
   // kept.
   mutable std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   mutable std::optional<Slopes> slopes_;
 };
 
-/// Sets the whole turns of keys that `before` has not, and of those behind them, so that the
-/// picture turns as it did in the motion of `before`.
+/// Sets the whole turns of the keys that `before` does not have, and of the keys after them, so
+/// that the picture rotates as it did in `motion`, the motion of `before`.
 void keep_turns(Deformation& deformation, const Deformation& before, const Motion& motion);
 
 }  // namespace holomorph

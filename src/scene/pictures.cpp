@@ -1,4 +1,4 @@
-// A file's time tells whether it has changed.
+// The modification time of a file shows whether it has changed.
 #include "scene/pictures.h"
 
 #include "scene/formats/ora_image.h"
@@ -11,7 +11,8 @@ const PictureFiles::File& PictureFiles::read(const std::string& name) {
   if (found != files_.end()) return found->second;
   File file;
   std::error_code ignored;
-  file.changed = fs::last_write_time(name, ignored);  // before: a later change is seen
+  file.changed =
+      fs::last_write_time(name, ignored);  // before reading, so that a later change is noticed
   file.bytes = read_file(name);
   file.sha256 = sha256_hex(file.bytes);
   return files_.emplace(name, std::move(file)).first->second;

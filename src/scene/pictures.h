@@ -1,4 +1,5 @@
-// The decoded pictures of a scene's layers. Scenes name them; here they are.
+// The decoded pictures of a scene's layers. A scene only names its pictures; the pixels are kept
+// here.
 #pragma once
 
 #include <map>
@@ -15,17 +16,17 @@ namespace holomorph {
 struct Picture {
   std::shared_ptr<const Image> image;
   std::string sha256;                            ///< of the file
-  std::filesystem::file_time_type changed = {};  ///< when the file was
+  std::filesystem::file_time_type changed = {};  ///< the file's modification time
 };
 
-/// Reads what references name; a file that several of them share once.
+/// Reads the pictures that references name. A file that several references share is read once.
 class PictureFiles {
  public:
-  /// `open` is how many pixels are there already.
+  /// `open` is the number of pixels that are already open.
   explicit PictureFiles(double open = 0) : pixels_(open) {}
-  /// Throws Error.
+  /// Reads the picture that a reference names. Throws Error.
   Picture picture(const ImageReference& reference);
-  /// Of a file's bytes, which are not decoded. Throws Error.
+  /// The SHA-256 of a file's bytes, which are not decoded. Throws Error.
   const std::string& sha256(const std::string& file) { return read(file).sha256; }
 
  private:
@@ -38,33 +39,33 @@ class PictureFiles {
   std::map<std::string, File> files_;  ///< by path
   PixelBudget pixels_;
 };
-/// One of them alone. Throws Error.
+/// Reads a single picture. Throws Error.
 inline Picture read_picture(const ImageReference& reference, double open = 0) {
   return PictureFiles(open).picture(reference);
 }
-/// What names a picture: its file, whose path becomes absolute, and its layer in there if it is
-/// one.
+/// A reference to a picture: its file, whose path becomes absolute, and its layer in the file if it
+/// is one.
 ImageReference reference_in(const Path& file, const std::string& entry = "");
-/// A reference with what was read: size and SHA-256.
+/// The reference with the size and SHA-256 of the picture that was read.
 ImageReference described(ImageReference reference, const Picture& picture);
 
-/// Pictures by what names them: the absolute path of the file, and the layer in there.
+/// Pictures by reference: the absolute path of the file, and the layer in it.
 class Pictures {
  public:
-  /// The picture of a layer alone; null when it has none, or none that was read.
+  /// The picture of a layer; null if it has none, or if it was not read.
   const Image* of(const Layer& layer) const;
   std::shared_ptr<const Image> shared(const Layer& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
-  /// Files that a scene names and that are not to be looked at before the user agrees.
+  /// Marks a file that a scene names but that must not be accessed before the user agrees.
   void withhold(const std::string& file) { withheld_.insert(file); }
   const std::set<std::string>& withheld() const { return withheld_; }
   void release() { withheld_.clear(); }
-  /// What another collection has.
+  /// Adds the pictures of another collection, and its withheld files.
   void add(const Pictures& others);
-  /// How many pixels all of them have.
+  /// The number of pixels of all pictures together.
   double pixels() const;
-  /// What lies in files that have changed since they were read, and are still there.
+  /// The pictures whose files have changed since they were read and still exist.
   std::vector<ImageReference> changed() const;
 
  private:

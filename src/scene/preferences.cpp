@@ -1,4 +1,4 @@
-// Preferences are never worth an error on start: what cannot be read is left at its default.
+// Damaged preferences are not an error: whatever cannot be read keeps its default.
 #include "scene/preferences.h"
 
 #include <pwd.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kThemes{"dark", "light", "contrast"};
 
-/// The user's, as the environment or the system has it; empty without one.
+/// The user's home folder, from the environment or the system; empty if there is none.
 Path home() {
   const char* set = std::getenv("HOME");
   if (set && *set) return set;
@@ -42,7 +42,7 @@ Path preferences_path() {
   return in_folder("XDG_CONFIG_HOME", ".config", "preferences.json");
 }
 
-/// A member of the wanted kind, or what stands for it.
+/// A member of the expected type, or else a default.
 template <class T>
 T member(const nlohmann::json& json, const char* key, T otherwise) {
   try {
@@ -52,7 +52,7 @@ T member(const nlohmann::json& json, const char* key, T otherwise) {
   }
 }
 
-/// Names that files can have: those of others are left out.
+/// The absolute paths in a list, without repetitions. Invalid paths are left out.
 std::vector<Path> paths_in(const nlohmann::json& json, const char* key, size_t most) {
   std::vector<Path> paths;
   for (const std::string& text : member(json, key, std::vector<std::string>{})) {
@@ -100,7 +100,7 @@ Preferences load_preferences() {
   try {
     return preferences_of_json(read_file(preferences_path()));
   } catch (const Error&) {
-    return {};  // there is none yet
+    return {};  // there are none yet
   }
 }
 
@@ -116,7 +116,7 @@ void save_preferences(const Preferences& preferences) {
   if (!preferences.trusted.empty()) json["trusted"] = nlohmann::ordered_json::array();
   for (const Path& path : preferences.trusted) json["trusted"].push_back(path.string());
   if (preferences_path().empty())
-    throw Error(ErrorKind::failed, "Preferences are not kept: this user has no home folder");
+    throw Error(ErrorKind::failed, "Preferences cannot be saved: this user has no home folder");
   std::error_code error;
   std::filesystem::create_directories(preferences_path().parent_path(), error);
   write_file(preferences_path(),
@@ -135,10 +135,10 @@ KeyNames keys_of_json(const std::string& text, const std::string& name) {
     const auto json = nlohmann::json::parse(text);
     if (json.value("format", "") == "holomorph-keys") return json.at("keys").get<KeyNames>();
   } catch (const nlohmann::json::exception&) {
-    // The same message: it is no such file.
+    // The same message as below: it is not such a file.
   }
   throw Error(ErrorKind::bad_input,
-              name + ": these are no keys; a file of 'Keys and mouse > Export' is wanted");
+              name + ": not a file of keys; choose a file written by 'Keys and mouse > Export'");
 }
 
 void remember(Preferences& preferences, const Path& path) {

@@ -1,5 +1,5 @@
-// The mesh and what a method precomputed are taken over from the last preparation where they can
-// be.
+// The mesh and the precomputation of the method are reused from the last preparation where
+// possible.
 #include "scene/prepared_map.h"
 
 #include <algorithm>
@@ -12,21 +12,23 @@
 namespace holomorph {
 namespace {
 
-/// Control points; those of curves take much longer to compute.
+/// The number of control points; those of curves count more because they take much longer to
+/// compute.
 double cost_of(const Cage& cage) {
   double cost = 0;
   for (Index i = 0; i < cage.size(); ++i) cost += cage.degree(i) > 1 ? 2.0 * cage.degree(i) : 1.0;
   return cost;
 }
 
-/// Before they are computed.
+/// Checks the budget before the coordinates are computed.
 void check_coordinates(const Rest& rest, Index places) {
   check_budget(&Budget::coordinates, cost_of(rest.cage) * static_cast<double>(places),
-               "the cage has " + std::to_string(rest.cage.control_count()) +
-                   " control points and its mesh " + std::to_string(places) + " vertices:");
+               "the cage with " + std::to_string(rest.cage.control_count()) +
+                   " control points and its mesh with " + std::to_string(places) +
+                   " vertices need");
 }
 
-/// The same place for every segment, whatever degrees straight ones are written with.
+/// Whether two cages are the same curve, regardless of the degrees of straight segments.
 bool is_same_curve(const Cage& a, const Cage& b) {
   return a == b || (vertices_of(a) == vertices_of(b) && is_straight(a) && is_straight(b));
 }
@@ -46,9 +48,9 @@ void check_affordable(std::span<const Layer> layers) {
     keys += deformation.has_cage() ? static_cast<double>(deformation.keyframes.size()) : 0;
   }
   check_budget(&Budget::coordinates, controls * vertices,
-               "the cages have " + std::to_string(static_cast<long>(controls)) +
-                   " control points and their meshes some " +
-                   std::to_string(static_cast<long>(vertices)) + " vertices:");
+               "the cages with " + std::to_string(static_cast<long>(controls)) +
+                   " control points and their meshes with about " +
+                   std::to_string(static_cast<long>(vertices)) + " vertices need");
   check_budget(&Budget::operators, keys * vertices * sizeof(Complex),
                "the maps at " + std::to_string(static_cast<long>(keys)) + " keyframes need");
 }

@@ -1,4 +1,4 @@
-// What a deformation's rest needs precomputed: a domain mesh and a deformer over it.
+// What is precomputed for the rest state of a deformation: a domain mesh and a deformer on it.
 #pragma once
 
 #include <atomic>
@@ -10,36 +10,37 @@
 
 namespace holomorph {
 
-/// A domain mesh and a deformer over it. Immutable but for the deformer.
+/// A domain mesh and a deformer on it. Immutable except for the deformer and `between`.
 struct PreparedMap {
   Rest rest;  ///< with samples
   std::string method;
   std::shared_ptr<const Mesh> mesh;
   std::unique_ptr<Deformer> deformer;
-  std::vector<std::optional<Location>> pins;  ///< of the rest's pins; none outside the mesh
-  double milliseconds = 0;                    ///< what preparing took
-  /// For what lies between maps on the mesh; null until somebody needs it, or has time for it.
+  std::vector<std::optional<Location>> pins;  ///< of the rest pins; none outside the mesh
+  double milliseconds = 0;                    ///< time taken by the preparation
+  /// Interpolation between maps on the mesh. Null until it is first needed, or computed in idle
+  /// time.
   std::atomic<std::shared_ptr<const Inbetween>> between = {};
 };
 
 /// Whether two deformations need the same preparation.
 bool same_rest(const Deformation& a, const Deformation& b);
 
-/// Throws Error{bad_input} when the cages and keyframes of all layers together need more than the
-/// budget has; meshes have about their usual size.
+/// Throws Error{bad_input} if the cages and keyframes of all layers together need more than the
+/// budget allows, assuming meshes of the default size.
 void check_affordable(std::span<const Layer> layers);
-/// A prepared map's `between`, which is made if there is none yet.
+/// Returns `between` of a prepared map, creating it if it is null.
 std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
-/// The depths of the pins that act.
+/// The depths of the pins, if the method uses pins.
 std::vector<Depth> depths_of(const Deformation& deformation);
-/// The mesh as it is drawn: its triangles from the lowest to the highest; the same mesh where the
-/// depths do not differ.
+/// The mesh in drawing order, with its triangles from the lowest to the highest. It is the same
+/// mesh if all depths are equal.
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const std::vector<Depth>& depths);
 
-/// Prepares at once, on this thread. `previous`, when given, lends what it has in common: the mesh
-/// of the same cage, the method's precomputation. Throws Error.
+/// Prepares synchronously on the calling thread. What `previous`, if given, has in common is
+/// reused: the mesh of the same cage and the precomputation of the same method. Throws Error.
 std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precision precision,
                                           const MeshOptions& options,
                                           const PreparedMap* previous = nullptr);

@@ -1,4 +1,5 @@
-// First by names alone; only what is in reach by its name is looked at, because it may be a link.
+// Paths are checked by their names first. Only a path whose name is in reach is then accessed,
+// because it may be a link.
 #include "scene/reach.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@ bool lies_in(const Path& file, const Path& folder) {
   return !way.empty() && *way.begin() != "..";
 }
 
-/// Where a path leads through links, also where nothing is there in the end; empty when it leads in
-/// a circle or cannot be followed.
+/// The path with all links followed, even if nothing is there. Empty if the links form a cycle or
+/// cannot be followed.
 Path real_path(Path path) {
   constexpr int kMostLinks = 40;
   std::error_code wrong;

@@ -1,4 +1,4 @@
-// Which files a scene may have read.
+// Which files a scene may have the program read.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace holomorph {
 
-/// A scene of a stranger may name any file: without more it reaches what lies in its own folder.
-/// Links count by where they lead.
+/// An untrusted scene may name any file. By default it reaches only the files in its own folder.
+/// Links are followed: the file that they lead to counts.
 struct Reach {
   bool everywhere = false;
-  std::vector<Path> folders = {};  ///< absolute; files in one of these, but not deeper
+  std::vector<Path> folders = {};  ///< absolute; allows the files directly in these folders
 
-  /// Whether a scene in a folder reaches an absolute file. Looks at the disk in these folders
-  /// alone, so that the answer says nothing of what is elsewhere.
+  /// Whether a scene in a folder may read a file, given by its absolute path. Only the allowed
+  /// folders are accessed, so the answer reveals nothing about files elsewhere.
   bool covers(const Path& file, const Path& scene_folder) const;
 };
 

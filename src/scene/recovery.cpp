@@ -1,4 +1,4 @@
-// The origin travels in the file itself, so that an autosave needs nothing beside it but its lock.
+// The origin is stored in the autosave itself, which therefore needs no other file than its lock.
 #include "scene/recovery.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace holomorph {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kDeepestExtra = 1000;  // it was read from less
+constexpr int kDeepestExtra = 1000;  // deeper than any scene that can be read
 
 constexpr const char *kOrigin = "autosave_of", *kOriginHash = "autosave_of_sha256";
 
-/// A member of an object's text; "" without one.
+/// A member of the object in a JSON text; "" if there is none.
 std::string member_of(const Extra& extra, const char* key) {
   if (extra.empty()) return "";
   const JsonTree tree(extra, kDeepestExtra);

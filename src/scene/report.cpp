@@ -1,4 +1,4 @@
-// Measured on the default domain mesh.
+// All values are measured on the default domain mesh.
 #include "scene/report.h"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,8 @@
 namespace holomorph {
 namespace {
 
-/// mean |f_zz|^2 L^2 by the difference of f_z over mesh edges, area-weighted per triangle.
+/// The mean of |f_zz|^2 L^2, from differences of f_z along mesh edges, weighted by the areas of
+/// triangles.
 double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map, double length) {
   double energy = 0, total = 0;
   for (const auto& [i, j, k] : mesh.triangles) {

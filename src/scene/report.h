@@ -1,4 +1,4 @@
-// All that can be said about a scene's map in numbers.
+// A report on a scene's map in numbers.
 #pragma once
 
 #include "core/maps/distortion.h"
@@ -8,7 +8,7 @@ namespace holomorph {
 
 /// What `holomorph info` prints.
 struct SceneReport {
-  std::optional<int> frame;    ///< of the keyframes
+  std::optional<int> frame;    ///< number of the animation frame
   std::optional<double> time;  ///< in seconds
   std::string method, status, note;
   int iterations = 0;
@@ -18,17 +18,17 @@ struct SceneReport {
   double smoothness_energy = 0;             ///< mean |f_zz|^2 L^2 over triangles, dimensionless
   double pin_rms = 0;  ///< root mean square distance of pins from their targets, pixels
   MapReport map;
-  bool folds_visibly = false;  ///< as the editor tells it: but for specks
+  bool folds_visibly = false;  ///< as the editor decides it: specks do not count
 };
 
-/// Measures a frame of a scene's map: at the mesh's vertices, or between keyframes in its
+/// Measures a frame of a scene's map at the mesh's vertices or, between keyframes, in its
 /// triangles.
 SceneReport report_of(TimedMap& timed, const TimedFrame& frame);
 
-/// A report as readable lines.
+/// A report as readable text.
 std::string text_of(const SceneReport& report);
-/// Reports as JSON with the keys of the specification: one object for a single report without a
-/// frame, else a list of objects.
+/// Reports as JSON with the keys of the specification: a single object for one report without a
+/// frame, otherwise a list of objects.
 std::string json_of(const std::vector<SceneReport>& reports);
 
 /// "exact", "iterating", "certified" or "infeasible".

@@ -1,5 +1,5 @@
-// What a file holds: layers, and what they share. A plain value; see layers.h for what is done with
-// the stack.
+// The content of a scene file: layers and what they share. Scene is a plain value; layers.h has the
+// operations on the stack of layers.
 #pragma once
 
 #include <array>
@@ -8,18 +8,18 @@
 
 namespace holomorph {
 
-/// The picture that a scene bends, and what its file was. In a file the path is relative to the
-/// scene's folder, in a loaded scene absolute.
+/// The picture that a scene deforms, and the properties of its file. The path is relative to the
+/// scene's folder in a file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};  ///< which layer of an OpenRaster file: its file in there
+  std::string entry = {};  ///< the layer of an OpenRaster file, by its file in the archive
   int width = 0, height = 0;
   std::string sha256;
   Extra extra;
   bool operator==(const ImageReference&) const = default;
 };
 
-/// A picture and how it is deformed.
+/// A picture and its deformation.
 struct Layer {
   int id = 1;  ///< identifies a layer within a session; not saved
   std::string name = {};
@@ -33,7 +33,7 @@ struct Layer {
   bool operator==(const Layer& other) const;
 };
 
-/// A layer that scenes share until one of them changes it, because every drag copies scenes.
+/// A layer that copies of a scene share until one of them changes it. Every drag copies scenes.
 class SharedLayer {
  public:
   SharedLayer() : SharedLayer(Layer{}) {}
@@ -49,13 +49,13 @@ class SharedLayer {
   std::shared_ptr<const Layer> layer_;
 };
 
-/// What is set for all keyframes together.
+/// The settings that all keyframes share.
 struct AnimationSettings {
   double frames_per_second = 24;
   bool linear_blend = false;  ///< in-betweens blend positions instead of shapes
   bool operator==(const AnimationSettings&) const = default;
 };
-/// What is seen where no layer is: nothing, a color, or the pictures as they were.
+/// The background behind the layers: nothing, a color, or the original pictures.
 struct Background {
   enum class Fill { transparent, color, original };
   Fill fill = Fill::transparent;
@@ -63,9 +63,9 @@ struct Background {
   bool operator==(const Background&) const = default;
 };
 
-/// All that is saved.
+/// Everything that is saved.
 struct Scene {
-  std::vector<SharedLayer> layers = {Layer{}};  ///< from the bottom to the top, one at least
+  std::vector<SharedLayer> layers = {Layer{}};  ///< from bottom to top, at least one
   size_t edited = 0;                            ///< the layer that tools and the inspector act on
   Background background = {};
   AnimationSettings animation = {};
@@ -76,7 +76,7 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// The scene with another edited layer, or another deformation of that.
+/// Replaces the edited layer, or its deformation.
 Scene with_layer(Scene scene, Layer layer);
 Scene with_deformation(Scene scene, Deformation deformation);
 /// A scene of one layer.

@@ -1,4 +1,4 @@
-// Poses are asked of the deformer; what lies between keyframes is known on the mesh.
+// The deformer evaluates poses; maps between keyframes are known on the mesh only.
 #include "scene/timed_map.h"
 
 #include <utility>
@@ -27,7 +27,7 @@ class MeshPointMap final : public PointMap {
   VectorXc f_;
 };
 
-constexpr char kBetween[] = "Between keyframes: blended, and not proved";
+constexpr char kBetween[] = "Between keyframes: blended, not certified";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// A deformation's map in full precision, as it stands or at a time of its keyframes.
+// A deformation's map in full precision, in its own pose or at a time of its keyframes.
 #pragma once
 
 #include "core/maps/distortion.h"
@@ -8,38 +8,39 @@
 
 namespace holomorph {
 
-/// The map at a moment. Where a pose is shown, the deformation's or a keyframe's, it is the
-/// method's. On the way between keyframes it is linear in each triangle, and nothing is proved.
+/// The map at a moment. In the deformation's own pose, and in the pose of a keyframe, it is the map
+/// of the method. Between keyframes it is linear in each triangle, without any guarantee.
 struct TimedFrame {
-  Deformation deformation;   ///< with its handles there
-  std::optional<Pose> pose;  ///< none on the way between keyframes
-  VectorXc between;          ///< then the mesh's vertices
+  Deformation deformation;   ///< with its handles at that moment
+  std::optional<Pose> pose;  ///< none between keyframes
+  VectorXc between;          ///< f at the mesh's vertices, between keyframes only
 };
 
-/// The map of a deformation at many moments, which share what is prepared.
+/// The map of a deformation at many moments, which share one preparation.
 class TimedMap {
  public:
-  /// Throws Error as preparing the map does.
+  /// Throws Error as prepared_map() does.
   explicit TimedMap(const Deformation& deformation, bool linear_blend = false);
-  /// Of the edited layer.
+  /// The map of the edited layer.
   explicit TimedMap(const Scene& scene)
       : TimedMap(scene.deformation(), scene.animation.linear_blend) {}
 
-  /// Without a time, or without keyframes, the deformation as it stands. Throws Error when
-  /// none of the keyframes plays or one of them has no map. Cost: all keyframes' maps for the first
-  /// time, then a sparse solve.
+  /// The frame at a time; without a time, or without keyframes, the deformation's own pose. Throws
+  /// Error if none of the keyframes plays or one of them has no map. Cost: the maps of all
+  /// keyframes on the first call, then a sparse solve.
   TimedFrame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }
   const PreparedMap& prepared() const { return *prepared_; }
 
-  /// At the mesh's vertices, with derivatives.
+  /// The map at the mesh's vertices, with derivatives.
   SampledMap on_mesh(const TimedFrame& frame) const;
-  /// At any points, with derivatives: NaN where the method's own is, and nothing outside the cage.
-  /// What is precomputed for points is kept for the next frame with the same ones.
+  /// The map at any points, with derivatives. It is NaN where the method's map is NaN, and
+  /// meaningless outside the cage. The precomputation for the points is kept for the next frame
+  /// with the same points.
   SampledMap at(const TimedFrame& frame, const Points& points);
 
-  /// The inverse of a frame's map, with the map.
+  /// The inverse of a frame's map, together with the map.
   struct Inverse {
     std::unique_ptr<PointMap> map;
     InverseMap inverse;
@@ -47,7 +48,7 @@ class TimedMap {
     Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
         : map(std::move(of)), inverse(rest, mesh, as_span(f), *map) {}
   };
-  /// Null when the method knows its map at samples only. The TimedMap must outlive it.
+  /// Null if the method knows its map only at samples. The TimedMap must outlive the result.
   std::unique_ptr<Inverse> inverse(const TimedFrame& frame) const;
 
  private:

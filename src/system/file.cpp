@@ -1,4 +1,4 @@
-// POSIX calls, because an atomic replacement needs fsync and rename.
+// Uses POSIX calls, because an atomic replacement needs fsync and rename.
 #include "system/file.h"
 
 #include <dirent.h>
@@ -26,17 +26,17 @@ namespace holomorph {
 namespace {
 
 [[noreturn]] void fail(const Path& path, const char* what) {
-  const std::string reason = std::strerror(errno);  // before anything else sets it
+  const std::string reason = std::strerror(errno);  // before anything else changes errno
   throw Error(ErrorKind::failed, path.string() + ": " + what + ": " + reason);
 }
 
-/// Closed when it goes out of scope.
+/// A file descriptor that is closed when it goes out of scope.
 struct Descriptor {
   int fd;
   ~Descriptor() { ::close(fd); }
 };
 
-/// Flushes a directory's entries, so that a rename in it survives a power cut.
+/// Flushes a directory's entries, so that a rename in it survives a power failure.
 void sync_directory(const Path& directory) {
   const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;
@@ -44,7 +44,7 @@ void sync_directory(const Path& directory) {
   ::close(fd);
 }
 
-/// False with errno when not all bytes could be written.
+/// Writes all bytes. Returns false and sets errno if not all of them could be written.
 bool write_all(int descriptor, std::string_view bytes) {
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
@@ -55,7 +55,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// What a path leads to through links. Throws Error where links lead in a circle.
+/// The target of a path through links. Throws Error if the links form a cycle.
 Path target_of(Path path) {
   constexpr int kMostLinks = 40;
   std::error_code error;
@@ -73,8 +73,8 @@ Path folder_of(const Path& path) {
   return path.has_parent_path() ? path.parent_path() : Path(".");
 }
 
-/// The permissions of new files. umask() can only be asked by setting it, which would affect files
-/// that other threads are creating.
+/// The permissions of new files. umask() can only be queried by setting it, which would affect
+/// files that other threads are creating.
 mode_t mode_of_new_files() {
   static const mode_t mask = [] {
     std::ifstream status("/proc/self/status");
@@ -85,14 +85,14 @@ mode_t mode_of_new_files() {
   return 0666 & ~mask;
 }
 
-/// The permissions of what is replaced, or those of new files.
+/// The permissions of the file that is replaced, or those of new files.
 mode_t mode_for(const Path& path) {
   struct stat before {};
   return ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : mode_of_new_files();
 }
 
 constexpr std::string_view kTemporary = ".holomorph-";
-constexpr size_t kRandom = 8;  ///< hexadecimal digits behind it
+constexpr size_t kRandom = 8;  ///< hexadecimal digits after it
 
 bool is_temporary(const std::string& name) {
   return name.starts_with(kTemporary) && name.size() == kTemporary.size() + kRandom &&
@@ -106,7 +106,8 @@ Path fresh_temporary(const Path& folder) {
   return folder / name;
 }
 
-/// Removes what a NewFile or a NewFolder left, unless it is in use, or something else of that name.
+/// Removes what a NewFile or a NewFolder left behind, unless it is in use or something else has
+/// that name.
 void remove_left(int folder, const char* name) {
   const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return;
@@ -131,14 +132,14 @@ void remove_left(int folder, const char* name) {
     if (ours) ::unlinkat(fd, entry->d_name, 0);
   }
   ::closedir(entries);
-  ::unlinkat(folder, name, AT_REMOVEDIR);  // only when it is empty now
+  ::unlinkat(folder, name, AT_REMOVEDIR);  // succeeds only if it is empty
 }
 
-/// Removes what killed programs have left in a folder: what is locked is in use.
+/// Removes what killed programs have left in a folder. Whatever is locked is in use.
 void clean(const Path& folder) {
   using Clock = std::chrono::steady_clock;
   static std::mutex mutex;
-  static std::map<Path, Clock::time_point> cleaned;  // not again for each of a film's frames
+  static std::map<Path, Clock::time_point> cleaned;  // not again for each frame of a film
   {
     const std::lock_guard lock(mutex);
     const auto [last, first] = cleaned.try_emplace(folder, Clock::now());
@@ -157,15 +158,16 @@ void clean(const Path& folder) {
   }
 }
 
-/// Locks what was just made. False when somebody has cleaned it away before.
+/// Locks a file or folder that was just created. Returns false if another process has removed it
+/// before.
 bool lock_fresh(int descriptor) {
   while (::flock(descriptor, LOCK_EX) != 0)
-    if (errno != EINTR) break;  // where there are no locks nobody cleans
+    if (errno != EINTR) break;  // without locks, no process removes anything
   struct stat found {};
   return ::fstat(descriptor, &found) == 0 && found.st_nlink > 0;
 }
 
-/// Up to the end; `name` is for messages.
+/// Reads up to the end; `name` is used in messages.
 std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
   std::string bytes;
   std::vector<char> block(1 << 16);
@@ -179,8 +181,8 @@ std::string read_descriptor(int descriptor, const Path& name, size_t limit) {
     if (count == 0) return bytes;
     bytes.append(block.data(), static_cast<size_t>(count));
     if (bytes.size() > limit)
-      throw Error(ErrorKind::bad_input,
-                  name.string() + ": there are more than " + std::to_string(limit >> 20) + " MB");
+      throw Error(ErrorKind::bad_input, name.string() + ": the input is larger than " +
+                                            std::to_string(limit >> 20) + " MB");
   }
 }
 
@@ -204,13 +206,13 @@ bool is_file(const Path& path) {
 
 namespace {
 
-/// What is wrong with a file that cannot be opened.
+/// The reason why a file cannot be opened.
 std::string unreadable(const Path& path, int reason) {
   std::error_code error;
   if (reason == ENOENT && std::filesystem::is_symlink(path, error))
     return "this is a link to " + std::filesystem::read_symlink(path, error).string() +
            ", which does not exist";
-  if (reason == ENOENT || reason == ENOTDIR) return "there is no such file";
+  if (reason == ENOENT || reason == ENOTDIR) return "no such file";
   if (reason == ELOOP) return "this is a link that leads to itself";
   if (reason == ENAMETOOLONG) return "the name is too long";
   return std::string("cannot be read: ") + std::strerror(reason);
@@ -226,23 +228,23 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   const auto refuse = [&](const std::string& why) {
     return Error(ErrorKind::bad_input, shortened(path) + ": " + why);
   };
-  if (path.native().find('\0') != std::string::npos) throw refuse("no file can have this name");
+  if (path.native().find('\0') != std::string::npos) throw refuse("this is not a valid file name");
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) throw refuse(unreadable(path, errno));
   if (S_ISDIR(found.st_mode)) throw refuse("this is a directory, not a file");
-  // Devices are not even opened: some do what they are for.
+  // Devices are not even opened, because opening some of them has effects.
   if (!S_ISREG(found.st_mode) && !streams) throw refuse("this is not a regular file");
-  const bool waits = !S_ISREG(found.st_mode);  // until somebody writes into the pipe
+  const bool waits = !S_ISREG(found.st_mode);  // until another program writes into the pipe
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (waits ? 0 : O_NONBLOCK));
   if (fd < 0) throw refuse(unreadable(path, errno));
   const Descriptor closed{fd};
   if (waits) return read_descriptor(fd, path, limit);
-  // The name may lead to another file since it was looked at.
+  // The name may refer to another file since it was checked.
   if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
     throw refuse("this is not a regular file");
   if (static_cast<size_t>(found.st_size) > limit)
     throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
-  // No more than its size: some system files have no end.
+  // Reads no more than its size, because some system files have no end.
   std::string bytes(static_cast<size_t>(found.st_size), '\0');
   size_t done = 0;
   while (done < bytes.size()) {
@@ -279,7 +281,8 @@ bool is_stream(const Path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status))
-    throw Error(ErrorKind::bad_input, path.string() + ": this is a directory; name a file");
+    throw Error(ErrorKind::bad_input,
+                path.string() + ": this is a directory; give the name of a file");
   return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
@@ -385,7 +388,7 @@ void move_file(const Path& finished, const Path& wanted) {
 FileLock::FileLock(const Path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
   if (descriptor_ < 0) fail(path, "cannot be created");
-  for (int attempt = 0; attempt < 50; ++attempt) {  // somebody may be looking
+  for (int attempt = 0; attempt < 50; ++attempt) {  // another process may be probing it
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     if (errno != EWOULDBLOCK && errno != EINTR) break;
     ::usleep(1000);
@@ -402,7 +405,7 @@ FileLock::~FileLock() {
 bool FileLock::is_held(const Path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // other probes are no owners
+  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // probes share the lock
   ::close(descriptor);
   return held;
 }
@@ -413,7 +416,7 @@ std::string printable(const std::string& text) {
     const auto at = [&](size_t k) {
       return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
     };
-    // U+202A to U+202E and U+2066 to U+2069 change the direction of writing.
+    // U+202A to U+202E and U+2066 to U+2069 change the text direction.
     const bool turns = at(0) == 0xe2 && ((at(1) == 0x80 && at(2) >= 0xaa && at(2) <= 0xae) ||
                                          (at(1) == 0x81 && at(2) >= 0xa6 && at(2) <= 0xa9));
     const bool steers = (at(0) < ' ' && at(0) != '\n') || at(0) == 0x7f ||

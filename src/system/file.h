@@ -1,4 +1,4 @@
-// Files as wholes: read at once, replaced atomically.
+// Operations on whole files, which are read in one piece and replaced atomically.
 #pragma once
 
 #include <filesystem>
@@ -11,45 +11,45 @@ namespace holomorph {
 
 using Path = std::filesystem::path;
 
-/// From the root on, without dots; the path itself where there is no working folder any more.
+/// The absolute path without dots; the path itself if the working folder no longer exists.
 Path absolute_path(const Path& path);
 
-/// Whether there is a file or folder of this name; false for names that cannot be asked for.
+/// Whether there is a file or folder with this name; false for names that cannot be looked up.
 bool is_there(const Path& path);
-/// Whether there is a regular file of this name.
+/// Whether there is a regular file with this name.
 bool is_file(const Path& path);
 
-/// The bytes of a regular file. Throws Error{bad_input} when it is missing, a directory, unreadable
+/// The bytes of a regular file. Throws Error{bad_input} if it is missing, a directory, unreadable
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
-/// The same, and of a pipe or a device up to its end: for what a user names, not for what a file
-/// does, because it waits.
+/// The same, and also reads a pipe or a device up to its end. It may wait, so use it for files that
+/// the user names, not for those that a file names.
 std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
 
-/// All bytes of standard input, `limit` at most. Throws Error{bad_input} when there are more.
+/// All bytes of standard input, at most `limit`. Throws Error{bad_input} if there are more.
 std::string read_standard_input(size_t limit = size_t{1} << 30);
 
-/// A file that comes into being: written beside where it goes, under a short name of its own, and
-/// there as a whole when it is put in place, or never. What a killed program leaves behind is
-/// removed by the next NewFile or NewFolder in that folder. A pipe or a device is written into at
-/// once.
+/// A file that is being written. It is written under a short temporary name next to its
+/// destination, and appears there as a whole when it is put in place, or never. What a killed
+/// program leaves behind is removed by the next NewFile or NewFolder in that folder. A pipe or a
+/// device is written directly.
 class NewFile {
  public:
-  /// Who may read it. The usual: as with the file that it replaces, or as the umask says; or only
-  /// its owner.
+  /// Who may read the file. Usual: the same users as the file that it replaces, or those that the
+  /// umask allows. Owner: only its owner.
   enum class Readers { usual, owner };
 
-  /// Throws Error{failed} when nothing can be written there. A link keeps pointing where it points.
+  /// Throws Error{failed} if nothing can be written there. A link keeps its target.
   explicit NewFile(const Path& path, Readers readers = Readers::usual);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// Throw Error{failed}.
+  /// Both throw Error{failed}.
   void write(std::string_view bytes);
   void put_in_place();
-  /// Open for writing, for other programs.
+  /// The open file, for other programs to write to.
   int descriptor() const { return descriptor_; }
 
  private:
@@ -58,10 +58,10 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// A temporary folder for files that belong together; whatever is not moved out of it is removed.
+/// A temporary folder for files that belong together. Whatever is not moved out of it is removed.
 class NewFolder {
  public:
-  /// Beside a file. Throws Error{failed}.
+  /// Creates the folder next to a file. Throws Error{failed}.
   explicit NewFolder(const Path& beside);
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;
@@ -73,34 +73,35 @@ class NewFolder {
   int descriptor_ = -1;
 };
 
-/// Replaces the file's content or leaves it as it was: a NewFile with all of it, flushed to disk.
-/// Throws Error{failed} when that is not possible. Where SIGPIPE is not ignored, a pipe without a
-/// reader ends the program.
+/// Replaces the file's content, flushed to disk, or throws Error{failed} and leaves the file as it
+/// was. Unless SIGPIPE is ignored, writing to a pipe without a reader ends the program.
 void write_file(const Path& path, const std::string& bytes,
                 NewFile::Readers readers = NewFile::Readers::usual);
-/// The same with the content of a finished file in the same file system, which is gone afterwards.
+/// Replaces a file's content in the same way by a finished file, ideally in the same file system.
+/// The finished file is gone afterwards.
 void move_file(const Path& finished, const Path& path);
-/// Whether a path names something that is written into and not replaced: a pipe, a device. Throws
-/// Error for a folder.
+/// Whether a path names something that is written into instead of being replaced: a pipe or a
+/// device. Throws Error for a folder.
 bool is_stream(const Path& path);
-/// Throws Error{failed} when standard output does not take all of it.
+/// Throws Error{failed} if not all of it can be written to standard output.
 void write_standard_output(const std::string& bytes);
 
-/// Whether there is a file that this user may not write, or whose permissions say that nobody may.
+/// Whether there is such a file and this user may not write it, or its permissions let nobody write
+/// it.
 bool is_read_only(const Path& path);
-/// Throws Error{failed} where there is one.
+/// Throws Error{failed} if the file is read-only.
 void check_not_read_only(const Path& path);
 
-/// A mark that a running program owns something: held until destroyed, and by nobody once the
-/// program has ended, however it ended.
+/// A mark that a running program owns something. It is held until the object is destroyed or the
+/// program ends, however it ends.
 class FileLock {
  public:
-  /// Creates the file if need be and locks it. Throws Error{failed} when that is not possible.
+  /// Creates the file if necessary and locks it. Throws Error{failed} if that is not possible.
   explicit FileLock(const Path& path);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
-  /// Whether some program, this one included, holds the lock.
+  /// Whether any program, including this one, holds the lock.
   static bool is_held(const Path& path);
 
  private:
@@ -108,16 +109,16 @@ class FileLock {
   int descriptor_;
 };
 
-/// The error with the file's name in front, unless it starts with it.
+/// The error with the file's name in front, unless its message already starts with it.
 Error about(const Path& file, const Error& error);
 
 /// A text that may come from a file, with a question mark for each character that would control a
-/// terminal or change the direction of writing.
+/// terminal or change the text direction.
 std::string printable(const std::string& text);
 
-/// ASCII capitals made small: for extensions and searches.
+/// The text with ASCII letters in lower case, for extensions and searches.
 std::string lower_case(std::string text);
-/// Whether a text has all of these words, in lower or upper case.
+/// Whether a text contains all of these words, in lower or upper case.
 bool has_words(const std::string& text, const std::string& words);
 
 /// The SHA-256 of bytes as 64 lower-case hexadecimal digits.

@@ -1,4 +1,4 @@
-// An exception ends the job and is kept for whoever asks.
+// An exception ends the job and is kept for error().
 #include "system/job.h"
 
 #include <chrono>

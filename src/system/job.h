@@ -1,4 +1,4 @@
-// Work on a thread of its own that says how far it is and can be cancelled.
+// Work on its own thread that reports its progress and can be canceled.
 #pragma once
 
 #include <atomic>
@@ -14,10 +14,10 @@ namespace holomorph {
 
 class Job {
  public:
-  /// What work tells of itself, and is asked.
+  /// The progress that the work reports, and its request to stop.
   class Progress {
    public:
-    /// So many steps of so many are done. Returns whether to go on.
+    /// Reports that `done` of `all` steps are done. Returns whether to continue.
     bool at(int done, int all) {
       done_ = done;
       all_ = all;
@@ -32,19 +32,19 @@ class Job {
   };
   using Work = std::function<void(Progress&)>;
 
-  /// Starts. `wake` is called on the job's thread when it has ended.
+  /// Starts the work. `wake` is called on the job's thread when it has ended.
   Job(std::string title, Work work, std::function<void()> wake = {});
   ~Job();  ///< cancels and waits
 
   const std::string& title() const { return title_; }
   int done() const { return progress_.done_; }
-  int all() const { return progress_.all_; }  ///< 0 before it is known, or where it never is
+  int all() const { return progress_.all_; }  ///< 0 while it is unknown
   void cancel() { progress_.cancelled_ = true; }
   bool cancelled() const { return progress_.cancelled_; }
   bool ended() const { return ended_; }
-  /// Whether it has ended, after waiting for at most so long.
+  /// Waits for at most this long. Returns whether the job has ended.
   bool ends_within(double milliseconds) const;
-  /// Of an ended job: what went wrong.
+  /// What went wrong in a job that has ended.
   std::optional<Error> error() const;
 
  private:

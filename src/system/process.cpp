@@ -1,4 +1,4 @@
-// POSIX calls: nothing here goes through a shell.
+// Uses POSIX calls; nothing goes through a shell.
 #include "system/process.h"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
     ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
   else
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // Nothing that follows may close it again: it comes last, and has a number of its own.
+  // No later action may close this descriptor, so it comes last and has its own number.
   if (passed >= 0) ::posix_spawn_file_actions_adddup2(&actions, passed, kPassedDescriptor);
   Child child;
   const int wrong =
@@ -78,7 +78,7 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
                                    MSG_NOSIGNAL | MSG_DONTWAIT);
       sent = count > 0                           ? sent + static_cast<size_t>(count)
              : errno == EAGAIN || errno == EINTR ? sent
-                                                 : input.size();  // it does not listen any more
+                                                 : input.size();  // it no longer reads
     }
     if (wait.revents & (POLLIN | POLLHUP)) {
       std::array<char, 65536> part;
@@ -87,7 +87,7 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
       if (count > 0) finished.output.append(part.data(), static_cast<size_t>(count));
       if (count < 0 && errno != EAGAIN && errno != EINTR) break;
     } else if (!ended) {
-      // Some leave a helper behind that keeps this end open (clipboards do).
+      // Some programs leave a helper behind that keeps this socket open (clipboard tools do).
       ended = ::waitpid(child->pid, &status, WNOHANG) == child->pid;
     } else {
       break;
@@ -95,7 +95,7 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
     good = good && go_on() && finished.output.size() <= limit;
   }
   ::close(child->socket);
-  // It may have closed its output and go on, or not want to end.
+  // The program may have closed its output and still run, or refuse to end.
   for (int waited = 0; !ended; waited += 10) {
     const pid_t found = ::waitpid(child->pid, &status, WNOHANG);
     ended = found == child->pid || (found < 0 && errno != EINTR);

@@ -1,7 +1,7 @@
-"""What the attacks share: the program under limits, seeds that are printed, and a summary line.
+"""What the attacks share: running the program under limits, printed seeds, and a summary line.
 
-Each script takes the program and the checkout, as the other tests do, and options; it prints one summary line and ends
-with 1 when something is bad. Without options it runs in its short form, as CI does.
+Each script takes the program and the checkout, as the other tests do, and options. It prints one summary line and exits
+with status 1 if something is bad. Without options it runs in its short form, as in CI.
 """
 import argparse
 import os
@@ -15,7 +15,7 @@ import threading
 
 
 def arguments(text, **options):
-    """The command line: PROGRAM SOURCE, --seed, and options by their defaults."""
+    """Parses the command line: PROGRAM SOURCE, --seed, and options with their defaults."""
     parser = argparse.ArgumentParser(description=text)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("source", type=os.path.abspath)
@@ -26,13 +26,13 @@ def arguments(text, **options):
 
 
 class Outcome:
-    """How a run of the program ended: its status, or minus a signal; processor seconds, MB, and what it said."""
+    """How a run of the program ended: its status, or minus the signal; processor seconds, MB, and its error output."""
 
     def __init__(self, status, seconds, megabytes, said, hung):
         self.status, self.seconds, self.megabytes, self.said, self.hung = status, seconds, megabytes, said, hung
 
     def wrong(self, most_seconds, most_megabytes):
-        """What is wrong with it; "" when nothing is."""
+        """What is wrong with the run; "" if nothing is."""
         if self.hung:
             return "hangs"
         if self.status in (-signal.SIGXCPU, -signal.SIGKILL):
@@ -44,7 +44,7 @@ class Outcome:
         if self.megabytes > most_megabytes:
             return f"{self.megabytes} MB"
         if self.status and not self.said.startswith("holomorph: "):
-            return "no sentence: " + self.said[:200]
+            return "no error message: " + self.said[:200]
         for word in ("bad_alloc", "basic_", "Sanitizer", "CGAL", "assertion", "what()", "filesystem error"):
             if word in self.said:
                 return "says " + self.said[:200]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Files of a stranger: whatever they claim, the program says what is wrong within 20 s and 2 GB."""
+"""Hostile files: whatever they claim, the program says what is wrong within 20 s and 2 GB."""
 import json
 import math
 import os
@@ -34,7 +34,7 @@ def loop(corners, degree=1, radius=25):
 
 
 class Round:
-    """One set of files, each with the command that reads it; sizes and names are drawn anew."""
+    """One set of files, each with the command that reads it. Sizes and names are random."""
 
     def __init__(self, folder, rng):
         self.folder, self.rng, self.cases = folder, rng, []
@@ -51,7 +51,7 @@ class Round:
         return name
 
     def add(self, title, *words, refused=False):
-        """A command; some have to be refused, whatever else they do."""
+        """Adds a command. With `refused`, the program must reject it."""
         self.cases.append((title, words, refused))
 
     def scene(self, title, words=("info",), version=1, refused=False, **members):
@@ -63,7 +63,7 @@ class Round:
         self.add(title, words[0], name, *words[1:], refused=refused)
 
     def names(self):
-        """Names that are no pictures of the scene's."""
+        """Names that do not refer to a picture of the scene."""
         os.mkfifo(os.path.join(self.folder, "pipe.png"))
         for a, b in (("one.png", "two.png"), ("two.png", "one.png")):
             os.symlink(a, os.path.join(self.folder, b))
@@ -76,7 +76,7 @@ class Round:
                 self.scene(f"a picture called {name[:24]!r} {inside}", ("info", *inside), refused=True, image={"file": name})
 
     def pictures(self):
-        """Few bytes that claim many pixels, or many passes over them."""
+        """Small files that claim many pixels, or many passes over them."""
         side = lambda: self.rng.choice([16384, 16383, 15000, 65535, 2**31 - 1, 0])
         claims = {
             "a.png": png(min(side(), 2**31 - 1), 16384, b"\0" * 99),
@@ -97,7 +97,7 @@ class Round:
             self.scene(f"{name} of {len(content)} bytes", refused=name not in ("text.png", "profile.png"), image={"file": name})
         flat = zlib.compressobj(9)
         rows = b"".join(flat.compress(bytes(1 + 4 * 12000)) for _ in range(12000)) + flat.flush()
-        for i in range(3):  # each of them may be opened, not all
+        for i in range(3):  # each of them may be opened, but not all
             self.write(f"flat{i}.png", PNG_START + chunk(b"IHDR", struct.pack(">IIBBBBB", 12000, 12000, 8, 6, 0, 0, 0))
                        + chunk(b"IDAT", rows) + chunk(b"IEND", b""))
         self.scene("three pictures of 144 megapixels", version=2, refused=True,
@@ -125,7 +125,7 @@ class Round:
             self.add(f"{name}, without area", "new", "p.png", "--outline", name, "--out", "o.json", "--force", refused=True)
 
     def claims(self):
-        """Scenes that ask for much work."""
+        """Scenes that require much work."""
         keys = ",".join(f'"k{i}":{i}' for i in range(100000))
         self.write("keys.json", '{"format":"holomorph","version":1,"cage":{"rest":%s},%s}' % (json.dumps(SQUARE), keys))
         self.add("100,000 unknown keys", "info", "keys.json")
@@ -163,7 +163,7 @@ for round_number in range(options.rounds):
     folder = tempfile.mkdtemp(prefix="hostile-")
     for title, words, refused in Round(folder, random.Random(options.seed + round_number)).cases:
         outcome = attack.run([options.program, *words], folder, MOST_SECONDS)
-        wrong = outcome.wrong(MOST_SECONDS, MOST_MEGABYTES) or ("is not refused" if refused and outcome.status == 0 else "")
+        wrong = outcome.wrong(MOST_SECONDS, MOST_MEGABYTES) or ("is not rejected" if refused and outcome.status == 0 else "")
         if wrong:
             bad.append(f"{title}: {wrong}")
         count, peak, slowest = count + 1, max(peak, outcome.megabytes), max(slowest, outcome.seconds)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""kill -9 while the command line writes: each file is as it was, whole or absent, and the next write cleans up."""
+"""kill -9 while the command line writes: each file is unchanged, complete or absent, and the next write cleans up."""
 import json
 import os
 import random
@@ -52,7 +52,7 @@ def is_table(name):
 
 with open(path("many.csv"), "w") as points:
     points.write("".join(f"{400 + i % 200},{300 + i // 200}\n" for i in range(40000)))
-# What writes, the file to look at, and how to tell that it is whole.
+# The command that writes, the file to check, and the test that it is complete.
 jobs = [(["new", "fish.png", "--force", "--out", "out.json"], "out.json", is_json),
         (["render", "fish.json", "--out", "out.png"], "out.png", is_png),
         (["export", "fish.json", "--format", "svg", "--out", "out.svg"], "out.svg", is_svg),
@@ -67,14 +67,14 @@ for words, out, whole in jobs:
     subprocess.run([options.program, *words], cwd=folder, check=True, capture_output=True)
     seconds.append(time.time() - start)
     if not whole(out):
-        bad.append(f"{out} is not whole without a kill")
+        bad.append(f"{out} is not complete without a kill")
 known, killed = set(os.listdir(folder)), 0
 for number in range(options.kills):
     words, out, whole = jobs[number % len(jobs)]
     if rng.random() < 0.5 and os.path.exists(path(out)):
         os.remove(path(out))
     process = subprocess.Popen([options.program, *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    # Anywhere, and often near the end, where files are written.
+    # At any time, and often near the end, when files are written.
     length = seconds[number % len(jobs)]
     time.sleep(max(0.0, rng.uniform(0, length) if rng.random() < 0.5 else rng.gauss(0.93, 0.08) * length))
     killed += process.poll() is None

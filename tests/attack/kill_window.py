@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""kill -9 of the editor while it is edited and saved: no file is torn, at most the last step is lost, nothing stays."""
+"""kill -9 of the editor during edits and saves: no file is torn, at most the last step is lost, nothing is left behind."""
 import json
 import os
 import random
@@ -30,7 +30,7 @@ with open(scene, "w") as file:
 
 
 def steps_in(path):
-    """How many steps to the right a scene's cage has made."""
+    """The number of steps that the cage of a scene has moved to the right."""
     with open(path) as file:
         cage = json.load(file)["cage"]
     return round(cage.get("pose", cage["rest"])[0][0][0] - cage["rest"][0][0][0])
@@ -63,12 +63,12 @@ for number in range(options.kills):
     except (ValueError, KeyError, OSError) as error:
         bad.append(f"kill {number}: torn: {error}")
         continue
-    if seen and not saves:  # the presses that had been taken, and drawn, when it was looked at
+    if seen and not saves:  # the key presses that had been processed and drawn when the state was read
         lost = (seen["taken"] - taken + 1) // 2 - (reached - before)
         most_lost = max(most_lost, lost)
         if lost > 1:
             bad.append(f"kill {number}: {lost} steps are lost")
-    if autosaved() and rng.random() < 0.3:  # the next start offers it
+    if autosaved() and rng.random() < 0.3:  # the next start offers to recover it
         with Editor(options.program, [scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Unsaved work", "the offer")
             editor.key("Return")
@@ -80,7 +80,7 @@ for number in range(options.kills):
         offered += 1
         if steps_in(scene) != reached:
             bad.append(f"kill {number}: recovered {steps_in(scene)} steps of {reached}")
-with Editor(options.program, [scene], home=home) as editor:  # one more session, which ends well
+with Editor(options.program, [scene], home=home) as editor:  # one more session, which ends normally
     editor.wait(lambda s: s is not None and s["cage_points"] == 4, "the scene")
     if editor.state()["asking"]:
         editor.key("Return")

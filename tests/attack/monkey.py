@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random clicks, drags, keys and commands in the window: it goes on, answers, and does not grow."""
+"""Random clicks, drags, keys and commands in the window: it keeps running, responds, and does not grow."""
 import os
 import random
 import shutil
@@ -21,7 +21,7 @@ KEYS = list("vpnsuaogxtbrwcik12345,.") + [
 WORDS = ["cage", "pins", "rigid", "no folds", "harmonic", "mean value", "angles", "strokes", "outline", "conformal", "make from", "compare", "light",
          "contrast", "dark", "raise", "lower", "reset", "background", "add", "duplicate", "hide", "lock", "key", "onion", "mirror", "simplify", "fit",
          "checker", "stretch", "surface", "curved", "delete", "select", "box", "timeline", "record"]
-STUCK = 60  # seconds without an event that was taken
+STUCK = 60  # seconds without a processed event
 rng = random.Random(options.seed)
 work = tempfile.mkdtemp(prefix="monkey-")
 assets = os.path.join(options.source, "assets")
@@ -101,7 +101,7 @@ class Monkey:
             self.do("key", "Escape")
 
     def settle(self):
-        """Until all events are taken. Returns whether it got on with them."""
+        """Waits until all events are processed. Returns False if there is no progress."""
         since, taken = time.time(), -1
         while self.editor.process.poll() is None:
             state = self.editor.state() or {}
@@ -127,8 +127,8 @@ while time.time() - start < 60 * options.minutes and not bad:
         while time.time() - start < 60 * options.minutes and not bad:
             monkey.step()
             if not monkey.settle():
-                bad.append(f"no answer for {STUCK} s")
-            if editor.process.poll() == 0:  # it found the way out
+                bad.append(f"no response for {STUCK} s")
+            if editor.process.poll() == 0:  # it has quit the program
                 quits += 1
                 break
             if editor.process.poll() is not None:
@@ -144,7 +144,7 @@ while time.time() - start < 60 * options.minutes and not bad:
 
 
 def size_at(minute):
-    """The median of the half minute around a time."""
+    """The median size in the half minute around a time."""
     near = sorted(size for at, size in sizes if abs(at - 60 * minute) < 15) or [sizes[-1][1]]
     return near[len(near) // 2]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sample scenes with their structure changed: extreme numbers, lists repeated, shuffled and emptied, kinds swapped."""
+"""Sample scenes with a changed structure: extreme numbers, repeated, shuffled and emptied lists, swapped types."""
 import json
 import os
 import random
@@ -36,7 +36,7 @@ def change(scene, rng):
     value = inside[key]
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     kind = rng.random()
-    if number and rng.random() < 0.6:  # a little, so that it may still be a scene
+    if number and rng.random() < 0.6:  # a small change, so that it may still be a valid scene
         inside[key] = value + rng.gauss(0, 0.02) * (abs(value) + 1)
     elif number and kind < 0.6:
         inside[key] = rng.choice(NUMBERS + [10 * value, -value, value * 1e-6, value + 1, value * (1 + 1e-15)])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scenes opened one after the other in one window: its memory ends where it was after the first tenth."""
+"""Scenes opened one after another in one window: memory at the end is as it was after the first tenth."""
 import os
 import shutil
 import sys
@@ -15,7 +15,7 @@ work = tempfile.mkdtemp(prefix="opens-")
 for name in os.listdir(os.path.join(options.source, "assets")):
     shutil.copy(os.path.join(options.source, "assets", name), work)
 scenes = [os.path.join(work, name + ".json") for name in ("fish", "gecko", "giraffe")]
-points = {}  # of each scene's cage: how it is told that it is open
+points = {}  # of each scene's cage, to recognize the open scene
 
 
 def megabytes(process):
@@ -30,7 +30,7 @@ with Editor(options.program, [scenes[0]]) as editor:
         scene = scenes[(number + 1) % len(scenes)]
         before = editor.state()["first_point"]
         editor.drop(scene, 400, 300)
-        editor.wait(lambda s: s["asking"] or s["first_point"] != before, "the question where it goes")
+        editor.wait(lambda s: s["asking"] or s["first_point"] != before, "the question of where it goes")
         if editor.state()["asking"]:
             editor.press(640, 400 + 20)  # Open it instead
         editor.wait(lambda s: s["first_point"] != before and s["pictured"] and not s["busy"], "the next scene", 30)

@@ -455,7 +455,7 @@ class CommandLine(Case):
         self.bad("render", still, "--time", 1, "--out", out, says="no keyframes")
         self.bad("export", still, "--format", "gif", "--out", self.path("o.gif"), says="no keyframes")
         self.bad("render", self.write("two.json", {**scene, "keyframes": scene["keyframes"][:1] * 2}),
-                 "--time", 0, "--out", out, says="no two at one time")
+                 "--time", 0, "--out", out, says="without duplicates")
         other = {**scene, "keyframes": [{"time": 0, "pose": {"cage": [[[0, 0]], [[1, 0]], [[0, 1]]]}}]}
         self.bad("render", self.write("other.json", other), "--time", 0, "--out", out, says="none of the keyframes")
         self.assertFalse(os.path.exists(out))
@@ -653,7 +653,7 @@ class CommandLine(Case):
         same, source = (numpy.asarray(Image.open(path)) for path in (self.path("same.png"), picture))
         self.assertTrue((same == source).all(), "a curved cage at rest changes nothing")
         self.bad("new", "--force", picture, "--cage", curved, "--pose", self.path("cage.svg"), "--out", again, says="must agree")
-        self.bad("new", "--force", picture, "--cage", picture, "--out", again, says="no SVG")
+        self.bad("new", "--force", picture, "--cage", picture, "--out", again, says="not an SVG")
 
     def test_pictures_of_many_kinds_are_opened(self):
         picture = Image.effect_mandelbrot((60, 40), (-2, -1.3, 1, 1.3), 40).convert("RGBA")

@@ -1,4 +1,5 @@
-// Any bytes as an autosave, through the file system: named, recovered, written again.
+// Reads any bytes as an autosave through the file system: it is listed, recovered and written
+// again.
 #include <unistd.h>
 
 #include <filesystem>
@@ -18,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   std::FILE* out = std::fopen(file.c_str(), "wb");
   std::fwrite(data, 1, size, out);
   std::fclose(out);
-  check(recoverable(folder).size() == 1, "what is there is offered");
+  check(recoverable(folder).size() == 1, "an existing autosave is offered");
   try {
     Document document = Document::recover(file);
     discard(file);

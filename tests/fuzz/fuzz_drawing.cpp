@@ -1,4 +1,4 @@
-// Any bytes as an SVG file: an error, or a loop that is written and read again the same.
+// Reads any bytes as an SVG file: an Error, or a loop that survives writing and reading.
 #include "core/error.h"
 #include "scene/formats/scene_json.h"
 #include "scene/formats/svg_path.h"
@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   for (const PathUse use : {PathUse::rest, PathUse::pose, PathUse::outline}) try {
       const Cage cage = cage_of_svg(text, "fuzz", 100, use);
-      check(cage.size() <= 5000, "a loop has no more segments than scenes take");
+      check(cage.size() <= 5000, "a loop has no more segments than a scene may have");
       if (use != PathUse::rest) continue;
       check_rest_cage(cage);
       const Deformation deformation = with_cage({}, cage);

@@ -1,4 +1,4 @@
-// Any bytes as a material library and as a table of points.
+// Reads any bytes as a material library and as a table of points.
 #include "core/error.h"
 #include "scene/formats/export.h"
 #include "scene/formats/surface_file.h"

@@ -1,5 +1,5 @@
-// Any polygon: an Error, or a mesh with positive triangles that fill it and coordinates that add
-// up.
+// Meshes any polygon: an Error, or a mesh with positive triangles that fill it and with finite
+// coordinates.
 #include <cstring>
 
 #include "core/cauchy/cauchy_array.h"
@@ -11,8 +11,8 @@ using namespace holomorph;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   if (size < 1) return 0;
-  // The first byte chooses a scale, and whether coordinates have 16 bits, so that coincidences are
-  // common, or a few units in the last place more, so that near misses are.
+  // The first byte selects a scale, and whether coordinates have 16 bits, which makes coincidences
+  // common, or also have small relative perturbations, which make near misses common.
   const double scale = std::ldexp(1.0, (data[0] % 24) - 12);
   const bool jitters = data[0] >= 128;
   const size_t stride = jitters ? 6 : 4;
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     std::int16_t xy[2];
     std::memcpy(xy, data + i, 4);
     Complex z(xy[0], xy[1]);
-    if (jitters)  // relative moves of 2^-52 to 2^-20
+    if (jitters)  // relative perturbations of 2^-52 to 2^-20
       for (int k = 0; k < 2; ++k) {
         const int byte = data[i + 4 + k];
         const double by = std::ldexp(1.0, 15 - 52 + byte % 33) * (byte % 2 ? 1 : -1);

@@ -1,4 +1,4 @@
-// Any bytes as a picture: an error, or as many pixels as it has.
+// Reads any bytes as a picture: an Error, or as many pixels as its size states.
 #include <cstring>
 
 #include "core/error.h"
@@ -10,7 +10,7 @@ using namespace holomorph;
 
 namespace {
 
-/// What libpng wants at the end of each chunk, so that it looks at what is inside.
+/// The checksum that libpng requires at the end of each chunk before it looks at the content.
 std::uint32_t checksum(const std::uint8_t* data, size_t size) {
   std::uint32_t sum = 0xffffffff;
   for (size_t i = 0; i < size; ++i) {
@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     set_budget(small);
     return true;
   }();
-  check(set, "there is a budget");
+  check(set, "the budget is set");
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   try {
     const Image image = decode_image(bytes, "fuzz");

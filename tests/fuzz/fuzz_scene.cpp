@@ -1,4 +1,4 @@
-// Reads any bytes as a scene: an Error or a scene that writes and reads back the same.
+// Reads any bytes as a scene: an Error, or a scene that survives writing and reading.
 #include "core/error.h"
 #include "scene/formats/scene_json.h"
 

@@ -1,4 +1,4 @@
-// Any bytes as preferences, and as keys to import.
+// Reads any bytes as preferences, and as keys to import.
 #include "core/error.h"
 #include "edit/actions/actions.h"
 #include "scene/preferences.h"
@@ -9,8 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const Preferences preferences = preferences_of_json(text);
   check(preferences.ui_scale == 0 || (preferences.ui_scale >= 0.75 && preferences.ui_scale <= 4),
-        "a scale can be shown");
-  for (const Path& path : preferences.recent) check(path.is_absolute(), "recent files have names");
+        "the scale is in range");
+  for (const Path& path : preferences.recent)
+    check(path.is_absolute(), "recent files have absolute paths");
   ActionTable actions;
   actions.use_keys(preferences.keys);
   actions.use_keys({});

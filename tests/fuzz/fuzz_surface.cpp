@@ -1,4 +1,4 @@
-// Any bytes as an OBJ file: an error, or a surface whose numbers are in range.
+// Reads any bytes as an OBJ file: an Error, or a surface whose indices are in range.
 #include <cstdlib>
 
 #include "core/error.h"

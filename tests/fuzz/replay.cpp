@@ -1,5 +1,5 @@
-// Runs a fuzz target's function on files, and files in folders, without a fuzzer: for corpora, and
-// under a memory checker. `--mutate N SEED` also runs N inputs made of them.
+// Runs the function of a fuzz target on files, and on the files in folders, without a fuzzer: for
+// corpora, and under a memory checker. `--mutate N SEED` also runs N mutations of these files.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size);
-/// What a target does to inputs that were changed, such as mending their checksums.
+/// What a target does to mutated inputs, such as repairing their checksums.
 extern "C" size_t LLVMFuzzerCustomMutator(std::uint8_t* data, size_t size, size_t most,
                                           unsigned int seed) __attribute__((weak));
 extern "C" size_t LLVMFuzzerMutate(std::uint8_t*, size_t size, size_t) {
@@ -80,5 +80,5 @@ int main(int argc, char** argv) {
   std::mt19937_64 random(seed);
   for (size_t k = 0; k < made && !inputs.empty(); ++k)
     run(mutated(inputs[random() % inputs.size()], inputs[random() % inputs.size()], random));
-  std::printf("%zu files and %zu inputs made of them, seed %lu\n", inputs.size(), made, seed);
+  std::printf("%zu files and %zu mutations of them, seed %lu\n", inputs.size(), made, seed);
 }

@@ -27,7 +27,8 @@ Image blob(int width, int height, double (*radius)(double)) {
 
 }  // namespace
 
-TEST_CASE("The automatic cage contains the largest part, is simple and has about the wanted size") {
+TEST_CASE(
+    "The automatic cage contains the largest part, is simple and has about the requested size") {
   double (*const radii[])(double) = {
       [](double) { return 0.3; }, [](double a) { return 0.3 + 0.12 * std::sin(7 * a); },
       [](double a) { return 0.25 + 0.2 * std::cos(3 * a); },
@@ -37,7 +38,7 @@ TEST_CASE("The automatic cage contains the largest part, is simple and has about
          {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)})
       for (const int vertices : {12, 30, 80}) {
         Image image = blob(width, height, radius);
-        image.at(1, 1)[3] = 255;  // a speck that is not of the largest part
+        image.at(1, 1)[3] = 255;  // a speck outside the largest part
         const Points cage = vertices_of(auto_cage(image, {vertices, -1}));
         CHECK(static_cast<int>(cage.size()) <= std::max(vertices, 45));
         CHECK_FALSE(self_crossing(cage));
@@ -78,9 +79,9 @@ TEST_CASE("A curved automatic cage contains the largest part, with fewer control
     }
 }
 
-TEST_CASE("Curved automatic cages have meshes without turned triangles, and surroundings") {
-  // Sharp corners between curves: refinement sets vertices on their chords, nearer to inner ones
-  // than the curves are.
+TEST_CASE("Curved automatic cages have meshes without inverted triangles, and a boundary basis") {
+  // At sharp corners between curves, refinement places vertices on the chords, which are nearer to
+  // interior vertices than the curves are.
   for (const auto& [name, vertices] :
        {std::pair("giraffe", 30), std::pair("fish", 30), std::pair("octopus", 30),
         std::pair("sunflower", 30), std::pair("gecko", 20)}) {

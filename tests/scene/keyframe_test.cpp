@@ -1,5 +1,4 @@
-// Keyframes: files keep them, edits of the structure take them along, maps at times go through
-// them.
+// Keyframes: files keep them, edits keep them sorted, and maps at a time pass through them.
 #include "scene/keyframes.h"
 
 #include <catch2/catch.hpp>
@@ -61,7 +60,7 @@ TEST_CASE("Keyframes survive writing and reading, whatever their structure") {
   CHECK(json_of(scene_of(bar())).find("animation") == std::string::npos);
 }
 
-TEST_CASE("A keyframe's missing parts are as they rest") {
+TEST_CASE("Missing parts of a keyframe are at rest") {
   Deformation deformation = bar();
   std::string text = json_of(scene_of(moved(deformation, 7)));
   text.insert(text.rfind('}'), R"(, "keyframes": [{"time": 0.5, "pose": {}}, {"time": 2}])");
@@ -70,9 +69,9 @@ TEST_CASE("A keyframe's missing parts are as they rest") {
   for (const Keyframe& key : read.keyframes) CHECK(key.pose == whole_pose_of(deformation));
 }
 
-TEST_CASE("What is wrong with a keyframe is said with the pointer") {
+TEST_CASE("Errors in a keyframe name the JSON pointer") {
   CHECK_THAT(complaint(R"([{"time": 1}, {"time": 1}])"),
-             Catch::Contains("/keyframes/1/time") && Catch::Contains("no two at one time"));
+             Catch::Contains("/keyframes/1/time") && Catch::Contains("without duplicates"));
   CHECK_THAT(complaint(R"([{"time": -1}])"), Catch::Contains("/keyframes/0/time"));
   CHECK_THAT(complaint(R"([{"time": 0, "ease": "bouncy"}])"),
              Catch::Contains("/keyframes/0/ease") && Catch::Contains("smooth, linear or hold"));
@@ -82,7 +81,7 @@ TEST_CASE("What is wrong with a keyframe is said with the pointer") {
   CHECK_THAT(complaint(R"([{"pose": {}}])"), Catch::Contains("time"));
 }
 
-TEST_CASE("Corners are read in order, each once, three at least") {
+TEST_CASE("Corners must be sorted, without duplicates, and at least three") {
   const auto with_corners = [](const std::string& corners) {
     std::string text = json_of(scene_of(bar()));
     text.insert(text.rfind('}'), ", \"corners\": " + corners);
@@ -113,13 +112,12 @@ TEST_CASE("Corners are read in order, each once, three at least") {
   CHECK_THAT(wrong(R"([{"vertex": 0, "tension": 2}])"), Catch::Contains("/corners/0/tension"));
 }
 
-TEST_CASE("Keys are set, moved and taken away, always sorted") {
+TEST_CASE("Keys stay sorted when they are set, moved and deleted") {
   Deformation deformation = keyed();
   CHECK(deformation.keyframes.size() == 3);
   CHECK(key_at(deformation, 1.0000001) == 1);
   CHECK(key_at(deformation, 2) == 3);
-  const Deformation again =
-      with_key(moved(deformation, 5), 1);  // in place of the one that is there
+  const Deformation again = with_key(moved(deformation, 5), 1);  // replaces the existing one
   CHECK(again.keyframes.size() == 3);
   CHECK(again.keyframes[1].pose != deformation.keyframes[1].pose);
   const auto [later, number] = with_key_moved(deformation, 0, 2);
@@ -134,7 +132,7 @@ TEST_CASE("Keys are set, moved and taken away, always sorted") {
   CHECK(last_frame_of(scene_of(deformation)) == 72);
 }
 
-TEST_CASE("A pose is mirrored about the cage's middle") {
+TEST_CASE("A pose is mirrored about the middle of the cage") {
   Deformation deformation = bar();
   deformation.pins = {{{60, 50}, {60, 50}, 0.0, {}}, {{240, 50}, {240, 50}, {}, {}}};
   deformation.method = "angles";
@@ -151,14 +149,14 @@ TEST_CASE("A pose is mirrored about the cage's middle") {
   CHECK(mirror.pins[1].scale == 1.5);
   CHECK(mirror.corners[0].before == -0.3);
   CHECK(mirror.corners[0].after == -0.1);
-  CHECK(mirror.corners[3].tension == 0.5);  // of the edge between the corner and its neighbour
+  CHECK(mirror.corners[3].tension == 0.5);  // of the edge between the corner and its neighbor
   CHECK(mirrored(deformation, mirror) == pose);
   deformation.pins.pop_back();
   CHECK_THROWS_WITH(mirrored(deformation, whole_pose_of(deformation)),
                     Catch::Contains("no counterpart"));
 }
 
-TEST_CASE("Maps at times go through the keyframes, handles with them") {
+TEST_CASE("Maps at a time pass through the keyframes, and so do the handles") {
   const Deformation deformation = keyed();
   LiveMap map(MeshOptions{400});
   map.finish(deformation, {});
@@ -176,13 +174,13 @@ TEST_CASE("Maps at times go through the keyframes, handles with them") {
   CHECK(offset_at(1) == Approx(10).margin(1e-3));
   CHECK(offset_at(2) == Approx(25).margin(1e-3));
   CHECK(offset_at(9) == Approx(40).margin(1e-3));
-  // Without a time the deformation's own pose.
+  // Without a time, the map has the deformation's own pose.
   map.update(deformation, {});
   CHECK_FALSE(map.timed());
   CHECK((map.map().f[0] - map.prepared()->mesh->vertices[0]).real() == Approx(40).margin(1e-3));
 }
 
-TEST_CASE("Holds stay, linear keys go evenly, and other structures do not play") {
+TEST_CASE("Holds do not move, linear keys have constant speed, and other structures do not play") {
   Deformation deformation = keyed();
   deformation.keyframes[0].ease = Ease::hold;
   deformation.keyframes[1].ease = Ease::linear;
@@ -202,7 +200,7 @@ TEST_CASE("Holds stay, linear keys go evenly, and other structures do not play")
   CHECK(offset_at(other, 1.5, true) == Approx(20).margin(1e-3));
 }
 
-TEST_CASE("Keys with equal poses keep their own turns and speeds, frame after frame") {
+TEST_CASE("Keys with equal poses keep their own turns and speeds in every frame") {
   Deformation deformation = bar();
   deformation.pins[0].angle = 0.0;
   const auto turned = [&](double angle) {
@@ -237,7 +235,7 @@ TEST_CASE("A stroke across the middle is its own mirror image") {
   CHECK(mirrored(deformation, whole_pose_of(deformation)) == whole_pose_of(deformation));
 }
 
-TEST_CASE("A pin that turns twice as drawn turns twice in between") {
+TEST_CASE("A pin that is turned twice also turns twice between the keys") {
   Deformation deformation = bar();
   deformation.pins[0].angle = 0.0;
   deformation = with_key(deformation, 0);

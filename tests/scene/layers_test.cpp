@@ -1,4 +1,5 @@
-// Layers: what is done with the stack leaves each layer itself, files keep it, and maps follow.
+// Layers: operations on the stack leave each layer unchanged, files keep the stack, and maps follow
+// it.
 #include "scene/layers.h"
 
 #include <catch2/catch.hpp>
@@ -30,7 +31,7 @@ Scene with_edited(Scene scene, size_t number) {
   return scene;
 }
 
-/// Bottom, middle and top; the top one is edited.
+/// A stack of a bottom, a middle and a top layer; the top one is edited.
 Scene stack() {
   return with_layers_added(with_layers_added(layer("bottom", 100), layer("middle", 110)),
                            layer("top", 120));
@@ -48,7 +49,7 @@ std::string complaint(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("Choosing a layer changes nothing but which one is edited") {
+TEST_CASE("Selecting a layer changes only which one is edited") {
   Scene scene = stack();
   scene.background = {Background::Fill::color, {1, 2, 3}};
   scene.extra = R"({"mood":"glad"})";
@@ -68,7 +69,7 @@ TEST_CASE("Choosing a layer changes nothing but which one is edited") {
   }
 }
 
-TEST_CASE("Layers move through the stack, are doubled and go, and the others stay themselves") {
+TEST_CASE("Moving, duplicating and deleting a layer leaves the other layers unchanged") {
   const Scene scene = stack();
   CHECK(names(with_layer_moved(scene, 0)) == "tbm");
   CHECK(with_layer_moved(with_layer_moved(scene, 0), 2) == scene);
@@ -79,7 +80,7 @@ TEST_CASE("Layers move through the stack, are doubled and go, and the others sta
   CHECK(doubled.deformation() == scene.layers[1]->deformation);
   CHECK(without_layer(doubled) == with_edited(scene, 1));
   CHECK(names(without_layer(with_edited(scene, 0))) == "mt");
-  // Ids stay and are never shared.
+  // Ids do not change and are never shared.
   for (size_t i = 0; i < doubled.layers.size(); ++i) {
     const int id = doubled.layers[i]->id;
     CHECK(layer_of_id(doubled, id) == i);
@@ -93,7 +94,7 @@ TEST_CASE("Layers move through the stack, are doubled and go, and the others sta
   CHECK(changed.layers[0]->id == scene.layers[0]->id);
   CHECK(changed.layers[1] == scene.layers[1]);
   CHECK(changed != scene);
-  // Another scene comes with all of its layers, and with the one that is edited in it.
+  // Another scene is added with all of its layers, and its edited layer becomes the edited one.
   const Scene both = with_layers_added(with_edited(scene, 0), with_edited(scene, 1));
   CHECK(names(both) == "bbmtmt");
   CHECK(both.edited == 2);
@@ -102,7 +103,7 @@ TEST_CASE("Layers move through the stack, are doubled and go, and the others sta
   CHECK_THROWS_AS(with_layers_added(full, Scene{}), Error);
 }
 
-TEST_CASE("Files keep layers, and scenes of one plain layer are written as before") {
+TEST_CASE("Files keep layers, and a scene with a single plain layer is written without a list") {
   Scene scene = stack();
   scene = with_edited(scene, 1);
   Layer layer = scene.layer();
@@ -133,7 +134,7 @@ TEST_CASE("Files keep layers, and scenes of one plain layer are written as befor
   }
 }
 
-TEST_CASE("Preferences survive a file, and damaged keys take nothing else with them") {
+TEST_CASE("Preferences survive writing and reading, and damaged keys affect nothing else") {
   const Folder folder;
   ::setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
   Preferences preferences;
@@ -153,7 +154,7 @@ TEST_CASE("Preferences survive a file, and damaged keys take nothing else with t
   ::unsetenv("XDG_CONFIG_HOME");
 }
 
-TEST_CASE("What is wrong with a layer is said with its place") {
+TEST_CASE("Errors in a layer name its position in the file") {
   const std::string text = json_of(stack());
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
@@ -170,7 +171,8 @@ TEST_CASE("What is wrong with a layer is said with its place") {
              Catch::Matchers::Contains("/layers"));
 }
 
-TEST_CASE("The film is as long as the longest layer's keys, and plays when one of them does") {
+TEST_CASE(
+    "The film is as long as the keys of the longest layer, and plays if one of the layers does") {
   Scene scene = layer("bottom", 100);
   change(scene, [](Deformation& deformation) {
     deformation = with_key(with_key(std::move(deformation), 0), 3);
@@ -183,7 +185,7 @@ TEST_CASE("The film is as long as the longest layer's keys, and plays when one o
   CHECK_FALSE(plays(stack()));
 }
 
-TEST_CASE("Each layer keeps its map while layers are chosen and moved") {
+TEST_CASE("Each layer keeps its map while layers are selected and moved") {
   LayerMaps maps;
   Scene scene = stack();
   maps.update_others(scene, {});
@@ -221,7 +223,7 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   for (const char* name : {"pictures/a.png", "b.png", "pictures/s.json"})
     CHECK_THROWS_AS(check_not_a_source(folder.path / name, again.sources()), Error);
   std::filesystem::remove(folder.path / "b.png");
-  // One picture that is missing does not take the others away, and the scene still names it.
+  // A missing picture does not affect the others, and the scene still names it.
   const Document rest = Document::open(folder.path / "pictures" / "s.json", {true});
   CHECK_THAT(rest.warning(), Catch::Matchers::Contains("/layers/1/image/file"));
   CHECK_FALSE(rest.image());
@@ -230,7 +232,7 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
 }
 
 TEST_CASE(
-    "A picture that is missing is looked for beside the scene, and the scene opens without it") {
+    "A missing picture is looked for next to the scene, and the scene also opens without it") {
   const Folder folder;
   std::filesystem::create_directories(folder.path / "art");
   write_file(folder.path / "art" / "a.png", encode_png(Image(8, 6)));
@@ -249,10 +251,10 @@ TEST_CASE(
   CHECK_THAT(without.warning(), Catch::Matchers::Contains("a.png"));
   CHECK(without.image_path() == folder.path / "art" / "a.png");
   CHECK(without.scene().layer().image->sha256 == moved.scene().layer().image->sha256);
-  CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window nobody is asked
+  CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window it is an error
 }
 
-TEST_CASE("A namesake beside the scene is not taken for the picture") {
+TEST_CASE("A file of the same name next to the scene is not taken for the picture") {
   const Folder folder;
   std::filesystem::create_directories(folder.path / "a");
   std::filesystem::create_directories(folder.path / "b");
@@ -272,7 +274,7 @@ TEST_CASE("A namesake beside the scene is not taken for the picture") {
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);
 }
 
-TEST_CASE("Pictures are written in the formats of their names and read again") {
+TEST_CASE("Pictures are written in the format of their file name and read back") {
   Image image(37, 21);
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c) {
@@ -302,7 +304,7 @@ TEST_CASE("Pictures are written in the formats of their names and read again") {
   CHECK_THROWS_AS(picture_format_of("a.bmp"), Error);
 }
 
-TEST_CASE("A pasted picture goes along when the scene is saved, whatever becomes of its file") {
+TEST_CASE("A pasted picture is saved with the scene, even if its own file is gone") {
   const Folder folder;
   ::setenv("XDG_DATA_HOME", (folder.path / "data" / "..").c_str(), 1);
   std::filesystem::create_directories(folder.path / "data");
@@ -319,7 +321,7 @@ TEST_CASE("A pasted picture goes along when the scene is saved, whatever becomes
   CHECK(document.image()->width == 7);
   CHECK_THROWS_AS(check_not_a_source(copy, document.sources()), Error);
   CHECK(Document::open(folder.path / "s.json").image()->width == 7);
-  // Recovered, too, and even when the picture is gone.
+  // The scene can also be recovered, even if the picture is gone.
   document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(7, 5)));
   CHECK(document.autosave(folder.path / "autosave"));
   std::filesystem::remove(copy);

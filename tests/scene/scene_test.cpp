@@ -1,4 +1,4 @@
-// Scenes as files: nothing is lost, everything wrong is named.
+// Scenes as files: nothing is lost, and every error says what is wrong.
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes away with the test.
+/// A scene with keys that this version does not know.
 const char* const kText = R"({
   "format": "holomorph", "version": 1, "author": {"name": "x"},
   "cage": {"rest": [[[10,10]], [[180,10]], [[180,200]], [[10,200]]],
@@ -62,11 +62,11 @@ TEST_CASE("A scene survives writing and reading, unknown keys included") {
     CHECK_THAT(written, Catch::Contains(kept));
 }
 
-TEST_CASE("What is wrong with a scene is said with the file, the pointer and the reason") {
+TEST_CASE("Errors in a scene name the file, the JSON pointer and the reason") {
   using Catch::Contains;
   CHECK_THAT(complaint("{"),
              Contains("scene.json") && Contains("damaged or ends too early, at line"));
-  CHECK_THAT(complaint("[]"), Contains("an object is wanted"));
+  CHECK_THAT(complaint("[]"), Contains("expected an object"));
   CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
   CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 3")),
              Contains("/version") && Contains("newer"));
@@ -100,13 +100,13 @@ TEST_CASE("What is wrong with a scene is said with the file, the pointer and the
   CHECK_THAT(complaint(many + "[[1,1]]]}}"), Contains("more than 5000"));
 }
 
-TEST_CASE("Writing replaces a file whole, or leaves it") {
+TEST_CASE("Writing replaces a file as a whole or not at all") {
   const Folder folder;
   const Path path = folder.path / "a.json";
   write_file(path, "one");
   write_file(path, "two");
   CHECK(read_file(path) == "two");
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);  // nothing is left beside it
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);  // nothing else is left
   CHECK_THROWS_AS(write_file(folder.path, "x"), Error);
   CHECK_THROWS_AS(write_file(folder.path / "no" / "where", "x"), Error);
   CHECK_THROWS_AS(read_file(folder.path), Error);
@@ -121,7 +121,7 @@ TEST_CASE("Writing replaces a file whole, or leaves it") {
         (fs::perms::owner_read | fs::perms::owner_write));
 }
 
-TEST_CASE("A write that is cut off in the middle leaves the old file and nothing beside it") {
+TEST_CASE("A write that is interrupted in the middle leaves the old file and nothing else") {
   const Folder folder;
   const Path path = folder.path / "a.json";
   write_file(path, "the old content");
@@ -145,7 +145,7 @@ TEST_CASE("A write that is cut off in the middle leaves the old file and nothing
   CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("A lock is held while its program runs, and never after it") {
+TEST_CASE("A lock is held while its program runs, and not afterwards") {
   const Folder folder;
   const Path path = folder.path / "a.lock";
   CHECK_FALSE(FileLock::is_held(path));
@@ -171,7 +171,8 @@ TEST_CASE("SHA-256 of the empty text is the published one") {
   CHECK(sha256_hex("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
-TEST_CASE("A document saves a picture's path relative to the scene, wherever that goes") {
+TEST_CASE(
+    "A document saves the path of a picture relative to the scene, wherever the scene is saved") {
   const Folder folder;
   fs::create_directories(folder.path / "pictures");
   write_file(folder.path / "pictures" / "dot.png", encode_png(Image(8, 6)));
@@ -216,13 +217,14 @@ TEST_CASE("Neither saving nor exporting replaces a read-only file or a source of
   CHECK_THROWS_WITH(check_may_write(free, document.sources()), Catch::Contains("scene itself"));
 }
 
-TEST_CASE("An autosave holds the last commit, moves with its scene, and is found again") {
+TEST_CASE(
+    "An autosave holds the last commit, remembers the file of its scene, and is found again") {
   const Folder folder;
   write_file(folder.path / "dot.png", encode_png(Image(8, 6)));
   Document document = Document::open(folder.path / "dot.png");
   const Path place = folder.path / "autosave";
   document.autosave(place);
-  CHECK_FALSE(fs::exists(place));  // nothing to lose yet
+  CHECK_FALSE(fs::exists(place));  // no unsaved changes yet
   document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(8, 6)));
   document.autosave(place);
   CHECK(recoverable(place).empty());  // this program still owns it
@@ -238,7 +240,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK(recovered.image() != nullptr);
   discard(orphan);
   CHECK(recoverable(place).empty());
-  // A scene that has a file goes back to it.
+  // A recovered scene that has a file keeps it.
   document.save(folder.path / "kept.json");
   document.commit("Cage", scene_with_cage(document.scene(), shapes::rectangle(7, 5)));
   document.autosave(place);
@@ -254,7 +256,7 @@ TEST_CASE("An autosave holds the last commit, moves with its scene, and is found
   CHECK_FALSE(document.autosave(folder.path / "file"));
 }
 
-TEST_CASE("The autosave is there exactly while there is something to lose") {
+TEST_CASE("The autosave exists exactly while there are unsaved changes") {
   const Folder folder;
   write_file(folder.path / "dot.png", encode_png(Image(8, 6)));
   Document document = Document::open(folder.path / "dot.png");
@@ -279,7 +281,7 @@ TEST_CASE("The autosave is there exactly while there is something to lose") {
   CHECK(kept() == 0);
 }
 
-TEST_CASE("History: undo and redo walk the line, a commit forgets what was undone") {
+TEST_CASE("History: undo and redo step through the scenes, and a commit discards what was undone") {
   Scene scene;
   History history(scene);
   for (int i = 1; i <= 3; ++i) {
@@ -299,7 +301,8 @@ TEST_CASE("History: undo and redo walk the line, a commit forgets what was undon
 }
 
 TEST_CASE(
-    "The live map follows the scene, keeps the last map on errors, and poses without preparing") {
+    "The live map follows the scene, keeps the last map on errors, and poses without preparing "
+    "again") {
   LiveMap map({600});
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   map.finish(deformation, {});
@@ -324,7 +327,7 @@ TEST_CASE(
   CHECK_FALSE(map.has_map());
 }
 
-TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
+TEST_CASE("Mesh and map belong together for any order of requests") {
   LiveMap map({400});
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   for (int i = 0; i < 60; ++i) {
@@ -337,7 +340,7 @@ TEST_CASE("Mesh and map belong together whatever is asked in whatever order") {
   }
 }
 
-TEST_CASE("The live map follows inserted and deleted points, pins and methods") {
+TEST_CASE("The live map follows inserted and deleted points, pins and changes of the method") {
   LiveMap map({400});
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   deformation.method = "pins";
@@ -376,7 +379,7 @@ TEST_CASE("The live map follows inserted and deleted points, pins and methods") 
   CHECK(map.map().fz == expected.fz);
 }
 
-TEST_CASE("CSV points: separators, headings, and what is wrong with a line") {
+TEST_CASE("CSV points: separators, headings, and errors in a line") {
   CHECK(points_of_csv("x,y\n1,2\n\n3 ; 4\r\n", "p").size() == 2);
   CHECK(points_of_csv("1\t2\n# comment\n", "p")[0] == Complex(1, 2));
   CHECK_THROWS_WITH(points_of_csv("1,2\n3\n", "p.csv"), Catch::Contains("p.csv: line 2"));
@@ -386,7 +389,7 @@ TEST_CASE("CSV points: separators, headings, and what is wrong with a line") {
   CHECK_THROWS_AS(points_of_csv("1,2\n3,4,5\n", "p"), Error);
 }
 
-TEST_CASE("Pictures that are none are refused") {
+TEST_CASE("Files that are not pictures are rejected") {
   CHECK_THROWS_AS(decode_image("", "x"), Error);
   CHECK_THROWS_AS(decode_image("not a picture", "x"), Error);
   const std::string png = encode_png(Image(20, 20));
@@ -394,7 +397,7 @@ TEST_CASE("Pictures that are none are refused") {
   CHECK(decode_image(png, "x") == Image(20, 20));
 }
 
-TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
+TEST_CASE("A scene reaches its own folder, the allowed folders, and nothing else") {
   const Folder folder;
   const Path home = folder.path / "scenes", away = folder.path / "away";
   fs::create_directories(home / "deep");
@@ -423,7 +426,7 @@ TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
         std::string("/etc/shadow/x")}) {
     CAPTURE(outside);
     names(outside);
-    // Whether there is such a file makes no difference to what is said.
+    // The message does not depend on whether the file exists.
     const std::string said = complaint_of([&] { load_scene(home / "s.json"); });
     CHECK_THAT(said, Catch::Contains("--allow-outside") && Catch::Contains("/image/file"));
     const Document document = Document::open(home / "s.json");
@@ -440,7 +443,7 @@ TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
   write_file(away / "deep" / "c.png", png);
   names("../away/deep/c.png");
   CHECK_FALSE(Document::open(home / "s.json", {false, {away}}).image());
-  // Links count by where they lead, also in folders that are allowed and when nothing is there.
+  // The target of a link counts, even in allowed folders and if the target does not exist.
   fs::create_symlink(folder.path / "elsewhere.png", away / "link.png");
   fs::create_symlink(folder.path / "nowhere.png", home / "dangling.png");
   write_file(folder.path / "elsewhere.png", png);
@@ -448,7 +451,7 @@ TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
     names(link);
     CHECK(Document::open(home / "s.json", {false, {away, home}}).withheld().size() == 1);
   }
-  // One that lies beside the scene, too, is taken from there.
+  // A picture that also lies next to the scene is taken from there.
   Document saved = Document::open(away / "b.png");
   saved.commit("Cage", scene_with_cage(saved.scene(), shapes::rectangle(8, 6)));
   saved.save(home / "s.json");
@@ -457,7 +460,7 @@ TEST_CASE("A scene reaches its own folder, what is allowed, and nothing else") {
   CHECK(beside.scene.layer().image->file == home / "b.png");
 }
 
-TEST_CASE("A scene that another program has changed is known") {
+TEST_CASE("A change of the scene file by another program is detected") {
   const Folder folder;
   const Path path = folder.path / "s.json";
   write_file(folder.path / "dot.png", encode_png(Image(20, 20)));
@@ -476,12 +479,12 @@ TEST_CASE("A scene that another program has changed is known") {
   document.save(path);
   CHECK_FALSE(document.changed_on_disk());
   CHECK(second.changed_on_disk());
-  // Touched, or written again the same: nothing has changed.
+  // A file that was touched, or written again with the same content, has not changed.
   Document third = Document::open(path);
   write_file(path, read_file(path));
   fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
   CHECK_FALSE(third.changed_on_disk());
-  // What was recovered knows what its scene's file was like.
+  // A recovered document knows the earlier content of its scene's file.
   third.commit("Move", moved);
   change(moved, [](Deformation& d) { d.pose.segments[1][0] += 1; });
   third.commit("Move", moved);
@@ -496,7 +499,7 @@ TEST_CASE("A scene that another program has changed is known") {
   write_file(path, read_file(path) + " ");
   CHECK(recovered.changed_on_disk());
   CHECK(recovered.scene().extra.empty());
-  // A stranger's scene cannot say where it was saved.
+  // An untrusted scene cannot state where it was saved.
   Scene stranger = second.scene();
   stranger.extra = R"({"autosave_of":"/home/you/precious.json","autosave_of_sha256":"x","y":1})";
   write_file(path, json_of(portable(stranger, folder.path)));
@@ -505,7 +508,7 @@ TEST_CASE("A scene that another program has changed is known") {
   CHECK_FALSE(third.changed_on_disk());
 }
 
-TEST_CASE("What a killed write leaves is removed by the next one, and nothing that is in use") {
+TEST_CASE("The next write removes what a killed one has left, and nothing that is in use") {
   const Folder folder;
   const auto leftovers = [&] {
     const std::vector<std::string> names = folder.names();
@@ -521,11 +524,11 @@ TEST_CASE("What a killed write leaves is removed by the next one, and nothing th
     }
     ::waitpid(child, nullptr, 0);
   }
-  CHECK(leftovers() == 2);  // of the last one: each has cleaned after the one before
+  CHECK(leftovers() == 2);  // of the last one; each write has removed what the one before had left
   fs::create_symlink(folder.path / "precious", folder.path / ".holomorph-00000000");
-  write_file(folder.path / "precious", "x");  // cleans
-  CHECK(leftovers() == 1);                    // a planted link is not followed, nor removed
-  // What is called alike and holds something else stays.
+  write_file(folder.path / "precious", "x");  // removes what was left
+  CHECK(leftovers() == 1);                    // a planted link is neither followed nor removed
+  // Folders that have a similar name or other content stay.
   fs::create_directories(folder.path / ".holomorph-settings");
   fs::create_directories(folder.path / ".holomorph-0badcafe" / "mine");
   fs::permissions(folder.path / ".holomorph-0badcafe", fs::perms::owner_all);
@@ -535,7 +538,7 @@ TEST_CASE("What a killed write leaves is removed by the next one, and nothing th
     const NewFolder full(folder.path / "c.png");
     busy.write("b");
     const pid_t child = ::fork();
-    if (child == 0) {  // another program: it has not cleaned here yet
+    if (child == 0) {  // another program, which has not cleaned this folder yet
       ::setenv("HOLOMORPH_TEST_FOLDER", folder.path.c_str(), 1);
       ::execl("/proc/self/exe", "test_scene", "[cleaner]", nullptr);
       ::_exit(1);
@@ -564,7 +567,7 @@ TEST_CASE("Names of 255 bytes are written, and longer ones are an error") {
   CHECK_THROWS_WITH(read_file(folder.path / "round"), Catch::Contains("leads to itself"));
 }
 
-TEST_CASE("Autosaves are for their owner alone") {
+TEST_CASE("Autosaves can be read only by their owner") {
   const Folder folder;
   Document document;
   document.commit("Cage", scene_of(with_cage({}, shapes::rectangle(20, 20))));
@@ -581,7 +584,7 @@ TEST_CASE("Autosaves are for their owner alone") {
   CHECK_FALSE(homeless.autosave(""));
 }
 
-TEST_CASE("Preferences can be anything") {
+TEST_CASE("Any text gives valid preferences") {
   for (const char* text :
        {"", "[]", "3", "{", R"({"recent":[""]})", R"({"recent":["relative",5]})",
         R"({"recent":7,"keys":[1],"theme":{},"ui_scale":"x","hints":0})",
@@ -591,7 +594,7 @@ TEST_CASE("Preferences can be anything") {
     CHECK(preferences.recent.empty());
     CHECK((preferences.ui_scale == 0 || preferences.ui_scale == 4));
   }
-  // What is right beside what is wrong is kept.
+  // Valid entries next to invalid ones are kept.
   const Preferences some = preferences_of_json(
       R"({"theme":"light","hints":"yes","recent":["/a","","/a","/b\u0000c","/d"],"keys":{"x":["F3"]}})");
   CHECK(some.theme == Theme::light);
@@ -600,7 +603,7 @@ TEST_CASE("Preferences can be anything") {
   CHECK(some.keys.at("x") == std::vector<std::string>{"F3"});
 }
 
-TEST_CASE("JSON is read in linear time and little memory, and kept as it was") {
+TEST_CASE("JSON is read in linear time and little memory, and unknown keys are kept exactly") {
   const auto seconds = [](const std::string& text) {
     const auto start = std::chrono::steady_clock::now();
     const Scene scene = scene_from_json(text, "s.json");
@@ -612,7 +615,8 @@ TEST_CASE("JSON is read in linear time and little memory, and kept as it was") {
     for (int i = 0; i < count; ++i) text += ",\"k" + std::to_string(i) + "\":0";
     return text + "}";
   };
-  // In linear time ten times as many keys take some ten times as long: in the square of it, 100.
+  // In linear time, ten times as many keys take about ten times as long; in quadratic time, 100
+  // times.
   const double few = seconds(with_keys(10000)), many = seconds(with_keys(100000));
   CHECK(many < 40 * std::max(few, 0.01));
   const Scene odd = scene_from_json(
@@ -624,7 +628,7 @@ TEST_CASE("JSON is read in linear time and little memory, and kept as it was") {
         "\"m\":-9223372036854775808,\"f\":0.1,\"g\":1e+300,\"s\":\"\u00e9\\\"\\\\\\n\"}");
 }
 
-TEST_CASE("Texts from files do not steer a terminal") {
+TEST_CASE("Texts from files cannot control a terminal") {
   CHECK(printable("a\x1b[31mb\x07\tc\nd\x7f") == "a?[31mb??c\nd?");
   CHECK(printable("x\u202ey\u2066z\u0085") == "x?y?z?");
   CHECK(printable("\u00e9\u20ac\u4e2d") == "\u00e9\u20ac\u4e2d");

@@ -1,4 +1,4 @@
-// Surfaces: read, checked, flattened, laid onto the plane.
+// Surfaces: read, checked, flattened, placed in the plane.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -22,7 +22,7 @@ Surface sample(const std::string& name) {
   return surface_of(read_file(std::string(HOLOMORPH_SOURCE) + "/assets/" + name));
 }
 
-/// A grid of squares, each cut in two, taken into space.
+/// A grid of squares, each split into two triangles, mapped into space.
 Surface grid(int n, const std::function<Eigen::Vector3d(double, double)>& place) {
   Surface surface;
   for (int j = 0; j <= n; ++j)
@@ -69,7 +69,7 @@ double twice_area(const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and line ends") {
+TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and line endings") {
   const SurfaceFile file = surface_of_obj(
       "# a square\r\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 # corner\nv 1 1 0\nv 0 1 0\nv 9 9 9\n"
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 -3/-2/1 4/4/1\r\n",
@@ -78,14 +78,14 @@ TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and li
   CHECK(file.surface.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}});
   CHECK(file.texture == Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   CHECK(surface_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "s.obj").texture.empty());
-  // A seam: vertex 1 has two places on the texture.
+  // A seam: vertex 1 has two positions in the texture.
   CHECK(surface_of_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nvt 0 0\nvt 1 1\n"
                        "f 1/1 2/1 3/1\nf 1/2 4/1 2/1\n",
                        "s.obj")
             .texture.empty());
 }
 
-TEST_CASE("OBJ: what is damaged is refused with its line") {
+TEST_CASE("OBJ: damaged data are rejected with the line") {
   const auto complaint = [](const std::string& text) {
     return complaint_of([&] { surface_of_obj(text, "s.obj"); });
   };
@@ -101,7 +101,7 @@ TEST_CASE("OBJ: what is damaged is refused with its line") {
   CHECK_THAT(complaint(""), Catch::Contains("no face"));
 }
 
-TEST_CASE("Surfaces that are no disk are refused by what they are") {
+TEST_CASE("Surfaces that are not disks are rejected with the reason") {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\n";
   const auto refused = [&](const std::string& faces) -> std::string {
     try {
@@ -128,8 +128,8 @@ TEST_CASE("Surfaces that are no disk are refused by what they are") {
   CHECK_THROWS_WITH(disk_boundary(surface_of(ring + faces)), Catch::Contains("hole"));
 }
 
-TEST_CASE("A surface that is flat up to bending is flattened as it is, upright and of its area") {
-  // A sheet rolled to an arc around a slanted axis keeps all lengths.
+TEST_CASE("A developable surface is flattened without distortion, upright and with the same area") {
+  // A sheet that is rolled into an arc around a slanted axis keeps all lengths.
   const Eigen::Vector3d up = Eigen::Vector3d(0.2, 0.9, 0.1).normalized(), out = up.unitOrthogonal(),
                         across = up.cross(out);
   const Surface sheet = grid(12, [&](double s, double t) -> Eigen::Vector3d {
@@ -150,11 +150,11 @@ TEST_CASE("A surface that is flat up to bending is flattened as it is, upright a
   CHECK((flat[12 * 13] - flat[0]).imag() > 0.85);
 }
 
-TEST_CASE("The samples are flattened without folds and nearly conformally, in both ways") {
+TEST_CASE("The samples are flattened without folds and nearly conformally by both methods") {
   for (const char* name : {"mask.obj", "leaf.obj"})
     for (const Flattening how : {Flattening::lscm, Flattening::circle}) {
       const Surface surface = sample(name);
-      const Points flat = flattened(surface, how);  // throws where a triangle turns
+      const Points flat = flattened(surface, how);  // throws if a triangle is inverted
       INFO(name << " " << static_cast<int>(how));
       double area = 0, off = 0;
       for (const auto& t : surface.triangles)
@@ -171,7 +171,7 @@ TEST_CASE("The samples are flattened without folds and nearly conformally, in bo
   CHECK(worst_angle(sample("mask.obj"), flattened(sample("mask.obj"), Flattening::lscm)) < 1);
 }
 
-TEST_CASE("A laid surface is found again by its outline, and only by that") {
+TEST_CASE("A placed surface is recovered from its own outline, and from no other") {
   const Surface mask = sample("mask.obj");
   Box onto;
   onto.include({100, 50});
@@ -195,7 +195,7 @@ TEST_CASE("A laid surface is found again by its outline, and only by that") {
   }
 }
 
-TEST_CASE("A scene's surface is found wherever the scene is saved, and what it is not is said") {
+TEST_CASE("A scene's surface is found wherever the scene is saved, and errors say what is wrong") {
   const Path folder = std::filesystem::temp_directory_path() / "holomorph-surface-test";
   std::filesystem::create_directories(folder / "inside");
   const std::string file = std::string(HOLOMORPH_SOURCE) + "/assets/mask.obj";
@@ -238,7 +238,9 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and what it i
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("A textured surface opens as its picture with a cage, others say what they lack") {
+TEST_CASE(
+    "A textured surface opens as its picture with a cage; for others, the error says what is "
+    "missing") {
   const Path folder = std::filesystem::temp_directory_path() / "holomorph-textured-test";
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file(std::string(HOLOMORPH_SOURCE) + "/assets/fish.png",
@@ -257,7 +259,7 @@ TEST_CASE("A textured surface opens as its picture with a cage, others say what 
   CHECK(std::abs(document.scene().deformation().rest.segments[2][0] -
                  Complex(0.9 * document.image()->width, 0.9 * document.image()->height)) < 1e-9);
   write_file(folder / "bare.obj", square);
-  CHECK_THROWS_WITH(Document::open(folder / "bare.obj"), Catch::Contains("no picture on it"));
+  CHECK_THROWS_WITH(Document::open(folder / "bare.obj"), Catch::Contains("no texture picture"));
   write_file(folder / "lost.obj", "mtllib lost.mtl\n" + square);
   CHECK_THROWS_WITH(Document::open(folder / "lost.obj"), Catch::Contains("lost.mtl"));
   std::filesystem::remove_all(folder);
@@ -281,8 +283,7 @@ TEST_CASE("A written surface is read back with its texture coordinates") {
   CHECK_THROWS_WITH(texture_boundary({leaf, {}}, 10, 10), Catch::Contains("no texture"));
 }
 
-TEST_CASE(
-    "Materials: the first picture, whatever blanks, options and slashes are around its name") {
+TEST_CASE("Materials: the first picture, whatever blanks, options and slashes surround its name") {
   CHECK(texture_of_materials("newmtl a\nKd 1 1 1\n  map_Kd\tmy fish.png \r\nmap_Kd b.png\n") ==
         "my fish.png");
   CHECK(texture_of_materials("map_Kd -s 1 1 1 -clamp on folder\\a #2.png") == "folder/a #2.png");

@@ -1,4 +1,4 @@
-// Other programs: what they say comes back whole, and none of them can hold the caller.
+// Other programs: their output comes back complete, and none of them can block the caller.
 #include "system/process.h"
 
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 
 using namespace holomorph;
 
-TEST_CASE("A program gets all of its input and its output comes back whole") {
+TEST_CASE("A program gets all of its input, and its output comes back complete") {
   std::string input;
   for (int i = 0; i < 300000; ++i) input += static_cast<char>(i * 7);  // more than a socket holds
   const auto finished = run_program({"cat"}, input);
@@ -15,10 +15,10 @@ TEST_CASE("A program gets all of its input and its output comes back whole") {
   CHECK(finished->status == 0);
   CHECK(finished->output == input);
   CHECK(run_program({"sh", "-c", "exit 3"})->status == 3);
-  CHECK(run_program({"true"}, input)->status == 0);  // it does not listen
+  CHECK(run_program({"true"}, input)->status == 0);  // it does not read its input
 }
 
-TEST_CASE("A program that is not there, does not end or says too much gives nothing") {
+TEST_CASE("A program that is missing, does not end or writes too much gives no result") {
   CHECK_FALSE(has_program("no-such-program-anywhere"));
   CHECK(has_program("sh"));
   CHECK_FALSE(run_program({"no-such-program-anywhere"}));

@@ -1,4 +1,4 @@
-// Text and NumPy writers; 17 significant digits, so that nothing is lost.
+// Text and NumPy writers. Numbers in text have 17 significant digits, so that nothing is lost.
 #include "scene/formats/export.h"
 
 #include <cstring>
@@ -101,8 +101,8 @@ Points points_of_csv(const std::string& text, const std::string& name, bool take
     std::strtod(line.c_str(), &first_end);
     if (number == 1 && first_end == line.c_str()) continue;  // a heading
     if (!good)
-      throw Error(ErrorKind::bad_input, name + ": line " + std::to_string(number) +
-                                            ": two finite numbers x,y are wanted");
+      throw Error(ErrorKind::bad_input,
+                  name + ": line " + std::to_string(number) + ": expected two finite numbers x,y");
     points.push_back({pair[0], pair[1]});
   }
   return points;

@@ -1,4 +1,4 @@
-// The table of formats: which library reads and writes what.
+// The table of formats: which library reads and writes which format.
 #include "scene/formats/image.h"
 
 #include <libexif/exif-data.h>
@@ -21,11 +21,11 @@ void PixelBudget::take(size_t width, size_t height, const std::string& name, dou
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at most " +
-                                          std::to_string(kLargest) + " a side can be opened");
+                                          std::to_string(kLargest) + " per side can be opened");
   const double pixels = static_cast<double>(width) * static_cast<double>(height);
   check_budget(&Budget::pixels, taken_ + copies * pixels,
-               name + (copies > 1   ? ": to decode this picture takes the memory of"
-                       : taken_ > 0 ? ": with this picture all of them have"
+               name + (copies > 1   ? ": decoding this picture takes the memory of"
+                       : taken_ > 0 ? ": with this picture, all pictures together have"
                                     : ": the picture has"));
   taken_ += pixels;
 }
@@ -55,7 +55,7 @@ Image upright(Image image, int orientation) {
   const int w = image.width - 1, h = image.height - 1;
   for (int r = 0; r < result.height; ++r)
     for (int c = 0; c < result.width; ++c) {
-      // Where the upright pixel is stored.
+      // The position at which the upright pixel is stored.
       const auto [column, row] = orientation == 2   ? std::pair(w - c, r)
                                  : orientation == 3 ? std::pair(w - c, h - r)
                                  : orientation == 4 ? std::pair(c, h - r)
@@ -78,7 +78,7 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
   if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
   throw Error(ErrorKind::bad_input,
               name +
-                  ": this is not a picture that can be read (PNG, JPEG, WebP, TIFF, OpenRaster, "
+                  ": not a picture in a supported format (PNG, JPEG, WebP, TIFF, OpenRaster, "
                   "BMP, TGA, GIF or PSD)");
 }
 

@@ -29,43 +29,47 @@ struct Image {
   }
 };
 
-/// How many pixels may still be decoded, by all the pictures of a scene.
+/// The number of pixels that the pictures of a scene may still decode.
 class PixelBudget {
  public:
-  /// What is left when so many pixels are open already.
+  /// The budget with this many pixels already taken.
   explicit PixelBudget(double taken = 0) : taken_(taken) {}
-  /// Before anything is decoded. Throws Error{bad_input} for more than are left, and for more than
-  /// 16384 pixels a side. While it is decoded a picture may take the memory of several copies.
+  /// Takes a picture's pixels from the budget; call it before decoding. Throws Error{bad_input} for
+  /// more pixels than are left, and for more than 16384 per side. `copies` is the memory that
+  /// decoding takes, in copies of the picture.
   void take(size_t width, size_t height, const std::string& name, double copies = 1);
 
  private:
   double taken_;
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, GIF, BMP, TGA and PSD; upright, and in sRGB. `name`
-/// is for messages. Throws Error{bad_input} for what is no picture, damaged, cut off or too large.
+/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, GIF, BMP, TGA and PSD, upright and in sRGB. `name` is
+/// used in messages. Throws Error{bad_input} if the bytes are not a picture, or if the picture is
+/// damaged, truncated or too large.
 Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;
   return decode_image(bytes, name, alone);
 }
 
-/// How files that decode_image may read are named: lower case, with the dot.
+/// The extensions of the files that decode_image can read: lower case, with the dot.
 const std::vector<std::string>& picture_extensions();
 
 /// The bytes of a PNG file.
 std::string encode_png(const Image& image);
 
-/// A kind of file that pictures are written to.
+/// A file format for writing pictures.
 struct PictureFormat {
   std::string label, extension;
   std::string (*encode)(const Image& image);
 };
-/// PNG; JPEG, which has no transparency and is white there; WebP without loss of what is seen.
+/// PNG; JPEG, which has no transparency and shows white there; WebP, lossless for all visible
+/// pixels.
 const std::vector<PictureFormat>& picture_formats();
-/// A file's extension as formats name it: lower case, .jpg for .jpeg.
+/// A file's extension as the formats spell it: lower case, .jpg for .jpeg.
 std::string format_extension(const Path& file);
-/// By a file's extension, which is PNG's where there is none. Throws Error{bad_input} for others.
+/// The format for a file's extension, or PNG for a file without one. Throws Error{bad_input} for
+/// other extensions.
 const PictureFormat& picture_format_of(const Path& file);
 
 /// Whether any pixel's alpha is below 255.

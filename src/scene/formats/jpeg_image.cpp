@@ -1,8 +1,8 @@
-// JPEG by libjpeg-turbo, from memory: gray, YCbCr, RGB and CMYK, in sRGB, and upright.
+// Reads JPEG files with libjpeg-turbo, from memory: gray, YCbCr, RGB and CMYK, in sRGB and upright.
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
-// After cstdio, because it wants FILE.
+// After cstdio, because jpeglib.h needs FILE.
 // clang-format off
 #include <jpeglib.h>
 #include <jerror.h>
@@ -15,10 +15,10 @@
 namespace holomorph {
 namespace {
 
-constexpr int kMostScans = 100;  // each goes over the whole picture, however few its bytes are
+constexpr int kMostScans = 100;  // each covers the whole picture, however few bytes it has
 
-/// libjpeg leaves its functions by longjmp: what those called here hold has no destructors, and
-/// everything else is a member.
+/// libjpeg leaves its functions by longjmp. The functions that it can leave therefore have no local
+/// objects with destructors; everything else is a member.
 class JpegReader {
  public:
   JpegReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
@@ -38,7 +38,7 @@ class JpegReader {
 
   Image read(PixelBudget& pixels) {
     run(&JpegReader::read_header);
-    // What is built up in passes is kept twice.
+    // A picture that is built up in passes is held in memory twice.
     const double copies = jpeg_has_multiple_scans(&jpeg_) ? 2 : 1;
     pixels.take(jpeg_.image_width, jpeg_.image_height, name_, copies);
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
@@ -75,7 +75,7 @@ class JpegReader {
     std::longjmp(back_, 1);
   }
 
-  /// What libjpeg goes on after with made-up pixels is no picture.
+  /// After these warnings libjpeg would continue with invented pixels, so they are errors.
   void warn(int level) {
     if (level >= 0) return;
     const int code = errors_.msg_code;
@@ -113,7 +113,7 @@ class JpegReader {
   }
 
   void from_inks(JSAMPROW row, std::uint8_t* out) const {
-    // Adobe's programs write inks the other way around than others do.
+    // Adobe programs store inverted inks; others do not.
     if (!jpeg_.saw_Adobe_marker)
       for (size_t i = 0; i < row_.size(); ++i) row[i] = static_cast<JSAMPLE>(255 - row[i]);
     cmyk_->row(row, out, image_.width);

@@ -1,4 +1,4 @@
-// JSON values that know where they stand, for errors that say so.
+// JSON values that know their position in the document, so that errors can report it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,9 +14,9 @@ namespace holomorph {
 
 using Json = nlohmann::ordered_json;
 
-inline constexpr double kLargestCoordinate = 1e8;  ///< beyond this they are no picture's
+inline constexpr double kLargestCoordinate = 1e8;  ///< larger than the coordinates of any picture
 
-/// A JSON value, where it stands, and how to complain about it.
+/// A JSON value and its position, with the errors that refer to it.
 class Reader {
  public:
   using Kind = JsonTree::Kind;
@@ -30,11 +30,11 @@ class Reader {
   }
 
   const Reader& object() const {
-    if (value_.kind() != Kind::object) fail("an object is wanted here, not " + kind());
+    if (value_.kind() != Kind::object) fail("expected an object, found " + kind());
     return *this;
   }
   const Reader& array() const {
-    if (value_.kind() != Kind::list) fail("a list is wanted here, not " + kind());
+    if (value_.kind() != Kind::list) fail("expected an array, found " + kind());
     return *this;
   }
   size_t size() const {
@@ -51,7 +51,7 @@ class Reader {
   }
 
   double number() const {
-    if (!value_.is_number()) fail("a number is wanted here, not " + kind());
+    if (!value_.is_number()) fail("expected a number, found " + kind());
     const double number = value_.number();
     if (!std::isfinite(number)) fail("the number is not finite");
     return number;
@@ -59,39 +59,38 @@ class Reader {
   double within(double lowest, double highest) const {
     const double n = number();
     if (!(n >= lowest && n <= highest))
-      fail("a number from " + Json(lowest).dump() + " to " + Json(highest).dump() +
-           " is wanted here");
+      fail("expected a number in [" + Json(lowest).dump() + ", " + Json(highest).dump() + "]");
     return n;
   }
   int whole(int lowest, int highest) const {
     const double n = number();
     if (n != std::floor(n) || n < lowest || n > highest)
-      fail("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
-           " is wanted here");
+      fail("expected a whole number in [" + std::to_string(lowest) + ", " +
+           std::to_string(highest) + "]");
     return static_cast<int>(n);
   }
   std::string text() const {
-    if (value_.kind() != Kind::text) fail("a text is wanted here, not " + kind());
+    if (value_.kind() != Kind::text) fail("expected a string, found " + kind());
     return std::string(value_.text());
   }
   Complex point() const {
     array();
-    if (size() != 2) fail("a point [x, y] is wanted here");
+    if (size() != 2) fail("expected a point [x, y]");
     const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
     if (std::abs(z.real()) > kLargestCoordinate || std::abs(z.imag()) > kLargestCoordinate)
       fail("the coordinates are larger than 1e8");
     return z;
   }
   bool truth() const {
-    if (value_.kind() != Kind::boolean) fail("true or false is wanted here, not " + kind());
+    if (value_.kind() != Kind::boolean) fail("expected true or false, found " + kind());
     return value_.truth();
   }
-  /// A parameter: a number, or a switch as 0 or 1.
+  /// A parameter: a number, or a boolean as 0 or 1.
   double value() const {
     return value_.kind() == Kind::boolean ? (value_.truth() ? 1.0 : 0.0) : number();
   }
 
-  /// The keys other than the known ones, with their values, as text; empty when there are none.
+  /// The unknown keys with their values, as JSON text; empty if there are none.
   Extra others(std::initializer_list<const char*> known,
                std::initializer_list<const char*> known_too = {}) const {
     const auto is_in = [](std::initializer_list<const char*> list, std::string_view key) {
@@ -105,7 +104,7 @@ class Reader {
     }
     return text.empty() ? "" : text + "}";
   }
-  /// All members of an object, by their keys.
+  /// All members of an object with their keys.
   std::vector<std::pair<std::string, Reader>> members() const {
     std::vector<std::pair<std::string, Reader>> all;
     for (const auto& [key, i] : last_of_each())
@@ -114,19 +113,19 @@ class Reader {
   }
 
  private:
-  /// Where a key stands last; size() if nowhere.
+  /// The index of the last member with a key; size() if there is none.
   size_t found(std::string_view key) const {
     if (value_.kind() != Kind::object) return size();
     for (size_t i = size(); i-- > 0;)
       if (value_.key(i) == key) return i;
     return size();
   }
-  /// Each key once, in the order in which they come first, with where it stands last.
+  /// Each key once, in order of first occurrence, with the index of its last occurrence.
   std::vector<std::pair<std::string_view, size_t>> last_of_each() const {
     std::vector<std::uint32_t> sorted(size());
     std::iota(sorted.begin(), sorted.end(), 0u);
     std::ranges::sort(sorted, {}, [&](std::uint32_t i) { return std::pair(value_.key(i), i); });
-    std::vector<std::uint32_t> last(size());  // for the first of each key; none for the others
+    std::vector<std::uint32_t> last(size());  // at first occurrences; kNone at the others
     constexpr std::uint32_t kNone = 0xffffffff;
     for (size_t i = 0; i < sorted.size();) {
       size_t end = i + 1;

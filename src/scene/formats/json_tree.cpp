@@ -1,5 +1,5 @@
-// nlohmann-json reads the text twice: once to count, once to fill what is then exactly large
-// enough.
+// nlohmann-json parses the text twice: once to count, and once to fill arrays that then have
+// exactly the right size.
 #include "scene/formats/json_tree.h"
 
 #include <bit>
@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// What a list or object holds, in the order in which they begin.
+/// The number of items of each list and object, in the order in which they begin.
 struct JsonTree::Count : nlohmann::json_sax<nlohmann::json> {
   explicit Count(int deepest) : deepest_(deepest) {}
 
@@ -115,12 +115,12 @@ struct JsonTree::Fill : nlohmann::json_sax<nlohmann::json> {
   JsonTree& tree_;
   const std::vector<std::uint32_t>& counts_;
   size_t next_ = 0, used_ = 1;
-  std::vector<size_t> open_;  ///< where the next child of each goes
+  std::vector<size_t> open_;  ///< index of the next child of each open list or object
 };
 
 JsonTree::JsonTree(const std::string& text, int deepest) {
-  constexpr size_t kLargest = size_t{1} << 29;  // what counts can say
-  if (text.size() >= kLargest) throw Error(ErrorKind::bad_input, "it is larger than 512 MB");
+  constexpr size_t kLargest = size_t{1} << 29;  // the range of a count
+  if (text.size() >= kLargest) throw Error(ErrorKind::bad_input, "the text is larger than 512 MB");
   Count count(deepest);
   if (!nlohmann::json::sax_parse(text, &count)) throw Error(ErrorKind::bad_input, count.problem);
   nodes_.resize(count.nodes);

@@ -1,4 +1,4 @@
-// JSON as it was read, in little memory: twelve bytes a value, and the texts.
+// A JSON document in little memory: twelve bytes per value, plus the strings.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,20 @@
 
 namespace holomorph {
 
-/// A JSON document. Numbers are kept as they are written as far as 64 bits go; of several members
-/// with one key the last one counts. Cost: six times the text's size at most, in linear time.
+/// A JSON document. Numbers are kept exactly as far as 64 bits allow. If a key occurs several times
+/// in an object, the last member counts. Cost: linear time, and at most six times the size of the
+/// text in memory.
 class JsonTree {
  public:
-  /// Throws Error{bad_input} saying where the text is not JSON, and for brackets that are nested
-  /// deeper than that.
+  /// Throws Error{bad_input} if the text is not JSON, saying where, or if brackets are nested more
+  /// than `deepest` deep.
   JsonTree(const std::string& text, int deepest);
   JsonTree(const JsonTree&) = delete;
   JsonTree& operator=(const JsonTree&) = delete;
 
   enum class Kind : std::uint8_t { null, boolean, integer, natural, real, text, list, object };
 
-  /// One value of a tree that outlives it.
+  /// A value of a tree. The tree must outlive it.
   class Value {
    public:
     Kind kind() const;
@@ -28,12 +29,12 @@ class JsonTree {
     bool truth() const;
     double number() const;
     std::string_view text() const;
-    /// How many items a list has, or members an object.
+    /// The number of items of a list, or of members of an object.
     size_t size() const;
     Value item(size_t i) const;  ///< of a list
     std::string_view key(size_t i) const;
     Value member(size_t i) const;  ///< of an object
-    /// The JSON text, without blanks.
+    /// Appends the value as JSON text, without blanks.
     void write(std::string& out) const;
 
    private:
@@ -47,9 +48,9 @@ class JsonTree {
  private:
   struct Count;
   struct Fill;
-  /// Kind and count share a word: the length of texts, the number of items or members. The rest is
-  /// a number in two halves, so that nothing is lost to alignment: its own bits, where a text
-  /// starts, or the first child.
+  /// Kind and count share a word. The count is the length of a string, or the number of items or
+  /// members. The other 64 bits are the bits of a number, the start of a string, or the index of
+  /// the first child. They are stored in two halves so that no space is lost to alignment.
   struct Node {
     std::uint32_t kind : 3, count : 29;
     std::uint32_t low, high;
@@ -57,7 +58,7 @@ class JsonTree {
     std::uint64_t bits() const { return static_cast<std::uint64_t>(high) << 32 | low; }
   };
 
-  std::vector<Node> nodes_;  ///< children of one parent lie together, keys before their values
+  std::vector<Node> nodes_;  ///< children of one parent are contiguous, each key before its value
   std::string texts_;
 };
 

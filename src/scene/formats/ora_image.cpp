@@ -1,5 +1,5 @@
-// A ZIP archive with a description of the stack and a PNG file for each layer. Nothing that it says
-// of itself is trusted: sizes are checked before memory is taken.
+// OpenRaster is a ZIP archive with a description of the stack and a PNG file for each layer. What a
+// file states about itself is not trusted: sizes are checked before memory is allocated.
 #include "scene/formats/ora_image.h"
 
 #include <zip.h>
@@ -18,11 +18,11 @@ namespace {
 
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
 constexpr zip_uint64_t kLargestDescription = 4u << 20;
-constexpr int kDeepest = 50;        ///< groups in groups
-constexpr int kFarthest = 1 << 20;  ///< of a layer from the canvas' corner
+constexpr int kDeepest = 50;        ///< levels of groups
+constexpr int kFarthest = 1 << 20;  ///< of a layer from the corner of the canvas
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
-  throw Error(ErrorKind::bad_input, name + ": this OpenRaster file is damaged: " + what);
+  throw Error(ErrorKind::bad_input, name + ": the OpenRaster file is damaged: " + what);
 }
 
 class Archive {
@@ -34,12 +34,12 @@ class Archive {
     if (source) zip_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
     if (source && !zip_) zip_source_free(source);
     zip_error_fini(&error);
-    if (!zip_) fail(name_, "it is no archive");
+    if (!zip_) fail(name_, "it is not a ZIP archive");
   }
 
   Image picture(const std::string& entry, PixelBudget& pixels) const {
     const std::string bytes = read(entry);
-    if (!is_png(bytes)) fail(name_, entry + " is no PNG file");
+    if (!is_png(bytes)) fail(name_, entry + " is not a PNG file");
     return decode_png(bytes, name_ + ", " + entry, pixels);
   }
 
@@ -65,12 +65,12 @@ class Archive {
 
 struct Placed {
   OraLayer layer;
-  int x = 0, y = 0;  ///< of its left upper corner on the canvas
+  int x = 0, y = 0;  ///< of its upper left corner on the canvas
   double opacity = 1;
 };
 struct Stack {
   int width = 0, height = 0;
-  std::vector<Placed> layers;  ///< from the top to the bottom, as the file has them
+  std::vector<Placed> layers;  ///< from top to bottom, as in the file
 };
 
 int offset(const pugi::xml_node& node, const char* name) {
@@ -100,14 +100,14 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
 Stack stack_of(const Archive& archive, const std::string& name) {
   const std::string text = archive.read("stack.xml", kLargestDescription);
   pugi::xml_document document;
-  if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is no XML");
+  if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is not an XML file");
   const pugi::xml_node image = document.child("image");
   Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}};
-  if (stack.width < 1 || stack.height < 1) fail(name, "it has no size");
+  if (stack.width < 1 || stack.height < 1) fail(name, "its canvas has no size");
   PixelBudget one;
   one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   collect(image.child("stack"), {}, 0, stack);
-  if (stack.layers.empty()) fail(name, "it has no layers of pixels");
+  if (stack.layers.empty()) fail(name, "it has no pixel layers");
   check_budget(&Budget::pixels,
                1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()),
                name + ": the layers have");
@@ -117,7 +117,7 @@ Stack stack_of(const Archive& archive, const std::string& name) {
 }  // namespace
 
 bool is_ora(const std::string& bytes) {
-  // The first entry is the file's type, stored as it is.
+  // The first entry is the type of the file, stored without compression.
   return bytes.starts_with("PK\x03\x04") &&
          bytes.substr(0, 100).find("mimetypeimage/openraster") != std::string::npos;
 }
@@ -139,8 +139,8 @@ Image decode_ora_layer(const std::string& bytes, const std::string& entry, const
   const Stack stack = stack_of(archive, name);
   const auto placed = std::ranges::find_if(
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
-  if (placed == stack.layers.end()) fail(name, "it has no layer " + entry + " any more");
-  PixelBudget alone;  // what lies outside the canvas is not kept
+  if (placed == stack.layers.end()) fail(name, "its layer " + entry + " no longer exists");
+  PixelBudget alone;  // the part outside the canvas is not kept
   const Image picture = archive.picture(entry, alone);
   pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   Image canvas(stack.width, stack.height);

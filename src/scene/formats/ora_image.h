@@ -7,15 +7,15 @@ namespace holomorph {
 
 /// A layer of an OpenRaster file, without its pixels.
 struct OraLayer {
-  std::string name, entry;  ///< what the user calls it, and its file in the archive
+  std::string name, entry;  ///< the user's name for it, and its file in the archive
   bool visible = true;
-  bool blended = false;  ///< by another mode than the usual one
+  bool blended = false;  ///< with a blending mode other than the normal one
 };
 
-/// The layers from the bottom to the top; groups are taken apart. Throws Error{bad_input}.
+/// The layers from bottom to top, without their groups. Throws Error{bad_input}.
 std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name);
-/// One layer on the whole canvas, its opacity in its pixels; blending modes are not kept. Throws
-/// Error{bad_input}.
+/// One layer on the whole canvas, with its opacity applied to the pixels. Blending modes are
+/// ignored. Throws Error{bad_input}.
 Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
                        PixelBudget& pixels);
 

@@ -1,4 +1,4 @@
-// Both become cages first: those are read, traced and checked already.
+// SVG paths and pictures become cages first, because cages can already be read, traced and checked.
 #include "scene/formats/outline_import.h"
 
 #include "core/outline/outline_match.h"
@@ -9,8 +9,8 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 120;  ///< of a traced picture
-constexpr Index kMost = 4000;   ///< points; longer ones are taken at equal steps
+constexpr int kVertices = 120;  ///< of the cage around a traced picture
+constexpr Index kMost = 4000;   ///< points; longer outlines are resampled at equal steps
 
 Points fitted(Points points, const Box& onto) {
   const Box box = box_of(points);
@@ -34,7 +34,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       const Image image = decode_image(bytes, name);
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
     }
-    // A surface finds its boundary again by the points' number.
+    // A surface recognizes its boundary by the number of its points.
     if (kind != ".obj" && static_cast<Index>(outline.size()) > kMost)
       outline = at_equal_lengths(Polyline(outline, true), kMost);
     check_outline(outline);

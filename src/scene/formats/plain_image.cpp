@@ -1,5 +1,5 @@
-// BMP, TGA and PSD by stb_image, which takes missing bytes for zeros and believes what a file says:
-// here it is checked before that all of the pixels are there.
+// Reads BMP, TGA and PSD files with stb_image, which takes missing bytes as zeros and trusts what a
+// file states. This file therefore checks first that all pixels are there.
 #include "core/error.h"
 #include "scene/formats/image_formats.h"
 
@@ -22,7 +22,7 @@
 namespace holomorph {
 namespace {
 
-/// Numbers in a file; those behind its end are an error.
+/// The numbers in a file. Reading past its end is an error.
 class Bytes {
  public:
   Bytes(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -41,7 +41,7 @@ class Bytes {
     for (size_t k = 0; k < count; ++k) value = value << 8 | at(place + k);
     return value;
   }
-  /// Throws Error unless so many bytes are there.
+  /// Throws Error unless `count` bytes are there.
   void need(size_t place, size_t count) const {
     if (place > bytes_.size() || count > bytes_.size() - place)
       throw Error(ErrorKind::bad_input,
@@ -60,7 +60,7 @@ struct Size {
   size_t width = 0, height = 0;
 };
 
-/// A signed number of 32 bits, whatever its sign.
+/// The absolute value of a signed 32-bit number.
 size_t magnitude(size_t value) {
   return value < size_t{1} << 31 ? value : (size_t{1} << 32) - value;
 }
@@ -75,12 +75,12 @@ Size bmp_size(const Bytes& file) {
 void check_bmp(const Bytes& file, const Size& size) {
   const size_t header = file.little(14, 4);
   if (header != 12 && header != 40 && header != 56 && header != 108 && header != 124)
-    file.damaged("its header is of no known kind");
+    file.damaged("its header has an unknown format");
   file.need(14, header);
   const size_t bits = file.little(header == 12 ? 24 : 28, 2), pixels = file.little(10, 4);
-  if (bits > 32) file.damaged("its pixels are of no known kind");
+  if (bits > 32) file.damaged("its pixels have an unknown format");
   const size_t row = (size.width * bits + 31) / 32 * 4;
-  // The last row need not be filled up.
+  // The last row may lack its padding.
   file.need(pixels, row * (size.height - 1) + (size.width * bits + 7) / 8);
 }
 
@@ -92,7 +92,7 @@ void check_tga(const Bytes& file, const Size& size) {
   const size_t kind = file.at(2), pixel = (file.at(16) + 7) / 8,
                colors =
                    file.at(1) ? file.little(3, 2) + file.little(5, 2) * ((file.at(7) + 7) / 8) : 0;
-  if (pixel < 1 || pixel > 4) file.damaged("its pixels are of no known kind");
+  if (pixel < 1 || pixel > 4) file.damaged("its pixels have an unknown format");
   size_t place = 18 + file.at(0) + colors;
   if (kind < 8) return file.need(place, size.width * size.height * pixel);
   for (size_t left = size.width * size.height; left > 0;) {
@@ -119,21 +119,21 @@ void check_psd(const Bytes& file, const Size& size) {
   const size_t packed = file.big(place, 2), rows = channels * size.height;
   place += 2;
   if (packed == 0) return file.need(place, rows * size.width * bytes);
-  if (packed != 1) file.damaged("it is compressed in an unknown way");
-  if (bytes != 1) file.damaged("it is compressed with 16 bits");
-  place += 2 * rows;  // past the rows' lengths
+  if (packed != 1) file.damaged("its compression is unknown");
+  if (bytes != 1) file.damaged("compression with 16 bits is not supported");
+  place += 2 * rows;  // skip the row lengths
   for (size_t channel = 0; channel < channels; ++channel)
     for (size_t left = size.width * size.height; left > 0;) {
       const size_t head = file.at(place), repeats = head > 128;
       const size_t count = head == 128 ? 0 : repeats ? 257 - head : head + 1;
-      if (count > left) file.damaged("its rows do not fit");
+      if (count > left) file.damaged("its rows have the wrong length");
       place += 1 + (head == 128 ? 0 : repeats ? 1 : count);
       file.need(place, 0);
       left -= count;
     }
 }
 
-/// TGA files have nothing that they could be known by: these are sensible in all of their header.
+/// TGA files have no signature. A file counts as one if all of its header is plausible.
 bool is_tga(const std::string& bytes) {
   if (bytes.size() < 18) return false;
   const auto at = [&](size_t i) { return static_cast<unsigned char>(bytes[i]); };
@@ -145,13 +145,13 @@ bool is_tga(const std::string& bytes) {
 
 Image decode(const std::string& bytes, const std::string& name, const Size& size,
              PixelBudget& pixels, void (*check)(const Bytes&, const Size&)) {
-  constexpr size_t kLargestFile = 1u << 30;  // stb counts in int
+  constexpr size_t kLargestFile = 1u << 30;  // stb_image takes sizes as int
   const Bytes file(bytes, name);
   if (size.width == 0 || size.height == 0 || bytes.size() > kLargestFile)
-    file.damaged("it has no size");
+    file.damaged("its size is invalid");
   pixels.take(size.width, size.height, name);
   check(file, size);
-  static std::mutex mutex;  // stb keeps what went wrong in one place
+  static std::mutex mutex;  // stb_image stores its error message in one global place
   const std::lock_guard lock(mutex);
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> found(
@@ -160,7 +160,7 @@ Image decode(const std::string& bytes, const std::string& name, const Size& size
       stbi_image_free);
   if (!found) file.damaged(stbi_failure_reason());
   if (static_cast<size_t>(width) != size.width || static_cast<size_t>(height) != size.height)
-    file.damaged("it has two sizes");
+    file.damaged("its size is contradictory");
   Image image(width, height);
   std::memcpy(image.pixels.data(), found.get(), image.pixels.size());
   return image;

@@ -1,4 +1,4 @@
-// PNG by libpng, from memory: any depth, reduced to 8 bits, in sRGB, and upright.
+// Reads PNG files with libpng, from memory: any depth, reduced to 8 bits, in sRGB and upright.
 #include <png.h>
 
 #include <csetjmp>
@@ -11,14 +11,14 @@
 namespace holomorph {
 namespace {
 
-/// libpng leaves its functions by longjmp: what those called here hold has no destructors, and
-/// everything else is a member.
+/// libpng leaves its functions by longjmp. The functions that it can leave therefore have no local
+/// objects with destructors; everything else is a member.
 class PngReader {
  public:
   PngReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](auto, auto) {});
     if (png_) info_ = png_create_info_struct(png_);
-    if (!info_) throw Error(ErrorKind::failed, name + ": no memory for a PNG picture");
+    if (!info_) throw Error(ErrorKind::failed, name + ": not enough memory for a PNG picture");
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
@@ -72,16 +72,16 @@ class PngReader {
   void read_header() {
     constexpr png_alloc_size_t kLargestChunk = 16 << 20;
     png_set_read_fn(png_, this, take);
-    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the budget says more
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the budget limits the size
     png_set_chunk_malloc_max(png_, kLargestChunk);
-    png_set_chunk_cache_max(png_, 1);  // none: texts are not wanted
+    png_set_chunk_cache_max(png_, 1);  // text chunks are not needed
     png_read_info(png_, info_);
     int depth = 0, colors = 0;
     png_get_IHDR(png_, info_, &width_, &height_, &depth, &colors, nullptr, nullptr, nullptr);
     read_colors();
   }
 
-  /// libpng allocates rows here: their size is known, and allowed.
+  /// libpng allocates rows here, after their size has been checked.
   void prepare() {
     png_set_expand(png_);
     png_set_scale_16(png_);
@@ -90,10 +90,10 @@ class PngReader {
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     if (png_get_rowbytes(png_, info_) != 4 * static_cast<size_t>(width_))
-      png_error(png_, "its rows are of no known kind");
+      png_error(png_, "its rows have an unknown format");
   }
 
-  /// An sRGB chunk says that there is nothing to do.
+  /// An sRGB chunk means that no conversion is needed.
   void read_colors() {
     int how = 0;
     png_charp name = nullptr;
@@ -119,11 +119,11 @@ class PngReader {
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   png_uint_32 width_ = 0, height_ = 0;
-  png_bytep profile_ = nullptr;  ///< libpng's
+  png_bytep profile_ = nullptr;  ///< owned by libpng
   png_uint_32 profile_size_ = 0;
   double gamma_ = 0;
   Chromaticities primaries_;
-  png_bytep exif_ = nullptr;  ///< libpng's
+  png_bytep exif_ = nullptr;  ///< owned by libpng
   png_uint_32 exif_size_ = 0;
   Image image_;
   std::vector<png_bytep> rows_;

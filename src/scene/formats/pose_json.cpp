@@ -1,4 +1,4 @@
-// A pose in a keyframe has the sections of a deformation, each with what moves alone.
+// The pose of a keyframe has the same sections as a deformation, each with only what moves.
 #include "scene/formats/pose_json.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kMostTurn = 1e3;  ///< radians: 159 times around
+constexpr double kMostTurn = 1e3;  ///< radians: 159 whole turns
 constexpr size_t kMostSegments = 5000, kMostPins = 2000, kMostStrokes = 200;
 constexpr std::array<const char*, 3> kEases{"smooth", "linear", "hold"};
 
@@ -38,11 +38,11 @@ PosePin read_pose_pin(const Reader& reader) {
   return pin;
 }
 
-/// The items of a list that is there and not too long.
+/// The items of a list that must not be too long.
 template <class Read>
 auto read_list(const Reader& list, size_t most, Read read) {
   list.array();
-  if (list.size() > most) list.fail("more than " + std::to_string(most) + " of these");
+  if (list.size() > most) list.fail("more than " + std::to_string(most) + " items");
   std::vector<decltype(read(list))> items;
   for (size_t i = 0; i < list.size(); ++i) items.push_back(read(list[i]));
   return items;
@@ -63,7 +63,8 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
   return pose;
 }
 
-/// What is empty is written where the deformation has some: it would be read as resting otherwise.
+/// An empty list is written if the deformation has such handles; without it they would be read as
+/// at rest.
 Json pose_json(const Pose& pose, const Deformation& deformation) {
   Json json = Json::object();
   json["cage"] = loop_json(pose.cage);
@@ -119,10 +120,10 @@ Corner read_corner(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Corner corner;
   const int last = static_cast<int>(deformation.rest.size()) - 1;
-  if (last < 0) reader.fail("there is no cage that it could be a corner of");
+  if (last < 0) reader.fail("there is no cage for this corner");
   corner.vertex = reader["vertex"].whole(0, last);
   if (!deformation.corners.empty() && deformation.corners.back().vertex >= corner.vertex)
-    reader["vertex"].fail("corners must be in the order of their vertices, each once");
+    reader["vertex"].fail("corners must be sorted by vertex, without duplicates");
   corner.pose = read_corner_pose(reader);
   corner.extra = reader.others({"vertex", "before", "after", "tension"});
   return corner;
@@ -133,7 +134,7 @@ Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
   Keyframe key;
   key.time = reader["time"].within(0, kLongestTime);
   if (!deformation.keyframes.empty() && deformation.keyframes.back().time >= key.time)
-    reader["time"].fail("keyframes must be in the order of their times, and no two at one time");
+    reader["time"].fail("keyframes must be sorted by time, without duplicates");
   key.pose = reader.has("pose") ? read_pose(reader["pose"], deformation)
                                 : whole_pose_of(at_rest(deformation));
   if (reader.has("pose"))
@@ -142,7 +143,7 @@ Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
     const std::string ease = reader["ease"].text();
     const auto found = std::ranges::find(kEases, ease);
     if (found == kEases.end())
-      reader["ease"].fail("'" + ease + "' is no ease: smooth, linear or hold");
+      reader["ease"].fail("'" + ease + "' is not an ease; use smooth, linear or hold");
     key.ease = static_cast<Ease>(found - kEases.begin());
   }
   if (reader.has("turns")) key.turns = reader["turns"].whole(-kMostTurns, kMostTurns);
@@ -158,7 +159,7 @@ AnimationSettings read_animation(const Reader& reader) {
   if (reader.has("in_betweens")) {
     const std::string what = reader["in_betweens"].text();
     if (what != "shapes" && what != "places")
-      reader["in_betweens"].fail("'" + what + "' cannot be blended: shapes or places");
+      reader["in_betweens"].fail("'" + what + "' cannot be blended; use shapes or places");
     settings.linear_blend = what == "places";
   }
   return settings;
@@ -210,7 +211,7 @@ Json animation_json(const AnimationSettings& settings) {
 
 namespace {
 
-/// Members are not looked for, so that this is linear.
+/// Members are appended without a lookup, so that this takes linear time.
 Json to_json(const JsonTree::Value& value) {
   Json json;
   if (value.kind() == JsonTree::Kind::object) {
@@ -233,7 +234,7 @@ Json to_json(const JsonTree::Value& value) {
 
 void add_extra(Json& object, const Extra& extra) {
   if (extra.empty()) return;
-  constexpr int kDeepest = 1000;  // it was read from less
+  constexpr int kDeepest = 1000;  // deeper than any scene that can be read
   const JsonTree tree(extra, kDeepest);
   if (!object.is_object()) object = Json::object();
   auto& members = object.get_ref<Json::object_t&>();

@@ -1,4 +1,4 @@
-// What poses are made of, as JSON: curves, cages, corners, keyframes.
+// The parts of poses as JSON: curves, cages, corners, keyframes.
 #pragma once
 
 #include "scene/formats/json_reader.h"
@@ -6,12 +6,12 @@
 namespace holomorph {
 
 Cage read_loop(const Reader& list);
-/// Points that a check, which throws Error, accepts.
+/// Reads points and passes them to `check`, which throws Error if they are invalid.
 Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>));
-/// A corner more of the deformation: they come by increasing vertex.
+/// Reads the next corner of the deformation. Corners are sorted by vertex.
 Corner read_corner(const Reader& reader, const Deformation& deformation);
-/// A keyframe more of a deformation that has all else: they come by increasing time. What its pose
-/// lacks is as it rests.
+/// Reads the next keyframe of a deformation that is otherwise complete. Keyframes are sorted by
+/// time. Missing parts of the pose are at rest.
 Keyframe read_keyframe(const Reader& reader, const Deformation& deformation);
 AnimationSettings read_animation(const Reader& reader);
 
@@ -21,7 +21,7 @@ Json loop_json(const Cage& cage);
 Json corner_json(const Corner& corner);
 Json keyframe_json(const Keyframe& key, const Deformation& deformation);
 Json animation_json(const AnimationSettings& settings);
-/// Writes back what this version does not know.
+/// Adds the keys that this version does not know to an object.
 void add_extra(Json& object, const Extra& extra);
 
 }  // namespace holomorph

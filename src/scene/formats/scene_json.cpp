@@ -1,5 +1,5 @@
-// One reader object carries the file's name and the JSON pointer, so that every error can say
-// where.
+// The reader carries the file's name and the JSON pointer, so that every error can state its
+// position.
 #include "scene/formats/scene_json.h"
 
 #include "core/error.h"
@@ -13,8 +13,8 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVersion = 2, kPlainVersion = 1;  ///< with layers, and without
-constexpr int kDeepest = 200;                   ///< nesting, unknown keys included
+constexpr int kVersion = 2, kPlainVersion = 1;  ///< with layers, and without layers
+constexpr int kDeepest = 200;                   ///< limit on nesting, including unknown keys
 
 void read_cage(const Reader& reader, Deformation& deformation) {
   reader.object();
@@ -53,7 +53,7 @@ ImageReference read_image(const Reader& reader) {
   if (reader.has("entry")) image.entry = reader["entry"].text();
   if (reader.has("size")) {
     const Reader size = reader["size"].array();
-    if (size.size() != 2) size.fail("[width, height] is wanted here");
+    if (size.size() != 2) size.fail("expected [width, height]");
     image.width = size[size_t{0}].whole(1, 1 << 20);
     image.height = size[1].whole(1, 1 << 20);
   }
@@ -79,14 +79,14 @@ SurfaceReference read_surface(const Reader& reader) {
   return surface;
 }
 
-/// "original", or a colour as "#rrggbb".
+/// "original", or a color as "#rrggbb".
 Background read_background(const Reader& reader) {
   const std::string text = reader.text();
   if (text == "original") return {Background::Fill::original};
   unsigned color = 0;
   int end = 0;
   if (text.size() != 7 || std::sscanf(text.c_str(), "#%6x%n", &color, &end) != 1 || end != 7)
-    reader.fail("'" + text + "' is no background: \"original\", or a colour as \"#rrggbb\"");
+    reader.fail("'" + text + "' is not a background; use \"original\" or a color as \"#rrggbb\"");
   return {Background::Fill::color,
           {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
            static_cast<std::uint8_t>(color)}};
@@ -102,7 +102,8 @@ Parameters read_parameters(const Reader& values, const Method& method) {
     if (spec->type == ParameterSpec::Type::choice) {
       const std::string id = reader.text();
       const auto option = std::ranges::find(spec->options, id, &ParameterSpec::Option::id);
-      if (option == spec->options.end()) reader.fail("'" + id + "' is no choice here");
+      if (option == spec->options.end())
+        reader.fail("'" + id + "' is not an option of this parameter");
       parameters[key] = static_cast<double>(option - spec->options.begin());
       continue;
     }
@@ -160,7 +161,8 @@ Json parameters_json(const Method& method, const Parameters& parameters) {
   return values;
 }
 
-/// Lists of numbers on one line, everything else indented: short files that read well in a diff.
+/// Writes lists of numbers on one line and indents everything else, for short files that read well
+/// in a diff.
 void write_value(const Json& value, int depth, std::string& out) {
   const std::string indent(2 * (depth + 1), ' ');
   const auto flat = [](const Json& list) {
@@ -193,13 +195,13 @@ void write_value(const Json& value, int depth, std::string& out) {
 
 /// [x, y, radius, level].
 BrushDab read_dab(const Reader& reader) {
-  if (reader.array().size() != 4) reader.fail("[x, y, radius, level] is wanted here");
+  if (reader.array().size() != 4) reader.fail("expected [x, y, radius, level]");
   const double x = reader[size_t{0}].within(-kLargestCoordinate, kLargestCoordinate),
                y = reader[1].within(-kLargestCoordinate, kLargestCoordinate);
   return {{x, y}, reader[2].within(kLeastBrush, kMostBrush), reader[3].within(-10, 10)};
 }
 
-/// What belongs to one layer, in both shapes of the file.
+/// Reads what belongs to one layer, in both layouts of the file.
 Deformation read_deformation(const Reader& reader) {
   Deformation deformation;
   read_cage(reader["cage"], deformation);
@@ -219,18 +221,18 @@ Deformation read_deformation(const Reader& reader) {
     for (size_t i = 0; i < corners.size(); ++i)
       deformation.corners.push_back(read_corner(corners[i], deformation));
     if (!deformation.corners.empty() && deformation.corners.size() < 3)
-      corners.fail("there must be three corners at least, or none: all vertices");
+      corners.fail("there must be at least three corners, or none to use all vertices");
   }
   if (reader.has("stiffness")) {
     const Reader dabs = reader["stiffness"].array();
-    if (dabs.size() > kMostDabs) dabs.fail("more than 5000 touches of the brush");
+    if (dabs.size() > kMostDabs) dabs.fail("more than 5000 brush dabs");
     for (size_t i = 0; i < dabs.size(); ++i) deformation.stiffness.push_back(read_dab(dabs[i]));
   }
   if (reader.has("outline")) deformation.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
     deformation.surface = read_surface(reader["surface"]);
     if (deformation.outline.empty())
-      reader["surface"].fail("it needs its flat boundary as the outline");
+      reader["surface"].fail("a surface needs its flat boundary as the outline");
   }
   if (reader.has("method")) read_method(reader["method"], deformation);
   if (reader.has("keyframes")) {
@@ -242,7 +244,7 @@ Deformation read_deformation(const Reader& reader) {
   return deformation;
 }
 
-/// What all layers share.
+/// Reads what all layers share.
 void read_shared(const Reader& reader, Scene& scene) {
   if (reader.has("animation")) {
     scene.animation = read_animation(reader["animation"]);
@@ -251,7 +253,7 @@ void read_shared(const Reader& reader, Scene& scene) {
   if (reader.has("background")) scene.background = read_background(reader["background"]);
 }
 
-/// The keys of a layer that are ours in both shapes of the file.
+/// The known keys of a layer in both layouts of the file.
 constexpr std::initializer_list<const char*> kLayerKeys{
     "image",     "cage",    "pins",    "strokes", "corners",
     "stiffness", "outline", "surface", "method",  "keyframes"};
@@ -263,7 +265,7 @@ Layer read_layer(const Reader& reader) {
   return layer;
 }
 
-/// A file of one plain layer, whose keys are the scene's.
+/// Reads a file with a single plain layer, whose keys are those of the scene.
 void read_single(const Reader& reader, Scene& scene) {
   scene = with_layer(std::move(scene), read_layer(reader));
   scene.extra = reader.others({"format", "version", "animation", "background"}, kLayerKeys);
@@ -272,7 +274,7 @@ void read_single(const Reader& reader, Scene& scene) {
 void read_layers(const Reader& reader, Scene& scene) {
   scene.extra = reader.others({"format", "version", "layers", "edited", "animation", "background"});
   const Reader list = reader["layers"].array();
-  if (list.size() < 1 || list.size() > kMostLayers) list.fail("1 to 100 layers are wanted here");
+  if (list.size() < 1 || list.size() > kMostLayers) list.fail("expected 1 to 100 layers");
   scene.layers.clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader item = list[i].object();
@@ -291,17 +293,16 @@ void read_layers(const Reader& reader, Scene& scene) {
 }  // namespace
 
 Scene scene_from_json(const std::string& text, const std::string& name) {
-  check_budget(&Budget::scene, static_cast<double>(text.size()), name + ": the scene has");
+  check_budget(&Budget::scene, static_cast<double>(text.size()), name + ": its size is");
   std::optional<JsonTree> tree;
   try {
     tree.emplace(text, kDeepest);
   } catch (const Error& error) {
     const std::string what = error.what();  // "... at line 3, column 9: ..."
     const size_t at = what.find("line "), end = what.find(':', at);
-    if (what.starts_with("brackets"))
-      throw Error(error.kind(), name + ": this is not a scene: " + what);
+    if (what.starts_with("brackets")) throw Error(error.kind(), name + ": not a scene: " + what);
     throw Error(ErrorKind::bad_input, name +
-                                          ": this is not a scene: it is damaged or ends too early" +
+                                          ": not a scene: the file is damaged or ends too early" +
                                           (at != std::string::npos && end != std::string::npos
                                                ? ", at " + what.substr(at, end - at)
                                                : ""));
@@ -309,11 +310,11 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   const Reader reader(tree->root(), name, "");
   reader.object();
   if (!reader.has("format") || reader["format"].text() != "holomorph")
-    reader.fail("this is not a Holomorph scene: \"format\": \"holomorph\" is missing");
+    reader.fail("not a Holomorph scene: \"format\": \"holomorph\" is missing");
   const int version = reader["version"].whole(1, 1 << 30);
   if (version > kVersion)
-    reader["version"].fail("the scene is of version " + std::to_string(version) +
-                           ", written by a newer program; this one reads up to version " +
+    reader["version"].fail("the scene has version " + std::to_string(version) +
+                           ", written by a newer program; this one reads versions up to " +
                            std::to_string(kVersion));
   Scene scene;
   read_shared(reader, scene);
@@ -433,7 +434,7 @@ Json layers_json(const Scene& scene) {
 }  // namespace
 
 std::string json_of(const Scene& scene) {
-  // A scene of one plain layer is written as it always was.
+  // A scene with a single plain layer is written without a list of layers.
   const bool layered = has_layers(scene);
   Json document;
   document["format"] = "holomorph";

@@ -5,12 +5,12 @@
 
 namespace holomorph {
 
-/// Reads a scene. `name` is the file's name for messages. Throws Error{bad_input} naming the file,
-/// the JSON pointer and the reason: not JSON, a wrong type, a number that is not finite or beyond
-/// 1e8, a newer version, an unknown method, a cage that is no rest cage. Unknown keys are kept.
+/// Reads a scene. `name` is the file's name, used in messages. Throws Error{bad_input} naming the
+/// file, the JSON pointer and the reason: not JSON, a wrong type, a number that is not finite or
+/// beyond 1e8, a newer version, an unknown method, an invalid rest cage. Unknown keys are kept.
 Scene scene_from_json(const std::string& text, const std::string& name);
 
-/// Writes a scene, unknown keys included; reading it gives the same scene, bit for bit.
+/// Writes a scene, including its unknown keys. Reading it back gives the same scene, bit for bit.
 std::string json_of(const Scene& scene);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// A small format, read line by line.
+// OBJ is a small format that is read line by line.
 #include "scene/formats/surface_file.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kMost = 1000000;
 constexpr const char* kMaterial = "picture";
 
-/// Without blanks around it: file names may have some inside.
+/// The text without leading and trailing blanks. File names may contain blanks.
 std::string trimmed(std::string_view text) {
   const size_t start = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
   return start == std::string_view::npos ? "" : std::string(text.substr(start, end + 1 - start));
@@ -44,11 +44,11 @@ class ObjReader {
       } else if (kind == "f") {
         face();
       } else if (kind == "mtllib") {
-        materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // a name may have a #
+        materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // names may have a #
       }
       if (points_.size() > kMost) fail("more than a million vertices");
     }
-    if (corners_.empty()) throw Error(ErrorKind::bad_input, name_ + ": there is no face in it");
+    if (corners_.empty()) throw Error(ErrorKind::bad_input, name_ + ": the file has no face");
     return result();
   }
 
@@ -77,16 +77,16 @@ class ObjReader {
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || wrong != std::errc() || end != text.data() + text.size() ||
         !std::isfinite(value))
-      fail("a number is wanted here, not '" + std::string(text) + "'");
+      fail("expected a number, found '" + std::string(text) + "'");
     return value;
   }
 
-  /// A number counted from 1, or from the end when it is negative.
+  /// The index for a number that counts from 1, or from the end if it is negative.
   int index(std::string_view text, size_t count) const {
     long value = 0;
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || wrong != std::errc() || end != text.data() + text.size())
-      fail("a vertex number is wanted here, not '" + std::string(text) + "'");
+      fail("expected a vertex number, found '" + std::string(text) + "'");
     if (value < 0) value += static_cast<long>(count) + 1;
     if (value < 1 || value > static_cast<long>(count)) fail("there is no such vertex");
     return static_cast<int>(value - 1);
@@ -105,12 +105,12 @@ class ObjReader {
       }
       face.push_back(corner);
     }
-    if (face.size() < 3) fail("a face has three vertices at least");
+    if (face.size() < 3) fail("a face needs at least three vertices");
     for (size_t k = 1; k + 1 < face.size(); ++k)
       corners_.push_back({face[0], face[k], face[k + 1]});
   }
 
-  /// Vertices that faces use, numbered by first use in the file's order.
+  /// The surface with the vertices that faces use, in the order of the file.
   SurfaceFile result() const {
     std::vector<int> number(points_.size(), -1), texture(points_.size(), -1);
     bool consistent = true;
@@ -161,7 +161,7 @@ std::string texture_of_materials(const std::string& text) {
         !std::isspace(static_cast<unsigned char>(name[kKey.size()])))
       continue;
     name = trimmed(name.substr(kKey.size()));
-    // An option is a word with a minus and what follows it up to the next word that is no number.
+    // An option is a word that starts with a minus sign, together with the values after it.
     while (name.starts_with("-")) {
       std::istringstream words(name);
       std::string option, next, rest;

@@ -1,4 +1,4 @@
-// Surfaces as files: Wavefront OBJ in, OBJ with material and texture out.
+// Surface files: reads Wavefront OBJ, writes OBJ with a material and a texture.
 #pragma once
 
 #include <string>
@@ -7,24 +7,24 @@
 
 namespace holomorph {
 
-/// A surface and, where the file has exactly one for each vertex, its texture coordinates.
+/// A surface and its texture coordinates, if the file has exactly one for each vertex.
 struct SurfaceFile {
   Surface surface;
-  Points texture;              ///< 0 to 1 each way, v up; empty when there are none
-  std::string materials = {};  ///< the file that mtllib names; empty when none
+  Points texture;              ///< 0 to 1 in both directions, v up; empty if there are none
+  std::string materials = {};  ///< the file that mtllib names; empty if there is none
 };
 
-/// Reads v, vt and f lines; polygons become fans of triangles, vertices without a face are left
-/// out, what else there is does not matter. Throws Error naming file and line for damaged ones, and
-/// for more than a million vertices.
+/// Reads v, vt, f and mtllib lines and ignores all others. Polygons become fans of triangles;
+/// vertices without a face are left out. Throws Error naming the file and the line of damaged data,
+/// and for more than a million vertices.
 SurfaceFile surface_of_obj(const std::string& text, const std::string& name);
 
-/// The picture that a material library shows first (map_Kd), as it is named there; "" for none.
+/// The name of the first picture (map_Kd) in a material library; "" if there is none.
 std::string texture_of_materials(const std::string& text);
 
-/// The surface with these texture coordinates and a material of that name in that file.
+/// The OBJ text of a surface with these texture coordinates and the material in this file.
 std::string obj_of(const Surface& surface, const Points& texture, const std::string& material_file);
-/// A material that shows a texture file as it is.
+/// A material library with one material, which shows a texture file unchanged.
 std::string material_of(const std::string& texture_file);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// pugixml reads the file; path data is a little language of its own.
+// pugixml parses the file; PathReader parses the path data, which have their own small syntax.
 #include "scene/formats/svg_path.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 /// Reads path data command by command and keeps the loop as lists of control points.
 class PathReader {
  public:
-  /// Lines to where one is already are dropped unless `keeps_points`.
+  /// Lines of length zero are dropped unless `keeps_points`.
   PathReader(const std::string& data, std::string name, bool keeps_points)
       : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
 
@@ -51,17 +51,17 @@ class PathReader {
   }
 
   double number() {
-    if (!number_follows()) fail("a number is wanted here");
+    if (!number_follows()) fail("expected a number");
     const char* from = data_.data() + at_ + (data_[at_] == '+');
     double x = 0;
     const auto [end, wrong] = std::from_chars(from, data_.data() + data_.size(), x);
-    if (wrong == std::errc::result_out_of_range) fail("this number is too large or too small");
-    if (wrong != std::errc{}) fail("this is no number");
+    if (wrong == std::errc::result_out_of_range) fail("the number is too large or too small");
+    if (wrong != std::errc{}) fail("not a number");
     at_ = static_cast<size_t>(end - data_.data());
     return x;
   }
 
-  /// A point, relative to the current one for small letters.
+  /// A point; relative to the current one for lower-case commands.
   Complex point(bool relative) {
     const double x = number(), y = number();
     return (relative ? here_ : Complex(0)) + Complex(x, y);
@@ -83,7 +83,7 @@ class PathReader {
       while (number_follows()) line_to(point(relative));
       return;
     }
-    if (!started_) fail("a path begins with M");
+    if (!started_) fail("a path must begin with M");
     do {
       read_segment(command, relative);
       last_ = command;
@@ -117,10 +117,10 @@ class PathReader {
         return curve_to({before, a}, point(relative), a);
       }
       case 'A':
-        fail("arcs are not read; convert them to curves in the drawing program");
+        fail("arcs are not supported; convert them to curves in the drawing program");
       default:
         --at_;
-        fail(std::string("'") + data_[at_] + "' is no path command");
+        fail(std::string("'") + data_[at_] + "' is not a path command");
     }
   }
 
@@ -135,7 +135,7 @@ class PathReader {
     here_ = to;
   }
 
-  /// Back to the start: by a line, unless it is there already.
+  /// Closes the loop with a line, unless it is closed already.
   void close() {
     double size = 0;
     for (const Points& segment : segments_) size = std::max(size, std::abs(segment[0] - start_));
@@ -151,7 +151,7 @@ class PathReader {
   std::vector<Points> segments_;
 };
 
-/// Throws Error where groups are nested deeper than the budget has it.
+/// Throws Error if groups are nested deeper than the budget allows.
 void check_levels(pugi::xml_document& document, const std::string& name) {
   struct Deepest : pugi::xml_tree_walker {  // does not recurse
     bool for_each(pugi::xml_node&) override {
@@ -164,7 +164,7 @@ void check_levels(pugi::xml_document& document, const std::string& name) {
   check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
 }
 
-/// The paths of a document in their order, without those that only serve others.
+/// The paths of a document in their order, without those that only serve other elements.
 std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
                                              "marker", "pattern",  "symbol"};
@@ -202,7 +202,7 @@ bool is_transformed(const pugi::xml_node& node) {
   return false;
 }
 
-/// Handles on their points are pulled a little along the curve.
+/// Moves handles that coincide with their points a little along the curve.
 void free_handles(Cage& cage) {
   constexpr double kPull = 1e-3;
   for (Index e = 0; e < cage.size(); ++e) {
@@ -227,10 +227,10 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result)
-    throw Error(ErrorKind::bad_input, name + ": this is no SVG file: " + result.description());
+    throw Error(ErrorKind::bad_input, name + ": not an SVG file: " + result.description());
   check_levels(document, name);
   const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
-  if (!path) throw Error(ErrorKind::bad_input, name + ": there is no path in this file");
+  if (!path) throw Error(ErrorKind::bad_input, name + ": the file has no path");
   for (pugi::xml_node node = path; node; node = node.parent())
     if (is_transformed(node))
       throw Error(ErrorKind::bad_input, name +
@@ -245,10 +245,10 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
       PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {z.real(), height - z.imag()};
-  constexpr Index kMostSegments = 5000;  // as scenes have
+  constexpr Index kMostSegments = 5000;  // as in scenes
   if (cage.size() > kMostSegments)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
-                                          " segments; at most 5000 can be used");
+                                          " segments; at most 5000 are allowed");
   if (cage.size() < 3 && use != PathUse::outline)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; a cage needs at least three");
@@ -268,14 +268,15 @@ std::string point(Complex z, double height) {
   return number(z.real()) + " " + number(height - z.imag());
 }
 
-/// The cubic with a curve's ends and end tangents.
+/// The cubic with the ends and end tangents of a curve.
 Points cubic_of(const Points& c) {
   const double n = static_cast<double>(c.size()) - 1, arm = n / 3;
   return {c.front(), c.front() + arm * (c[1] - c.front()),
           c.back() + arm * (c[c.size() - 2] - c.back()), c.back()};
 }
 
-/// How far a curve is from its cubic at most: a curve lies within its control points.
+/// A bound on the distance of a curve from its cubic: their difference lies within its control
+/// points.
 double off_cubic(const Points& c) {
   const Points cubic = elevated(cubic_of(c), static_cast<int>(c.size()) - 1);
   double off = 0;
@@ -283,7 +284,7 @@ double off_cubic(const Points& c) {
   return off;
 }
 
-/// The curve in `count` pieces, equally long in the parameter.
+/// The curve split into `count` pieces of equal length in the parameter.
 std::vector<Points> pieces_of(Points c, int count) {
   std::vector<Points> pieces;
   for (; count > 1; --count) {
@@ -295,7 +296,7 @@ std::vector<Points> pieces_of(Points c, int count) {
   return pieces;
 }
 
-/// How many pieces make cubics that follow a curve to kOffCubic of its size: one up to degree 3.
+/// The number of cubics that follow a curve to kOffCubic of its size; one up to degree 3.
 int cubics_for(const Points& c) {
   constexpr double kOffCubic = 1e-4;
   const double allowed = kOffCubic * box_of(c).diagonal();
@@ -307,7 +308,7 @@ int cubics_for(const Points& c) {
   return count;
 }
 
-/// Path data of a cage, segment i in counts[i] pieces.
+/// The path data of a cage with segment i split into counts[i] pieces.
 std::string path_data(const Cage& cage, const std::vector<int>& counts, double height) {
   std::string data = "M " + point(cage.vertex(0), height);
   for (Index i = 0; i < cage.size(); ++i)
@@ -334,7 +335,7 @@ std::string svg_of(const Deformation& deformation, const std::optional<ImageRefe
                     "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
                     " " + number(height - box.top) + " " + number(box.width()) + " " +
                     number(box.height()) + "\">\n";
-  std::vector<int> counts;  // the same for both, so that they still belong together
+  std::vector<int> counts;  // the same for both, so that their segments still correspond
   for (Index i = 0; i < deformation.rest.size(); ++i)
     counts.push_back(std::max(cubics_for(deformation.rest.controls(i)),
                               cubics_for(deformation.pose.controls(i))));

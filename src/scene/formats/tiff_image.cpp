@@ -1,5 +1,5 @@
-// TIFF by libtiff, from memory. What a file says about itself is not trusted: libtiff checks it,
-// and its words become errors.
+// Reads TIFF files with libtiff, from memory. What a file states about itself is not trusted:
+// libtiff checks it, and its messages become errors.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ toff_t size_of(thandle_t handle) {
   return static_cast<Stream*>(handle)->bytes.size();
 }
 
-/// libtiff packs a pixel into a number, and gives colours multiplied by alpha.
+/// libtiff packs a pixel into a number, with colors multiplied by alpha. This undoes both.
 void make_straight(Image& image) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     uint32_t pixel = 0;
@@ -104,7 +104,7 @@ Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget
   void* profile = nullptr;
   if (TIFFGetField(file.get(), TIFFTAG_ICCPROFILE, &size, &profile))
     to_srgb(image, std::string(static_cast<const char*>(profile), size));
-  // libtiff has mirrored it upright; rows for columns are left to do.
+  // libtiff has already mirrored the picture; swapping rows and columns is left to do.
   uint16_t orientation = 1;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
   const bool over = orientation == ORIENTATION_LEFTTOP || orientation == ORIENTATION_RIGHTBOT,

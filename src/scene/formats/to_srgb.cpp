@@ -1,4 +1,4 @@
-// Little CMS does the colors.
+// Colors are converted by Little CMS.
 #include "scene/formats/to_srgb.h"
 
 #include <lcms2.h>
@@ -31,7 +31,7 @@ Conversion conversion(const Profile& from, cmsUInt32Number format) {
                                        cmsFLAGS_COPY_ALPHA | cmsFLAGS_BLACKPOINTCOMPENSATION));
 }
 
-/// Whether colors stay as they are, within rounding.
+/// Whether a conversion leaves colors unchanged, up to rounding.
 bool is_identity(const Conversion& conversion) {
   std::vector<std::uint8_t> grid;
   for (int r = 0; r < 256; r += 15)
@@ -53,7 +53,7 @@ void convert(Image& image, const Conversion& conversion) {
                    static_cast<cmsUInt32Number>(image.width));
 }
 
-/// The same by a profile of gray: all three channels hold it.
+/// The same for a gray profile; all three channels hold the gray value.
 void convert_gray(Image& image, const Conversion& conversion) {
   std::uint8_t grays[256];
   std::uint8_t colors[256 * 4];
@@ -85,7 +85,7 @@ void to_srgb(Image& image, const Chromaticities& p, double gamma) {
   cmsCIExyY white{p.white[0], p.white[1], 1};
   cmsCIExyYTRIPLE primaries{
       {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
-  // 1 / 2.2 is what files of sRGB say.
+  // sRGB files state 1 / 2.2.
   constexpr double kLikeSrgb = 0.005;
   const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb
@@ -105,7 +105,7 @@ CmykToSrgb::CmykToSrgb(const std::string& bytes) {
   const Profile profile = opened(bytes);
   if (!profile || cmsGetColorSpace(profile.get()) != cmsSigCmykData) return;
   const Profile srgb(cmsCreate_sRGBProfile());
-  // RGBA as four bytes a color: lcms leaves the fourth, which row() sets.
+  // The output has four bytes per color. lcms does not write the fourth one; row() does.
   Conversion found(cmsCreateTransform(profile.get(), TYPE_CMYK_8_REV, srgb.get(), TYPE_RGBA_8,
                                       INTENT_RELATIVE_COLORIMETRIC,
                                       cmsFLAGS_BLACKPOINTCOMPENSATION));

@@ -1,4 +1,4 @@
-// Colors of a file, by its profile or by what it says of gamma, to sRGB.
+// Converts the colors of a file to sRGB by its profile or by its gamma.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,13 @@
 
 namespace holomorph {
 
-/// A picture's pixels from the RGB or gray of an ICC profile to sRGB, in place. Profiles that are
-/// damaged or of another kind of color change nothing, nor do those that are sRGB within a step.
+/// Converts the pixels of a picture in place to sRGB from the RGB or gray space of an ICC profile.
+/// Profiles that are damaged, describe another kind of color, or agree with sRGB to within one step
+/// change nothing.
 void to_srgb(Image& image, const std::string& profile);
 
-/// CMYK of 8 bits, 255 for no ink, to opaque RGBA: by the profile where it is one of CMYK.
+/// Converts 8-bit CMYK, with 255 for no ink, to opaque RGBA. Uses the profile if it is a CMYK
+/// profile.
 class CmykToSrgb {
  public:
   explicit CmykToSrgb(const std::string& profile);
@@ -22,11 +24,11 @@ class CmykToSrgb {
 
  private:
   struct Transform;
-  std::unique_ptr<Transform> transform_;  ///< none: plain products
+  std::unique_ptr<Transform> transform_;  ///< null: plain products
 };
 
-/// What a PNG says of its colors without a profile: x and y of white, red, green and blue, and the
-/// exponent of its samples.
+/// The colors that a PNG file without a profile states: x and y of white, red, green and blue.
+/// `gamma` is the exponent of its samples.
 struct Chromaticities {
   double white[2] = {0.3127, 0.3290}, red[2] = {0.64, 0.33}, green[2] = {0.30, 0.60},
          blue[2] = {0.15, 0.06};

@@ -1,4 +1,4 @@
-// WebP by libwebp.
+// Reads and writes WebP files with libwebp.
 #include <webp/decode.h>
 #include <webp/encode.h>
 #include <webp/mux.h>
@@ -18,7 +18,7 @@ bool is_webp(const std::string& bytes) {
 
 namespace {
 
-/// A chunk beside the pixels: Exif data, a color profile; empty without one.
+/// A chunk other than the pixels, such as Exif data or a color profile; empty if there is none.
 std::string chunk_of(const std::string& bytes, const char* kind) {
   const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
   const std::unique_ptr<WebPMux, void (*)(WebPMux*)> mux(WebPMuxCreate(&file, 0), WebPMuxDelete);
@@ -42,9 +42,10 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
   if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
     throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
   if (features.has_animation)
-    throw Error(ErrorKind::bad_input,
-                name + ": this WebP is animated; open one of its frames, saved as a picture");
-  // How long the file is stands in its first chunk.
+    throw Error(
+        ErrorKind::bad_input,
+        name + ": the WebP picture is animated; save one of its frames as a picture and open that");
+  // The first chunk states the length of the file.
   const auto byte = [&](size_t i) { return static_cast<size_t>(data[i]); };
   if ((byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24) + 8 > bytes.size())
     throw Error(ErrorKind::bad_input, name + ": the picture is cut off: the file ends too early");
@@ -60,7 +61,7 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
 
 std::string encode_webp(const Image& image) {
   if (std::max(image.width, image.height) > WEBP_MAX_DIMENSION)
-    throw Error(ErrorKind::failed, "WebP pictures have at most 16383 pixels a side; take PNG");
+    throw Error(ErrorKind::failed, "WebP pictures have at most 16383 pixels per side; use PNG");
   std::uint8_t* data = nullptr;
   const size_t size = WebPEncodeLosslessRGBA(image.pixels.data(), image.width, image.height,
                                              4 * image.width, &data);

@@ -1,10 +1,11 @@
-// Pictures as files of others: every format, its colors, which way up it is, and what is cut off.
+// Picture files from other programs: every format, its colors, its orientation, and truncated
+// files.
 #include <tiffio.h>
 #include <webp/encode.h>
 #include <webp/mux.h>
 
 #include <cstdio>  // before jpeglib.h
-// Together, in this order.
+// These stay together, in this order.
 #include <jpeglib.h>
 #include <lcms2.h>
 #include <png.h>
@@ -25,7 +26,8 @@ using namespace holomorph;
 
 namespace {
 
-/// Smooth, with a mark in one corner, so that each of the eight ways to hold it looks different.
+/// A smooth picture with a mark in one corner, so that each of the eight orientations looks
+/// different.
 Image marked(int width, int height) {
   Image image(width, height);
   for (int r = 0; r < height; ++r)
@@ -39,11 +41,12 @@ Image marked(int width, int height) {
   return image;
 }
 
-/// As a camera held in one of the eight ways stores it: what orientation `way` is upright again.
+/// The picture as a camera stores it in one of the eight orientations. Decoding it with orientation
+/// `way` makes it upright again.
 Image held(const Image& image, int way) {
   const bool turned = way >= 5;
   Image stored(turned ? image.height : image.width, turned ? image.width : image.height);
-  // EXIF: where row 0 and column 0 of what is stored lie in the upright picture.
+  // Exif: the sides of the upright picture where row 0 and column 0 of the stored picture lie.
   for (int r = 0; r < stored.height; ++r)
     for (int c = 0; c < stored.width; ++c) {
       const int row = turned ? c : r, column = turned ? r : c;
@@ -57,7 +60,7 @@ Image held(const Image& image, int way) {
   return stored;
 }
 
-/// Exif data that says nothing else; 'II' or 'MM' by turns.
+/// Exif data with only an orientation, in alternating byte orders 'II' and 'MM'.
 std::string exif_of(int way) {
   const char w = static_cast<char>(way);
   const char little[] = {'I', 'I', 42, 0, 8, 0, 0, 0, 1, 0, 0x12, 1, 3,
@@ -76,8 +79,8 @@ int largest_difference(const Image& a, const Image& b) {
   return most;
 }
 
-/// A profile of linear light with the primaries of Adobe RGB, and what a color of it is in sRGB, by
-/// the definition of both instead of by a library.
+/// A profile of linear light with the primaries of Adobe RGB. The function after it converts its
+/// colors to sRGB by the definition of both instead of with a library.
 std::string linear_adobe() {
   cmsCIExyY white{0.3127, 0.3290, 1};
   cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 1}};
@@ -112,7 +115,7 @@ void check_adobe(const Image& stored, const Image& read, double allowed) {
       for (size_t k = 0; k < 3; ++k)
         if (std::abs(read.at(c, r)[k] - wanted[k]) > allowed)
           FAIL_CHECK("pixel " << c << ", " << r << " channel " << k << ": " << int(read.at(c, r)[k])
-                              << " and not " << wanted[k]);
+                              << ", expected " << wanted[k]);
     }
 }
 
@@ -124,7 +127,7 @@ struct Raise {
 
 }  // namespace
 
-TEST_CASE("Pictures of every format are upright, whichever way the camera was held") {
+TEST_CASE("Pictures of every format are upright in every orientation of the camera") {
   const Image image = marked(21, 13);
   for (int way = 1; way <= 8; ++way) {
     CAPTURE(way);
@@ -141,7 +144,7 @@ TEST_CASE("Pictures of every format are upright, whichever way the camera was he
   CHECK(decode_image(png_file(image, {.exif = "II*"}), "a.png") == image);
 }
 
-TEST_CASE("Colors of a profile become those of sRGB") {
+TEST_CASE("Colors are converted from a profile to sRGB") {
   const Image image = marked(40, 30);
   const std::string profile = linear_adobe();
   check_adobe(image, decode_image(png_file(image, {.profile = profile}), "a.png"), 1.6);
@@ -160,17 +163,17 @@ TEST_CASE("Colors of a profile become those of sRGB") {
   CHECK(decode_image(webp_file(image, {.profile = "no profile"}), "a.webp") == image);
 }
 
-TEST_CASE("A PNG's gamma and primaries are heeded, and those of sRGB change nothing") {
+TEST_CASE("The gamma and primaries of a PNG are applied, and those of sRGB change nothing") {
   const Image image = marked(40, 30);
   CHECK(decode_image(png_file(image, {.gamma = 1 / 2.2}), "a.png") == image);
   check_adobe(image, decode_image(png_file(image, {.gamma = 1, .adobe = true}), "a.png"), 1.6);
-  // What says sRGB is sRGB, whatever it says beside.
+  // A file that is marked as sRGB is sRGB, whatever else it states.
   CHECK(decode_image(png_file(image, {.gamma = 1, .srgb = true}), "a.png") == image);
   const Image dark = decode_image(png_file(image, {.gamma = 1.0 / 1.8}), "a.png");
   CHECK(dark.at(20, 15)[0] > image.at(20, 15)[0]);  // 1.8 is lighter than 2.2
 }
 
-TEST_CASE("PNG is read in all depths and kinds") {
+TEST_CASE("PNG is read in all bit depths and variants") {
   const Image image = marked(37, 23);
   CHECK(decode_image(png_file(image, {.sixteen = true}), "a.png") == image);
   CHECK(decode_image(png_file(image, {.interlaced = true}), "a.png") == image);
@@ -184,7 +187,7 @@ TEST_CASE("PNG is read in all depths and kinds") {
   }
 }
 
-TEST_CASE("JPEG is read in gray, in CMYK of both kinds, and progressive") {
+TEST_CASE("JPEG is read in gray, in both kinds of CMYK, and progressive") {
   const Image image = marked(40, 30);
   const Image colors = decode_image(jpeg_file(image, {}), "a.jpg");
   CHECK(largest_difference(decode_image(jpeg_file(image, {.progressive = true}), "a.jpg"),
@@ -201,12 +204,12 @@ TEST_CASE("JPEG is read in gray, in CMYK of both kinds, and progressive") {
              Catch::Contains("more than 100 passes"));
 }
 
-TEST_CASE("A picture that is cut off anywhere is an error that says so") {
+TEST_CASE("A picture that is cut off anywhere gives an error that says so") {
   const Image image = marked(64, 48);
   struct Kind {
     const char* name;
     std::string bytes;
-    size_t tail = 0;  ///< bytes at the end that nothing needs
+    size_t tail = 0;  ///< bytes at the end that are not needed
   };
   const std::vector<Kind> kinds{
       {"a.png", png_file(image, {})},      {"i.png", png_file(image, {.interlaced = true})},
@@ -234,7 +237,7 @@ TEST_CASE("A picture that is cut off anywhere is an error that says so") {
       }
     }
   }
-  // A table of rows that hold nothing.
+  // A table of rows that have no data.
   std::string rows = psd_file(Image(64, 48), true);
   rows.resize(26 + 12 + 2 + 2 * 4 * 48);
   std::fill(rows.begin() + 26 + 12 + 2, rows.end(), '\0');
@@ -267,7 +270,7 @@ TEST_CASE("A JPEG with too many Huffman codes is an error") {
   CHECK_THAT(complaint_of([&] { decode_image(bytes, "dht.jpg"); }), Catch::Contains("damaged"));
 }
 
-TEST_CASE("The pixels of all pictures of a scene together have a budget") {
+TEST_CASE("All pictures of a scene share one pixel budget") {
   Budget small = budget();
   small.pixels = 10000;
   const Raise raised(small);

@@ -1,4 +1,4 @@
-// Cages through SVG files.
+// Cages written to SVG files and read back.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -34,17 +34,17 @@ TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") 
   }
   CHECK(loop("M0 0 Q10 0 10 10 T20 20 V0 z").segments[1][1] == Complex(10, 80));
   CHECK(loop("M0 0V10H10v-10z").size() == 4);
-  // Handles on their points are pulled out.
+  // Handles that coincide with their points are moved away from them.
   const Cage freed = loop("M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z");
   CHECK(freed.segments[0][1] != freed.segments[0][0]);
   check_rest_cage(freed);
   const Cage posed =
       cage_of_svg("<svg height='100'><path d='M0 0 C0 0 10 10 10 10 L10 0 L5 -3 z'/></svg>",
                   "p.svg", 0, PathUse::pose);
-  CHECK(posed.segments[0][1] == posed.segments[0][0]);  // a pose may do anything
+  CHECK(posed.segments[0][1] == posed.segments[0][0]);  // a pose has no such restriction
 }
 
-TEST_CASE("SVG files that hold no cage are refused with the reason") {
+TEST_CASE("SVG files without a cage are rejected with the reason") {
   const auto complaint = [](const std::string& text) {
     return complaint_of([&] { cage_of_svg(text, "p.svg", 0); });
   };
@@ -56,7 +56,7 @@ TEST_CASE("SVG files that hold no cage are refused with the reason") {
   CHECK_THAT(complaint(path("M0 0 L1 x")), Contains("character 9") && Contains("number"));
   CHECK_THAT(complaint(path("M0 0 A1 1 0 0 0 2 2")), Contains("arcs"));
   CHECK_THAT(complaint(path("M0 0 L1 0 L1 1 z M5 5 L6 6 L7 5 z")), Contains("several subpaths"));
-  CHECK_THAT(complaint(path("L0 0 L1 1")), Contains("begins with M"));
+  CHECK_THAT(complaint(path("L0 0 L1 1")), Contains("must begin with M"));
   CHECK_THAT(complaint(path("M0 0 L1 0")), Contains("at least three"));
   CHECK_THAT(complaint("<svg><g transform='scale(2)'><path d='M0 0 L1 0 L1 1'/></g></svg>"),
              Contains("transform"));
@@ -68,7 +68,7 @@ TEST_CASE("SVG files that hold no cage are refused with the reason") {
                     "' d='M0 0 L1 0 L1 1'/></svg>") == "");
   CHECK_THAT(complaint("<svg><defs><path d='M0 0 L1 0 L1 1'/></defs></svg>"), Contains("no path"));
   CHECK_THAT(complaint(path("M0 0 L1e999 0 L1 1")), Contains("too large"));
-  CHECK_THAT(complaint(path("M0 0 L1 +-1 L1 1")), Contains("number is wanted"));
+  CHECK_THAT(complaint(path("M0 0 L1 +-1 L1 1")), Contains("expected a number"));
   CHECK_THAT(complaint(path("M0 0 L0x10 0 L1 1")), Contains("character 8"));
 }
 
@@ -85,7 +85,7 @@ void check_equal(const Cage& a, const Cage& b) {
 
 }  // namespace
 
-TEST_CASE("A cage goes through SVG and back to 1e-9, at rest and posed, with and without picture") {
+TEST_CASE("A cage survives SVG to 1e-9, at rest and posed, with and without a picture") {
   Deformation deformation = with_cage(Deformation{}, shapes::curved_star(9, 3, 0.3, 4));
   deformation.pose = shapes::curved_star(9, 2, 0.2, 7);
   deformation.pose.segments[3].resize(1);
@@ -99,13 +99,14 @@ TEST_CASE("A cage goes through SVG and back to 1e-9, at rest and posed, with and
   }
 }
 
-TEST_CASE("A pose whose points coincide keeps all its segments through SVG") {
+TEST_CASE("A pose whose points coincide keeps all of its segments in SVG") {
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   for (const Index v : {1, 2, 5}) deformation.pose.segments[v][0] = deformation.pose.segments[0][0];
   check_equal(cage_of_svg(svg_of(deformation, {}), "p.svg", 0, PathUse::pose), deformation.pose);
 }
 
-TEST_CASE("Curves of high degree leave as cubics that follow them, rest and pose in equal pieces") {
+TEST_CASE(
+    "Curves of high degree are written as cubics, with as many pieces at rest as in the pose") {
   Deformation deformation = with_cage(Deformation{}, polygon_cage(shapes::l_shape()));
   deformation.pose.segments[0] = {{0, 0}, {0, -60}, {50, -90}, {130, -60}};
   // Equal to its cubic at a quarter, a half and three quarters, and far from it between.
