@@ -5,7 +5,7 @@ uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one color, 4: tint
 uniform vec4 flat_color;
 
 in vec2 uv;
-in vec2 place;
+in vec2 rest_position;
 in float shade;
 
 out vec4 color;
@@ -17,7 +17,7 @@ void main() {
     color = vec4(texture(colors, clamp(shade, 0.0, 1.0)).rgb, 1.0);
   } else if (coloring == 2) {
     // A box-filtered checker: exact where cells are large, gray where they are smaller than a pixel.
-    vec2 cell = place / 16.0;
+    vec2 cell = rest_position / 16.0;
     vec2 width = max(fwidth(cell), vec2(1e-6));
     vec2 wave = 2.0 * (abs(fract((cell - 0.5 * width) * 0.5) - 0.5) - abs(fract((cell + 0.5 * width) * 0.5) - 0.5)) / width;
     float light = 0.5 - 0.5 * wave.x * wave.y;

@@ -2,7 +2,7 @@
 uniform mat4 to_view;
 uniform mat4 to_clip;
 
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 coordinates;
 
@@ -11,7 +11,7 @@ out vec3 seen;         // position in view space
 out vec3 seen_normal;
 
 void main() {
-  vec4 at = to_view * vec4(place, 1.0);
+  vec4 at = to_view * vec4(position, 1.0);
   uv = coordinates;
   seen = at.xyz;
   seen_normal = mat3(to_view) * normal;

@@ -13,7 +13,7 @@ layout(location = 1) in vec2 position;
 layout(location = 2) in float value;
 
 out vec2 uv;
-out vec2 place;     // rest position in plane units, for the checker
+out vec2 rest_position;     // rest position in plane units, for the checker
 out float shade;
 out vec2 warped;    // read back by transform feedback
 
@@ -31,7 +31,7 @@ void main() {
   }
   warped = at;
   uv = vec2(rest.x / picture_size.x, 1.0 - rest.y / picture_size.y);
-  place = rest;
+  rest_position = rest;
   shade = value;
   gl_Position = vec4((to_clip * vec3(at, 1.0)).xy, 0.0, 1.0);
 }

@@ -22,21 +22,21 @@ std::vector<std::string> tool(std::vector<std::string> wayland, std::vector<std:
 
 }  // namespace
 
-std::string picture_on_clipboard(const std::function<bool()>& go_on) {
+std::string picture_on_clipboard(const std::function<bool()>& keep_going) {
   const auto finished =
       run_program(tool({"wl-paste", "--type", "image/png"},
                        {"xclip", "-selection", "clipboard", "-target", "image/png", "-out"}),
-                  "", go_on);
+                  "", keep_going);
   if (!finished || finished->status != 0 || finished->output.empty())
     throw Error(ErrorKind::bad_input, "There is no picture on the clipboard.");
   return finished->output;
 }
 
-void put_on_clipboard(const std::string& png, const std::function<bool()>& go_on) {
+void put_on_clipboard(const std::string& png, const std::function<bool()>& keep_going) {
   const auto finished =
       run_program(tool({"wl-copy", "--type", "image/png"},
                        {"xclip", "-selection", "clipboard", "-target", "image/png", "-in"}),
-                  png, go_on);
+                  png, keep_going);
   if (!finished || finished->status != 0)
     throw Error(ErrorKind::failed, "The picture could not be put on the clipboard.");
 }

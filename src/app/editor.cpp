@@ -457,7 +457,7 @@ class Editor {
 }  // namespace
 
 int run_editor(const EditorOptions& options) {
-  if (!options.file.empty() && !is_there(options.file))
+  if (!options.file.empty() && !path_exists(options.file))
     throw Error(ErrorKind::bad_input,
                 options.file.string() +
                     ": there is no such file, and no such command; see 'holomorph --help'");

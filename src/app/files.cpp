@@ -91,7 +91,7 @@ std::string Files::open(const Path& path) {
         keep_recent(path);
         ask_about_unsaved(*left);
       });
-  if (!problem.empty() && !is_there(path) && std::erase(preferences_.recent, path) > 0)
+  if (!problem.empty() && !path_exists(path) && std::erase(preferences_.recent, path) > 0)
     keep_preferences();
   return problem;
 }
@@ -141,9 +141,9 @@ void Files::show_withheld() {
   Document& document = workspace_.document;
   for (const Path& file : document.withheld()) trust_folder_of(file);
   std::vector<ImageReference> wanted;
-  for (const size_t i : document.without_picture())
+  for (const size_t i : document.layers_without_picture())
     wanted.push_back(*document.scene().layers[i]->image);
-  document.release_pictures();
+  document.allow_withheld();
   const auto found = std::make_shared<std::vector<std::pair<ImageReference, Picture>>>();
   const auto read = [found, wanted, open = document.pictures().pixels()](Job::Progress&) {
     PictureFiles files(open);
@@ -172,7 +172,7 @@ void Files::reload() {
         Document& document = workspace_.document;
         document.add_pictures((*opened)->pictures());
         workspace_.commit_layers("Reload", (*opened)->scene());
-        document.count_as_saved(**opened);
+        document.mark_saved(**opened);
         workspace_.messages.say(document.title() +
                                 " was changed by another program and has been reloaded.");
         ask_about_withheld();
@@ -199,7 +199,7 @@ void Files::watch_scene() {
   }
   left_alone_ = now;
   const bool saved = !document.modified();
-  document.count_as_unsaved();  // what is here is not in the file
+  document.mark_unsaved();  // what is here is not in the file
   if (gone)
     workspace_.messages.complain(
         document.title() +
@@ -283,7 +283,7 @@ void Files::ask_recover(const Path& autosave) {
 }
 
 void Files::recover(const Path& autosave) {
-  if (!is_there(autosave)) {
+  if (!path_exists(autosave)) {
     recoverable_ = holomorph::recoverable(autosave_folder());
     return workspace_.messages.complain("That work was recovered or discarded in another window.");
   }
@@ -380,7 +380,7 @@ std::string Files::export_surface(const Path& path, double scale) {
     if (document.pictures().withheld().contains(deformation.surface->file))
       return Path(deformation.surface->file).filename().string() +
              " is not in the scene's folder, and was left out.";
-    const LaidSurface surface = laid_surface_of(deformation);
+    const FlattenedSurface surface = flattened_surface_of(deformation);
     for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
     write_textured(path, surface, textured(surface, deformation, document.image(), scale));
     workspace_.messages.say("Exported " + path.filename().string() +

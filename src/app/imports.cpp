@@ -91,7 +91,7 @@ std::string Imports::replace_picture(const Path& path) {
 
 void Imports::ask_find_picture() {
   const Document& document = workspace_.document;
-  const std::vector<size_t> missing = document.without_picture();
+  const std::vector<size_t> missing = document.layers_without_picture();
   if (missing.empty()) return;
   const std::string asked = document.scene().layers[missing.front()]->image->file;
   chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Take this",
@@ -103,7 +103,7 @@ void Imports::ask_find_picture() {
 std::string Imports::find_picture(const Path& path, const std::string& asked) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
   const auto find = [found, path, asked, open = open_pixels(), scene = workspace_.document.scene(),
-                     missing = workspace_.document.without_picture()](Job::Progress&) {
+                     missing = workspace_.document.layers_without_picture()](Job::Progress&) {
     PictureFiles files(open);
     for (const size_t i : missing) {
       const ImageReference& was = *scene.layers[i]->image;
@@ -134,7 +134,7 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
     Scene scene = document.scene();
     scene.layers = shared(std::move(layers));
     if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
-    const size_t still = document.without_picture().size();
+    const size_t still = document.layers_without_picture().size();
     workspace_.messages.say(
         std::string(other ? "Found; it is not quite the picture that the scene was made "
                             "with."

@@ -29,7 +29,7 @@ PictureWatch::Changed PictureWatch::changed() {
   std::error_code error;
   for (const ImageReference& reference : document.pictures().changed())
     all.emplace_back(reference, std::filesystem::last_write_time(reference.file, error));
-  for (const size_t i : document.without_picture()) {
+  for (const size_t i : document.layers_without_picture()) {
     const ImageReference& image = *document.scene().layers[i]->image;
     if (document.pictures().withheld().contains(image.file)) continue;
     const Time time = std::filesystem::last_write_time(image.file, error);

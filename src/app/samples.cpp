@@ -32,7 +32,7 @@ Path assets() {
   std::error_code error;
   const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
   const Path installed = program.parent_path().parent_path() / "share/holomorph/assets";
-  return !error && is_there(installed) ? installed : Path(HOLOMORPH_ASSETS);
+  return !error && path_exists(installed) ? installed : Path(HOLOMORPH_ASSETS);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ const std::vector<Sample>& Samples::shown() {
   if (!std::exchange(listed_, true)) {
     const Path folder = assets();
     for (const Row& row : kRows)
-      if (const Path scene = folder / (std::string(row.name) + ".json"); is_there(scene))
+      if (const Path scene = folder / (std::string(row.name) + ".json"); path_exists(scene))
         samples_.push_back({scene, row.title, row.text});
     done_.resize(samples_.size());
     drawn_ = std::make_shared<Drawn>();

@@ -47,7 +47,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"pictured", document.image() != nullptr},
       {"keys", kept.deformation().keyframes.size()},
       {"time", workspace.shown.timeline.time},
-      {"shows_time", workspace.shown.timeline.shows},
+      {"shows_time", workspace.shown.timeline.active},
       {"runs", workspace.shown.timeline.playing},
       {"history", document.history().entries().size()},
       {"step", document.history().index()},

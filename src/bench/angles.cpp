@@ -21,7 +21,7 @@ Points star() {
   return star;
 }
 
-constexpr int kAsked = 8700;  ///< requested vertices, for a mesh of about 10000
+constexpr int kRequestedVertices = 8700;  ///< requested vertices, for a mesh of about 10000
 
 Deformation star_scene() {
   Deformation deformation;
@@ -36,7 +36,7 @@ Deformation star_scene() {
 
 double angles_prepare_ms(int runs) {
   const Cage cage = polygon_cage(star());
-  const Mesh mesh = domain_mesh(cage, {kAsked});
+  const Mesh mesh = domain_mesh(cage, {kRequestedVertices});
   std::vector<Index> all(20);
   std::iota(all.begin(), all.end(), 0);
   return median_ms(runs, [&] {
@@ -48,7 +48,7 @@ double angles_prepare_ms(int runs) {
 
 double angles_drag_ms(int runs) {
   Deformation deformation = star_scene();
-  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
+  const auto prepared = prepared_map(deformation, Precision::single, {kRequestedVertices});
   SampledMap map;
   return median_ms(runs, [&] {
     deformation.corners[7].pose.before += 1e-3;
@@ -59,7 +59,7 @@ double angles_drag_ms(int runs) {
 
 double angles_pose_ms(int runs) {
   Deformation deformation = star_scene();
-  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
+  const auto prepared = prepared_map(deformation, Precision::single, {kRequestedVertices});
   SampledMap map;
   return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
@@ -70,7 +70,7 @@ double playback_ms(int runs) {
   deformation.corners[10].pose = {1, 1.2, 1};
   deformation = with_key(std::move(deformation), 1);
   const std::shared_ptr<PreparedMap> prepared =
-      prepared_map(deformation, Precision::single, {kAsked});
+      prepared_map(deformation, Precision::single, {kRequestedVertices});
   Motion motion;
   motion.follow(deformation, false, prepared);
   double time = 0;
@@ -81,7 +81,7 @@ double playback_ms(int runs) {
   });
 }
 
-double inbetween_loss_percent(bool straight) {
+double inbetween_loss_percent(bool linear_blend) {
   const auto mesh = std::make_shared<const Mesh>(
       domain_mesh(Points{{0, 0}, {600, 0}, {600, 100}, {0, 100}}, {3000}));
   const auto rolled = [&](double angle) {
@@ -106,7 +106,7 @@ double inbetween_loss_percent(bool straight) {
   for (int k = 1; k < 20; ++k) {
     const double u = k / 20.0;
     VectorXc f = (1 - u) * flat + u * bent;
-    if (!straight) between.blend({a, b}, u, f);
+    if (!linear_blend) between.blend({a, b}, u, f);
     const double wanted = std::pow(area(flat), 1 - u) * std::pow(area(bent), u);
     worst = std::max(worst, std::abs(area(f) / wanted - 1));
   }

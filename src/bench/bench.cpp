@@ -41,7 +41,7 @@ Deformation scene_with(const Points& polygon) {
 }
 
 /// The number of vertices to request for a mesh of about 15000.
-constexpr int kAsked = 13000;
+constexpr int kRequestedVertices = 13000;
 
 Image gradient(int side) {
   Image image(side, side);
@@ -72,7 +72,7 @@ struct Entry {
 
 double coordinates_ns(Kernel kernel, int order, int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
-  const Mesh mesh = domain_mesh(cage, {kAsked});
+  const Mesh mesh = domain_mesh(cage, {kRequestedVertices});
   PlanarMatrix<float> out;
   const double ms = median_ms(runs, [&] {
     planar_coordinates<float>(polygon_cage(cage), mesh.vertices, order, kernel, out);
@@ -142,7 +142,7 @@ double raised_coordinates_ns(int degree, int runs) {
   Cage raised = straight;
   for (Points& segment : raised.segments) segment.resize(degree);
   raised = elevated_to(straight, raised);
-  const Mesh mesh = domain_mesh(straight, {kAsked});
+  const Mesh mesh = domain_mesh(straight, {kRequestedVertices});
   PlanarMatrix<float> out;
   const double ms = median_ms(runs, [&] {
     planar_coordinates<float>(raised, mesh.vertices, 0,
@@ -215,7 +215,7 @@ double bounded_drag(DragFigure figure) {
 /// The known maps, projected from a cold start, with proof: the median time of the slowest map.
 double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
   double slowest = 0;
-  for (const known_maps::Known& known : known_maps::all()) {
+  for (const known_maps::KnownMap& known : known_maps::all()) {
     const known_maps::Projection projection(known, {}, known_maps::Norm::l1, true, fineness);
     slowest = std::max(slowest,
                        median_ms(runs, [&] { projection.space->nearest(projection.reference); }));
@@ -233,25 +233,26 @@ double bounded_cold_ms(int runs) {
 
 double prepare_ms(int runs) {
   const Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
-  return median_ms(runs, [&] { prepared_map(deformation, Precision::single, {kAsked}); });
+  return median_ms(runs,
+                   [&] { prepared_map(deformation, Precision::single, {kRequestedVertices}); });
 }
 
 double coordinates_ms(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
-  const Mesh mesh = domain_mesh(cage, {kAsked});
+  const Mesh mesh = domain_mesh(cage, {kRequestedVertices});
   return median_ms(runs, [&] { planar_coordinates<float>(polygon_cage(cage), mesh.vertices); });
 }
 
 double frame_ms(int runs) {
   const Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
-  const auto prepared = prepared_map(deformation, Precision::single, {kAsked});
+  const auto prepared = prepared_map(deformation, Precision::single, {kRequestedVertices});
   SampledMap map;
   return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
 
 double mesh_ms(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
-  return median_ms(runs, [&] { domain_mesh(cage, {kAsked}); });
+  return median_ms(runs, [&] { domain_mesh(cage, {kRequestedVertices}); });
 }
 
 double add_pin_ms(int runs) {
@@ -260,10 +261,11 @@ double add_pin_ms(int runs) {
   for (int i = 0; i < 10; ++i)
     deformation.pins.push_back(
         {Complex(500, 500) + std::polar(150.0, 0.6 * i), {500, 500}, {}, {}});
-  const auto before = prepared_map(deformation, Precision::single, {kAsked});
+  const auto before = prepared_map(deformation, Precision::single, {kRequestedVertices});
   deformation.pins.push_back({{510, 520}, {510, 520}, {}, {}});
-  return median_ms(runs,
-                   [&] { prepared_map(deformation, Precision::single, {kAsked}, before.get()); });
+  return median_ms(runs, [&] {
+    prepared_map(deformation, Precision::single, {kRequestedVertices}, before.get());
+  });
 }
 
 double export_ms(int runs, int threads) {

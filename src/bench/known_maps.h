@@ -17,7 +17,7 @@ using namespace holomorph;
 using Norm = BoundedSettings::Norm;
 
 /// A smooth map of the plane, given by its Wirtinger derivatives.
-struct Known {
+struct KnownMap {
   const char* name;
   Points domain;
   std::function<Complex(Complex)> fz, fzbar;
@@ -41,17 +41,17 @@ inline Complex fzbar_of(Complex fx, Complex fy) {
   return 0.5 * (fx + kI * fy);
 }
 
-inline Known squared() {
+inline KnownMap squared() {
   return {"(z - 0.05)^2", circle(50), [](Complex z) { return 2.0 * (z - 0.05); },
           [](Complex) { return Complex(0); }};
 }
-inline Known quadratic() {
+inline KnownMap quadratic() {
   return {"z + 0.3 z^2 + 0.9 conj(z)^2",
           {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
           [](Complex z) { return 1.0 + 0.6 * z; },
           [](Complex z) { return 1.8 * std::conj(z); }};
 }
-inline Known spiral() {
+inline KnownMap spiral() {
   const double radius = 6 / (2 * kPi);
   const auto turn = [=](Complex z) { return std::polar(1.0, z.real() / radius - kPi / 2); };
   const auto fx = [=](Complex z) {
@@ -61,7 +61,7 @@ inline Known spiral() {
   return {"a 360 degree spiral", bar(), [=](Complex z) { return fz_of(fx(z), fy(z)); },
           [=](Complex z) { return fzbar_of(fx(z), fy(z)); }};
 }
-inline Known folded() {
+inline KnownMap folded() {
   const auto fx = [](Complex z) {
     return Complex(1 - 1.6 * std::exp(-4 * (z.real() - 3) * (z.real() - 3)));
   };
@@ -70,11 +70,11 @@ inline Known folded() {
 }
 
 /// A bar that is pinched as if its ends were turned: f_z vanishes at a point inside.
-inline Known pinched() {
+inline KnownMap pinched() {
   return {"one zero in a bar", bar(), [](Complex z) { return (z - Complex(3.7, 0.05)) * 0.4; },
           [](Complex) { return Complex(0); }};
 }
-inline Known two_zeros() {
+inline KnownMap two_zeros() {
   return {"two zeros",
           {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
           [](Complex z) { return (z - Complex(0.4, 0.1)) * (z + Complex(0.3, -0.2)) * 3.0; },
@@ -101,7 +101,7 @@ struct Projection {
   Mesh mesh;
 
   /// `inside`: nu also counts inside the domain.
-  Projection(const Known& known, const Bounds& bounds, Norm norm, bool inside = true,
+  Projection(const KnownMap& known, const Bounds& bounds, Norm norm, bool inside = true,
              Fineness fineness = {}) {
     const Cage cage = polygon_cage(known.domain);
     basis = std::make_shared<const BoundaryBasis>(cage, fineness.basis, fineness.samples);
@@ -131,7 +131,7 @@ struct Projection {
   double energy(const BoundedMap& map) const { return space->energy(reference, map.solution); }
 };
 
-inline std::vector<Known> all() {
+inline std::vector<KnownMap> all() {
   return {squared(), quadratic(), spiral(), folded(), pinched(), two_zeros()};
 }
 

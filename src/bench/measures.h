@@ -30,9 +30,9 @@ double angles_drag_ms(int runs);
 double angles_pose_ms(int runs);
 /// A frame between two keyframes with 20k triangles, including the handles.
 double playback_ms(int runs);
-/// The largest relative error of the area while a bar is bent by 270 degrees; `straight` blends
+/// The largest relative error of the area while a bar is bent by 270 degrees; `linear_blend` blends
 /// the positions linearly.
-double inbetween_loss_percent(bool straight);
+double inbetween_loss_percent(bool linear_blend);
 
 /// A frame of dragging one of five strokes with 20 samples each, without evaluating the map on the
 /// mesh.

@@ -11,11 +11,11 @@
 #include "core/error.h"
 #include "core/mesh/flatten.h"
 #include "scene/auto_cage.h"
+#include "scene/flattened_surface.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/scene_json.h"
 #include "scene/formats/surface_file.h"
 #include "scene/formats/svg_path.h"
-#include "scene/laid_surface.h"
 
 namespace holomorph {
 namespace {
@@ -44,7 +44,7 @@ std::vector<Path> inputs_of(const NewCommand& command) {
 }  // namespace
 
 void check_is_file(const Path& path) {
-  if (is_there(path)) return;
+  if (path_exists(path)) return;
   const bool command = path.string().find_first_of("./") == std::string::npos;
   throw Error(ErrorKind::bad_input,
               path.string() + (command ? ": there is neither a command nor a file with this name; "
@@ -61,7 +61,7 @@ void run(const NewCommand& command) {
     throw Error(ErrorKind::bad_input, "--margin: the distance must not be negative");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
-  say_warning(loaded);
+  print_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
   Deformation deformation = with_cage(

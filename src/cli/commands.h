@@ -10,29 +10,29 @@ namespace holomorph {
 
 // The path "-" stands for standard input or output. `force`: replace read-only files.
 /// The options that all commands share that read a scene.
-struct OfScene {
+struct SceneCommand {
   Path scene;
   bool outside = false;  ///< pictures may lie outside the scene's folder
 };
-struct MapCommand : OfScene {
+struct MapCommand : SceneCommand {
   Path points;
   Path out = "-";
   bool force = false;
   Moments moments = {};
 };
-struct CoordinatesCommand : OfScene {
+struct CoordinatesCommand : SceneCommand {
   Path points, out;
   int order = 0;
   bool force = false;
 };
-struct InverseCommand : OfScene {
+struct InverseCommand : SceneCommand {
   Path points;
   Path out = "-";
   bool force = false;
   Moments moments = {};
   bool all = false;
 };
-struct RenderCommand : OfScene {
+struct RenderCommand : SceneCommand {
   Path out;
   double scale = 1;
   std::string view = "image";
@@ -41,7 +41,7 @@ struct RenderCommand : OfScene {
   bool force = false;
   Moments moments = {};
 };
-struct InfoCommand : OfScene {
+struct InfoCommand : SceneCommand {
   bool json = false;
   Moments moments = {};
 };
@@ -56,7 +56,7 @@ struct NewCommand {
   std::optional<Path> outline;  ///< SVG file, picture or surface
   std::string flattening = "lscm";
 };
-struct ExportCommand : OfScene {
+struct ExportCommand : SceneCommand {
   Path out;
   std::string format;
   std::optional<double> scale = {};

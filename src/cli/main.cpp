@@ -27,7 +27,7 @@ struct CommandLine {
   CoordinatesCommand coordinates;
   RenderCommand render;
   InfoCommand info;
-  NewCommand fresh;
+  NewCommand new_scene;
   ExportCommand exported;
   BenchCommand bench;
   Budget budget;
@@ -115,7 +115,7 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
       ->excludes(crop);
 }
 
-void add_scene(CLI::App* sub, OfScene& command) {
+void add_scene(CLI::App* sub, SceneCommand& command) {
   sub->add_option("SCENE", command.scene)->required();
   sub->add_flag("--allow-outside", command.outside,
                 "Also read pictures that are not in the scene's folder");
@@ -184,29 +184,29 @@ void CommandLine::add_info(CLI::App& app) {
 }
 
 void CommandLine::add_new(CLI::App& app) {
-  auto* sub = add(app, "new", "Make a scene with a cage from a picture's transparency", fresh);
-  sub->add_option("IMAGE", fresh.image)->required();
-  sub->add_option("--out", fresh.out, "Scene to write")->required();
-  add_force(sub, fresh.force, "Replace an existing scene and read-only files");
-  sub->add_option("--vertices", fresh.vertices, "Approximate number of cage vertices")
+  auto* sub = add(app, "new", "Make a scene with a cage from a picture's transparency", new_scene);
+  sub->add_option("IMAGE", new_scene.image)->required();
+  sub->add_option("--out", new_scene.out, "Scene to write")->required();
+  add_force(sub, new_scene.force, "Replace an existing scene and read-only files");
+  sub->add_option("--vertices", new_scene.vertices, "Approximate number of cage vertices")
       ->capture_default_str();
   sub->add_option(
-      "--margin", fresh.margin,
+      "--margin", new_scene.margin,
       "Distance of the cage from the content in pixels; by default 2 % of the longer side");
-  sub->add_flag("--curved", fresh.curved, "Use cubic segments instead of straight edges");
-  sub->add_option("--cage", fresh.cage,
+  sub->add_flag("--curved", new_scene.curved, "Use cubic segments instead of straight edges");
+  sub->add_option("--cage", new_scene.cage,
                   "Read the cage from a file: the path \"rest\", or else the first path, of an SVG "
                   "file, or the boundary of the texture coordinates of an OBJ file");
   sub->add_option(
-         "--pose", fresh.pose,
+         "--pose", new_scene.pose,
          "Read the posed cage from an SVG file: the path \"pose\", or else the first path; needs "
          "--cage")
       ->needs("--cage");
   sub->add_option(
-      "--outline", fresh.outline,
+      "--outline", new_scene.outline,
       "Map the cage's shape onto an outline: a path of an SVG file, the transparency of another "
       "picture, or the boundary of a flattened OBJ surface");
-  sub->add_option("--flattening", fresh.flattening,
+  sub->add_option("--flattening", new_scene.flattening,
                   "How to flatten an OBJ surface: lscm (free boundary) or circle")
       ->capture_default_str();
 }
@@ -265,7 +265,7 @@ std::vector<std::string> unknown_words(const CLI::App& app) {
 }
 
 /// Reports an error of CLI11, naming the word that the user wrote. Returns the exit status.
-int refuse(const CLI::App& app, const CLI::ParseError& error) {
+int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> unknown = unknown_words(app);
   constexpr std::string_view kUnread = "Could not convert: ";
   std::string what = error.what();
@@ -294,7 +294,7 @@ int run_program(int argc, char** argv) {
     // The first word was parsed as a file to open.
     const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     if (extras && !line.editor.file.empty()) check_is_file(line.editor.file);
-    return refuse(app, error);
+    return report_parse_error(app, error);
   }
   if (line.done) return 0;
   set_budget(line.budget);

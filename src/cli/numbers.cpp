@@ -20,7 +20,7 @@ std::string frame_column(const FrameTime& moment) {
 }
 
 /// Counts the points inside the cage at which the map is not finite, and remembers the first.
-class Lost {
+class NonFinitePoints {
  public:
   void add(size_t point) {
     if (count_++ == 0) first_ = point;
@@ -37,10 +37,10 @@ class Lost {
 };
 
 /// How many points to map in one block, so that their coordinates fit into memory.
-size_t points_at_once(const TimedMap& map) {
-  constexpr double kShare = 0.25;  // fraction of the budget
+size_t block_size(const TimedMap& map) {
+  constexpr double kBudgetFraction = 0.25;  // fraction of the budget
   const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
-  return static_cast<size_t>(std::max(1.0, kShare * budget().coordinates / controls));
+  return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
 }
 
 }  // namespace
@@ -53,10 +53,10 @@ void run(const MapCommand& command) {
   ResultWriter out(command.out);
   out.write(std::string(moments[0].frame ? "frame," : "") + "u,v,fz_re,fz_im,fzbar_re,fzbar_im\n");
   TimedMap timed(scene);
-  Lost lost;
+  NonFinitePoints non_finite;
   std::vector<char> inside;
   for (const Complex& z : points) inside.push_back(contains(scene.deformation().rest, z));
-  const size_t block = points_at_once(timed), blocks = (points.size() + block - 1) / block;
+  const size_t block = block_size(timed), blocks = (points.size() + block - 1) / block;
   for (size_t k = 0; k < moments.size(); ++k) {
     const TimedFrame frame = timed.frame(moments[k].time);
     for (size_t b = 0; b < blocks; ++b) {
@@ -69,7 +69,7 @@ void run(const MapCommand& command) {
         if (!inside[from + static_cast<size_t>(i)])
           map.f[i] = map.fz[i] = map.fzbar[i] = Complex(NAN, NAN);
         else if (!is_finite(map.f[i]) || !is_finite(map.fz[i]) || !is_finite(map.fzbar[i]))
-          lost.add(from + static_cast<size_t>(i));
+          non_finite.add(from + static_cast<size_t>(i));
         out.write(frame_column(moments[k]) + csv_line("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
                                                       map.f[i].real(), map.f[i].imag(),
                                                       map.fz[i].real(), map.fz[i].imag(),
@@ -78,7 +78,7 @@ void run(const MapCommand& command) {
     }
   }
   out.finish();
-  lost.say();
+  non_finite.say();
 }
 
 void run(const InverseCommand& command) {

@@ -35,14 +35,14 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
   const FrameRange range = frames_named(*command.moments.frames, scene);
   for (int i = range.first; i <= range.last; ++i)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
-  const TidyStop tidy;
+  const DeferredStop tidy;
   std::string said, shared;
   {
     Progress progress("render", "frame");
     const size_t count = static_cast<size_t>(range.last - range.first + 1);
     PictureMaker maker(scene, loaded.image(), loaded.pictures);
-    if (!command.crop && !options.shows)
-      options.shows = maker.shown([] { return !is_interrupted(); });
+    if (!command.crop && !options.region)
+      options.region = maker.motion_region([] { return !is_interrupted(); });
     OrderedTasks<Path> files([](const Path&) {});
     for (size_t k = 0; k < count; ++k) {
       progress.step(k, count);
@@ -78,13 +78,13 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   FilmOptions options;
   options.picture.scale = command.scale.value_or(1);
   options.picture.crop = command.crop;
-  options.picture.shows = command.rectangle;
+  options.picture.region = command.rectangle;
   if (command.moments.frames) {
     const FrameRange range = frames_named(*command.moments.frames, loaded.scene);
     options.first = range.first;
     options.last = range.last;
   }
-  const TidyStop tidy;
+  const DeferredStop tidy;
   std::optional<NewFolder> folder;
   Path out = command.out;
   if (is_standard(out))
@@ -110,13 +110,13 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
 
 void export_textured(const LoadedScene& loaded, const ExportCommand& command) {
   require_cage(loaded.scene, command.scene);
-  const LaidSurface surface = laid_surface_of(loaded.scene.deformation());
+  const FlattenedSurface surface = flattened_surface_of(loaded.scene.deformation());
   for (const Path& file : files_of_textured(command.out))
     check_out(file, command.force, command.scene, loaded);
   const Progress progress("export");
   const TexturedSurface on =
       textured(surface, loaded.scene.deformation(), loaded.image(), command.scale.value_or(1));
-  const TidyStop tidy;
+  const DeferredStop tidy;
   write_textured(command.out, surface, on);
   std::fprintf(stderr, "%s, with a material and a texture of %d x %d pixels\n", command.out.c_str(),
                on.texture.width, on.texture.height);
@@ -175,19 +175,21 @@ const Format& format_named(const std::string& id) {
 /// Throws Error for options that the format does not support.
 void check_options(const ExportCommand& command) {
   const Format& format = format_named(command.format);
-  const auto refuse = [&](const std::string& option, const std::string& why) {
+  const auto throw_unsupported = [&](const std::string& option, const std::string& why) {
     throw Error(ErrorKind::bad_input,
                 option + " cannot be used with " + command.format + ": " + why);
   };
-  if (command.scale && !format.scale) refuse("--scale", "it has no pixels");
-  if (command.crop && !format.crop) refuse("--crop", "only png and films can be cropped");
-  if (command.rectangle && !format.crop) refuse("--rect", "only png and films have a rectangle");
+  if (command.scale && !format.scale) throw_unsupported("--scale", "it has no pixels");
+  if (command.crop && !format.crop)
+    throw_unsupported("--crop", "only png and films can be cropped");
+  if (command.rectangle && !format.crop)
+    throw_unsupported("--rect", "only png and films have a rectangle");
   if (command.moments.frames && !format.frames)
-    refuse("--frames",
-           format.time ? "it shows a single moment; use --time" : "it shows the scene's own pose");
+    throw_unsupported("--frames", format.time ? "it shows a single moment; use --time"
+                                              : "it shows the scene's own pose");
   if (command.moments.time && !format.time)
-    refuse("--time",
-           format.frames ? "it shows many frames; use --frames" : "it shows the scene's own pose");
+    throw_unsupported("--time", format.frames ? "it shows many frames; use --frames"
+                                              : "it shows the scene's own pose");
 }
 
 }  // namespace
@@ -207,7 +209,7 @@ void run(const RenderCommand& command) {
   options.view = view_named(command.view);
   options.scale = command.scale;
   options.crop = command.crop;
-  options.shows = command.rectangle;
+  options.region = command.rectangle;
   options.time = moments.time;
   if (moments.frames) return render_frames(command, loaded, options);
   RasterResult result;

@@ -15,13 +15,13 @@ namespace holomorph {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-std::atomic<int> tidy_stops = 0;  // lock-free, because the handler reads it
+std::atomic<int> deferred_stops = 0;  // lock-free, because the handler reads it
 
 void stop(int) {
   interrupted = 1;
-  if (tidy_stops > 0) return;
-  constexpr char kSaid[] = "\nholomorph: interrupted\n";
-  const ssize_t ignored = ::write(STDERR_FILENO, kSaid, sizeof kSaid - 1);
+  if (deferred_stops > 0) return;
+  constexpr char kMessage[] = "\nholomorph: interrupted\n";
+  const ssize_t ignored = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   static_cast<void>(ignored);
   ::_exit(130);
 }
@@ -34,11 +34,11 @@ void install_signal_handlers() {
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 
-TidyStop::TidyStop() {
-  ++tidy_stops;
+DeferredStop::DeferredStop() {
+  ++deferred_stops;
 }
-TidyStop::~TidyStop() {
-  --tidy_stops;
+DeferredStop::~DeferredStop() {
+  --deferred_stops;
 }
 
 bool is_interrupted() {
@@ -50,13 +50,13 @@ void stop_if_interrupted() {
 }
 
 Progress::Progress(const std::string& what, const std::string& unit) : what_(what), unit_(unit) {
-  if (::isatty(STDERR_FILENO)) shown_ = std::jthread([this](std::stop_token s) { show(s); });
+  if (::isatty(STDERR_FILENO)) display_ = std::jthread([this](std::stop_token s) { show(s); });
 }
 
 Progress::~Progress() {
-  if (!shown_.joinable()) return;
-  shown_.request_stop();
-  shown_.join();
+  if (!display_.joinable()) return;
+  display_.request_stop();
+  display_.join();
 }
 
 void Progress::step(size_t done, size_t all) {

@@ -11,17 +11,17 @@ namespace holomorph {
 struct Interrupted {};
 
 /// After this call, SIGINT and SIGTERM end the program immediately with status 130, or, while a
-/// TidyStop exists, make stop_if_interrupted() throw.
+/// DeferredStop exists, make stop_if_interrupted() throw.
 void install_signal_handlers();
 
 /// While one exists, a signal ends the program only at a call of stop_if_interrupted(), so that
 /// nothing is left half done.
-class TidyStop {
+class DeferredStop {
  public:
-  TidyStop();
-  ~TidyStop();
-  TidyStop(const TidyStop&) = delete;
-  TidyStop& operator=(const TidyStop&) = delete;
+  DeferredStop();
+  ~DeferredStop();
+  DeferredStop(const DeferredStop&) = delete;
+  DeferredStop& operator=(const DeferredStop&) = delete;
 };
 bool is_interrupted();
 /// Throws Interrupted if a signal has arrived.
@@ -44,7 +44,7 @@ class Progress {
 
   std::string what_, unit_;
   std::atomic<size_t> done_ = 0, all_ = 0;
-  std::jthread shown_;  ///< last member, so that it ends before the others are destroyed
+  std::jthread display_;  ///< last member, so that it ends before the others are destroyed
 };
 
 }  // namespace holomorph

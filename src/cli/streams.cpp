@@ -25,11 +25,11 @@ std::string read_input(const Path& input) {
   return is_standard(input) ? read_standard_input() : read_stream(input);
 }
 
-void say_warning(const LoadedScene& loaded) {
+void print_warning(const LoadedScene& loaded) {
   if (!loaded.warning.empty()) std::cerr << "holomorph: " << printable(loaded.warning) << "\n";
 }
 
-LoadedScene read_scene(const OfScene& command) {
+LoadedScene read_scene(const SceneCommand& command) {
   const Path& input = command.scene;
   const LoadOptions options{false, {command.outside}};
   const bool regular = is_file(input);
@@ -37,11 +37,11 @@ LoadedScene read_scene(const OfScene& command) {
     throw Error(ErrorKind::bad_input, input.string() +
                                           ": this is not a scene; make one from a picture with "
                                           "'holomorph new PICTURE --out SCENE'");
-  const bool streamed = !regular && is_there(input);
+  const bool streamed = !regular && path_exists(input);
   LoadedScene loaded = is_standard(input) || streamed
                            ? scene_of_text(read_input(input), shown_name(input), options)
                            : load_scene(input, options);
-  say_warning(loaded);
+  print_warning(loaded);
   return loaded;
 }
 
@@ -52,7 +52,8 @@ void require_cage(const Scene& scene, const Path& input) {
                                           "the editor or make one with 'holomorph new'");
 }
 
-SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points, bool takes_nan) {
+SceneAndPoints read_scene_and_points(const SceneCommand& command, const Path& points,
+                                     bool takes_nan) {
   if (is_standard(points) && is_standard(command.scene))
     throw Error(ErrorKind::bad_input,
                 "standard input can be the scene or the points, not both; name a file for one of "
@@ -83,21 +84,21 @@ void check_out(const Path& out, bool force, const Path& scene, const LoadedScene
 
 void ResultWriter::flush() {
   if (is_standard(out_)) {
-    write_standard_output(waiting_);
+    write_standard_output(buffer_);
   } else {
     if (!file_) {
       if (!is_stream(out_)) tidy_.emplace();
       file_ = std::make_unique<NewFile>(out_);
     }
-    file_->write(waiting_);
+    file_->write(buffer_);
   }
-  waiting_.clear();
+  buffer_.clear();
 }
 
 void ResultWriter::write(std::string_view bytes) {
-  constexpr size_t kMost = 16 << 20;  // bytes that are kept in memory
-  waiting_ += bytes;
-  if (waiting_.size() > kMost) flush();
+  constexpr size_t kMaxBuffered = 16 << 20;  // bytes that are kept in memory
+  buffer_ += bytes;
+  if (buffer_.size() > kMaxBuffered) flush();
 }
 
 void ResultWriter::finish() {

@@ -17,7 +17,7 @@ std::string shown_output(const Path& out);
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
 /// Reads a scene, and prints its warning if it has one. Throws Error.
-LoadedScene read_scene(const OfScene& command);
+LoadedScene read_scene(const SceneCommand& command);
 /// Throws Error if the scene has no cage.
 void require_cage(const Scene& scene, const Path& input);
 
@@ -27,7 +27,7 @@ struct SceneAndPoints {
   Points points;
 };
 /// `takes_nan`: rows of nan, as `map` writes them, are accepted as points.
-SceneAndPoints read_scene_and_points(const OfScene& command, const Path& points,
+SceneAndPoints read_scene_and_points(const SceneCommand& command, const Path& points,
                                      bool takes_nan = false);
 
 /// Throws Error if `out` is one of the command's inputs, or read-only without `force`.
@@ -48,13 +48,13 @@ class ResultWriter {
   void flush();
 
   Path out_;
-  std::string waiting_;
-  std::optional<TidyStop> tidy_;  ///< so that an interrupt leaves nothing behind
+  std::string buffer_;
+  std::optional<DeferredStop> tidy_;  ///< so that an interrupt leaves nothing behind
   std::unique_ptr<NewFile> file_;
 };
 void write_result(const Path& out, const std::string& bytes);
 
-void say_warning(const LoadedScene& loaded);
+void print_warning(const LoadedScene& loaded);
 
 /// Formats numbers like printf, but NaN without the sign that some have and no reader expects.
 template <class... Numbers>

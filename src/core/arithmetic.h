@@ -21,7 +21,7 @@ inline Complex quotient(Complex x, Complex y) {
 
 /// The smallest number that equals `number` up to whole multiples of `turn` and is not below
 /// `before`. A number that rounding has put just below `before` counts as `before`.
-inline double next_in_turn(double before, double number, double turn) {
+inline double next_modulo(double before, double number, double turn) {
   constexpr double kRounding = 1e-6;
   const double step = (number - before) / turn, on = step - std::floor(step);
   return on > 1 - kRounding ? before : before + on * turn;

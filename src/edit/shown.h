@@ -26,11 +26,11 @@ class Shown {
   Timeline timeline;
 
   Source source() const {
-    return preview ? Source::preview : timed_ && timeline.shows ? Source::timed : Source::document;
+    return preview ? Source::preview : timed_ && timeline.active ? Source::timed : Source::document;
   }
   const Deformation& deformation() const { return preview ? *preview : base(); }
   /// The same without a preview: what edits start from.
-  const Deformation& base() const { return timed_ && timeline.shows ? *timed_ : own(); }
+  const Deformation& base() const { return timed_ && timeline.active ? *timed_ : own(); }
   /// The document's own deformation.
   const Deformation& own() const { return document_->scene().deformation(); }
 
@@ -40,8 +40,8 @@ class Shown {
   }
   /// The same for all layers: those without keyframes have their own pose at any time.
   std::optional<double> time_of_layers() const {
-    return timeline.shows && has_keyframes(document_->scene()) ? std::optional(timeline.time)
-                                                               : std::nullopt;
+    return timeline.active && has_keyframes(document_->scene()) ? std::optional(timeline.time)
+                                                                : std::nullopt;
   }
   Moment moment() const { return {time(), document_->scene().animation.linear_blend}; }
   Moment moment_of_layers() const {

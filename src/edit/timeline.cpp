@@ -14,7 +14,7 @@ bool advance(Timeline& timeline, const Scene& scene, double now_ms) {
   }
   const double step = timeline.clock_ms ? (now_ms - *timeline.clock_ms) / 1000 : 0;
   timeline.clock_ms = now_ms;
-  timeline.shows = true;
+  timeline.active = true;
   timeline.time += step;
   if (timeline.time <= length) return true;
   if (timeline.loop) {
@@ -31,7 +31,7 @@ int frame_at(const Scene& scene, double time) {
 }
 
 double time_of_frame(const Scene& scene, int frame) {
-  return std::clamp(frame / scene.animation.frames_per_second, 0.0, kLongestTime);
+  return std::clamp(frame / scene.animation.frames_per_second, 0.0, kMaxTime);
 }
 
 std::optional<double> next_key(const Deformation& deformation, double time, bool forwards) {

@@ -8,8 +8,8 @@
 namespace holomorph {
 
 struct Timeline {
-  double time = 0;     ///< seconds
-  bool shows = false;  ///< the picture is that of the time, not the scene's own pose
+  double time = 0;      ///< seconds
+  bool active = false;  ///< the picture is that of the time, not the scene's own pose
   bool playing = false, loop = true;
   bool chosen = false;                  ///< the key at the time was clicked
   bool recording = false;               ///< a drag sets keys, by the clock
@@ -20,8 +20,8 @@ struct Timeline {
 
   /// Shows a time, at least 0.
   void go_to(double seconds) {
-    time = std::clamp(seconds, 0.0, kLongestTime);
-    shows = true;
+    time = std::clamp(seconds, 0.0, kMaxTime);
+    active = true;
     chosen = false;
     clock_ms.reset();
   }

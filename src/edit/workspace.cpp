@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/geometry/polyline.h"
-#include "scene/formats/scene_json.h"
+#include "scene/check_scene.h"
 
 namespace holomorph {
 namespace {
@@ -44,11 +44,9 @@ bool Workspace::shows_outline() const {
 }
 
 bool Workspace::accepts(const Scene& scene) {
-  const Deformation &after = scene.deformation(), &before = document.scene().deformation();
-  if (!after.has_cage() || scene == document.scene()) return true;
+  if (!scene.deformation().has_cage() || scene == document.scene()) return true;
   try {
-    if (after.rest != before.rest) check_rest_cage(after.rest);
-    scene_from_json(json_of(scene), "the scene");  // what could not be opened again is not done
+    check_scene(scene);
   } catch (const Error& error) {
     messages.complain("Not done: " + std::string(error.what()), error.where());
     return false;
@@ -95,7 +93,7 @@ bool Workspace::require_open_layer() {
 bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Layer& before = document.scene().layer();
   if (!before.locked && before.visible) return false;
-  const size_t number = layer_of_id(scene, before.id);
+  const size_t number = layer_index(scene, before.id);
   if (number == scene.layers.size()) return false;
   const Layer& after = *scene.layers[number];
   if (after.locked != before.locked || after.visible != before.visible) return false;
@@ -115,9 +113,9 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
     scene = with_deformation(std::move(scene), entry.deformation);
   if (!accepts(scene)) return false;
   if (entry.sets_key)
-    shown.timeline.visible = shown.timeline.shows = true;
+    shown.timeline.visible = shown.timeline.active = true;
   else if (entry.moves)
-    shown.timeline.shows = shown.timeline.playing = false;
+    shown.timeline.active = shown.timeline.playing = false;
   const int layer = document.scene().layer().id;
   put(std::move(scene));
   shown.follow(entry, layer == document.scene().layer().id);
@@ -159,7 +157,7 @@ Deformation Workspace::keyed(Deformation deformation) {
   deformation = with_key(std::move(deformation), time);
   if (map().posed() && map().posed()->keyframes == before.keyframes) {
     map().follow_keys();
-    keep_turns(deformation, before, map().motion());
+    preserve_turns(deformation, before, map().motion());
   }
   const Pose own = whole_pose_of(before);
   return fits(deformation, own) ? posed_as(std::move(deformation), own) : deformation;
@@ -173,7 +171,7 @@ bool Workspace::require_pose() {
 void Workspace::go_to_time(double seconds) {
   shown.preview.reset();
   const Timeline& timeline = shown.timeline;
-  if (!timeline.shows && seconds != timeline.time && shown.leaves_a_pose())
+  if (!timeline.active && seconds != timeline.time && shown.leaves_a_pose())
     messages.say(left_text(actions));
   shown.go_to_time(seconds);
 }
@@ -184,7 +182,7 @@ void Workspace::set_key() {
   std::snprintf(label, sizeof label, "Key at %.2f s", shown.timeline.time);
   const Deformation deformation = shown.deformation();
   if (!commit(label, keyed(deformation), EditBase::document)) return;
-  shown.timeline.visible = shown.timeline.shows = true;
+  shown.timeline.visible = shown.timeline.active = true;
   shown.set_timed_pose(whole_pose_of(deformation));
 }
 
@@ -193,7 +191,7 @@ std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
   if (deformation.keyframes.empty() || !map().has_map() || map().posed() != deformation) return {};
   std::vector<Points> images;
   for (const Keyframe& key : deformation.keyframes)
-    images.push_back(map().places_at(key.time, rest));
+    images.push_back(map().images_at(key.time, rest));
   return images;
 }
 
@@ -202,7 +200,7 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
   if (!timeline.onion || timeline.playing || at_rest() || !map().has_map()) return {};
   std::vector<OnionSkin> skins;
   for (const bool later : {false, true})
-    if (const VectorXc* f = map().motion().key_beside(timeline.time, later);
+    if (const VectorXc* f = map().motion().neighboring_key(timeline.time, later);
         f && f->size() == map().map().f.size())
       skins.push_back({*f, later});
   return skins;
@@ -263,7 +261,7 @@ void Workspace::go_to(size_t entry) {
   const bool other_layer = before.layer().id != document.scene().layer().id,
              poses = !other_layer && whole_pose_of(was) != whole_pose_of(is);
   if (at) timeline.time = *at;
-  if (at || poses) timeline.shows = at && (entry < from || !poses);
+  if (at || poses) timeline.active = at && (entry < from || !poses);
   // Numbers mean other handles in another structure.
   const bool other_cage = was.rest.size() != is.rest.size(),
              other_pins = was.pins.size() != is.pins.size(),
@@ -326,13 +324,13 @@ void Workspace::open(Document opened) {
   mergeable_selection_.reset();
   playback = {};
   shown = Shown(document);
-  shown.timeline.visible = shown.timeline.shows = has_keyframes(document.scene());
+  shown.timeline.visible = shown.timeline.active = has_keyframes(document.scene());
   mode = EditMode::pose;
   display.split.reset();
   display.view = View::image;
   tools.active = shown.own().has_cage() ? ToolId::select : ToolId::pen;
   // A picture that is missing is offered to be found for as long as it is.
-  if (document.without_picture().empty()) messages.complain(document.warning());
+  if (document.layers_without_picture().empty()) messages.complain(document.warning());
 }
 
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {

@@ -27,7 +27,7 @@ struct Close {
 };
 
 /// `out` itself, or a file in a new temporary folder if `out` is a pipe.
-Path writable_beside(const Path& out, std::optional<NewFolder>& folder) {
+Path writable_file(const Path& out, std::optional<NewFolder>& folder) {
   if (!is_stream(out)) return out;
   return folder.emplace(std::filesystem::temp_directory_path() / "film").path() / "film";
 }
@@ -35,7 +35,7 @@ Path writable_beside(const Path& out, std::optional<NewFolder>& folder) {
 class FfmpegWriter final : public FilmWriter {
  public:
   FfmpegWriter(const Path& out, const FilmShape& shape, std::vector<std::string> codec, bool opaque)
-      : out_(out), film_(writable_beside(out, folder_)), opaque_(opaque) {
+      : out_(out), film_(writable_file(out, folder_)), opaque_(opaque) {
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
     std::vector<std::string> words{"ffmpeg",
@@ -65,7 +65,7 @@ class FfmpegWriter final : public FilmWriter {
 
   void add(const Image& frame) override {
     Image flat = frame;
-    if (opaque_) lay_on(flat, {255, 255, 255});
+    if (opaque_) composite_onto_color(flat, {255, 255, 255});
     for (size_t sent = 0; sent < flat.pixels.size();) {
       const ssize_t count =
           ::send(child_.socket, flat.pixels.data() + sent, flat.pixels.size() - sent, MSG_NOSIGNAL);
@@ -112,9 +112,9 @@ class FfmpegWriter final : public FilmWriter {
     std::array<char, 400> line{};
     const std::string all =
         std::fgets(line.data(), static_cast<int>(line.size()), log_.get()) ? line.data() : "";
-    const std::string said = all.substr(0, all.find('\n'));
+    const std::string message = all.substr(0, all.find('\n'));
     throw Error(ErrorKind::failed,
-                out_.string() + ": ffmpeg failed" + (said.empty() ? "" : ": " + said));
+                out_.string() + ": ffmpeg failed" + (message.empty() ? "" : ": " + message));
   }
 
   Path out_;

@@ -24,9 +24,9 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
   const double rate = scene.animation.frames_per_second;
   PictureMaker maker(scene, source, others);
   PictureOptions picture = options.picture;
-  if (!picture.crop && !picture.shows) {
-    picture.shows = maker.shown([&] { return progress(0, frames); });
-    if (!picture.shows) return {};
+  if (!picture.crop && !picture.region) {
+    picture.region = maker.motion_region([&] { return progress(0, frames); });
+    if (!picture.region) return {};
   }
   WrittenFilm film{frames, 0, 0, 0};
   std::unique_ptr<FilmWriter> writer;

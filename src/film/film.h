@@ -22,7 +22,7 @@ struct WrittenFilm {
 };
 
 /// Draws frames of a scene, as picture_of does, and writes them to a file whose extension selects
-/// the format. Without `shows` or `crop`, each frame has the rectangle that the whole motion
+/// the format. Without `region` or `crop`, each frame has the rectangle that the whole motion
 /// covers, so that parts of a film fit together. Calls `progress` with the number of finished
 /// frames and of all frames; if that returns false, nothing is written and the result is none.
 /// Throws Error if the scene has no keyframes, or if a frame cannot be drawn or written. Cost: one

@@ -13,9 +13,9 @@ namespace {
 /// all frames are written.
 class PngFrames final : public FilmWriter {
  public:
-  explicit PngFrames(const Path& out) : out_(out), waiting_(out) {}
+  explicit PngFrames(const Path& out) : out_(out), staging_(out) {}
   void add(const Image& frame) override {
-    files_.add([path = part(frames_), frame] {
+    files_.add([path = staged_file(frames_), frame] {
       write_file(path, encode_png(frame));
       return path;
     });
@@ -28,14 +28,14 @@ class PngFrames final : public FilmWriter {
         throw Error(ErrorKind::failed,
                     numbered(out_, i).string() +
                         ": this is a folder; move it, or choose another name for the frames");
-    for (int i = 0; i < frames_; ++i) move_file(part(i), numbered(out_, i));
+    for (int i = 0; i < frames_; ++i) move_file(staged_file(i), numbered(out_, i));
   }
 
  private:
-  Path part(int frame) const { return waiting_.path() / std::to_string(frame); }
+  Path staged_file(int frame) const { return staging_.path() / std::to_string(frame); }
 
   Path out_;
-  NewFolder waiting_;
+  NewFolder staging_;
   int frames_ = 0;
   OrderedTasks<Path> files_{[](const Path&) {}};
 };

@@ -28,11 +28,11 @@ struct Quantized {
 Quantized quantized(const Image& frame) {
   Image solid = frame;
   for (size_t i = 0; i < solid.pixels.size(); i += 4) {
-    const bool shows = solid.pixels[i + 3] >= 128;
-    if (!shows) solid.pixels[i] = solid.pixels[i + 1] = solid.pixels[i + 2] = 0;
-    solid.pixels[i + 3] = shows ? 255 : 0;
+    const bool is_opaque = solid.pixels[i + 3] >= 128;
+    if (!is_opaque) solid.pixels[i] = solid.pixels[i + 1] = solid.pixels[i + 2] = 0;
+    solid.pixels[i + 3] = is_opaque ? 255 : 0;
   }
-  const auto must = [](liq_error error) {
+  const auto throw_if_failed = [](liq_error error) {
     if (error != LIQ_OK) throw Error(ErrorKind::failed, "cannot choose the colors of a GIF frame");
   };
   const Owned<liq_attr, liq_attr_destroy> settings(liq_attr_create());
@@ -41,13 +41,13 @@ Quantized quantized(const Image& frame) {
   const Owned<liq_image, liq_image_destroy> image(
       liq_image_create_rgba(settings.get(), solid.pixels.data(), solid.width, solid.height, 0));
   liq_result* found = nullptr;
-  must(liq_image_quantize(image.get(), settings.get(), &found));
+  throw_if_failed(liq_image_quantize(image.get(), settings.get(), &found));
   const Owned<liq_result, liq_result_destroy> result(found);
   liq_set_dithering_level(result.get(), 0.7f);
   Quantized quantized;
   quantized.pixels.resize(solid.pixels.size() / 4);
-  must(liq_write_remapped_image(result.get(), image.get(), quantized.pixels.data(),
-                                quantized.pixels.size()));
+  throw_if_failed(liq_write_remapped_image(result.get(), image.get(), quantized.pixels.data(),
+                                           quantized.pixels.size()));
   const liq_palette* palette = liq_get_palette(result.get());
   for (unsigned i = 0; i < palette->count; ++i) {
     const liq_color& color = palette->entries[i];
@@ -78,23 +78,23 @@ void close(GifFileType* file) {
 class GifWriter final : public FilmWriter {
  public:
   GifWriter(const Path& out, const FilmShape& shape) : out_(out), shape_(shape) {
-    constexpr double kMostFramesOfGif = 50;  // viewers slow down faster films
-    if (shape.frames_per_second > kMostFramesOfGif)
+    constexpr double kMaxFrameRate = 50;  // viewers slow down faster films
+    if (shape.frames_per_second > kMaxFrameRate)
       throw Error(ErrorKind::bad_input,
                   out.string() +
                       ": a GIF has at most 50 frames per second; lower the frame rate, or "
                       "choose .webp or .apng");
-    int wrong = 0;
-    file_.reset(EGifOpen(&bytes_, append, &wrong));
+    int error_code = 0;
+    file_.reset(EGifOpen(&bytes_, append, &error_code));
     if (!file_) throw Error(ErrorKind::failed, out.string() + ": not enough memory for a GIF file");
     EGifSetGifVersion(file_.get(), true);
-    must(EGifPutScreenDesc(file_.get(), shape.width, shape.height, 8, 0, nullptr));
+    throw_if_failed(EGifPutScreenDesc(file_.get(), shape.width, shape.height, 8, 0, nullptr));
     if (!shape.loops) return;
     const std::array<unsigned char, 3> forever{1, 0, 0};
-    must(EGifPutExtensionLeader(file_.get(), APPLICATION_EXT_FUNC_CODE));
-    must(EGifPutExtensionBlock(file_.get(), 11, "NETSCAPE2.0"));
-    must(EGifPutExtensionBlock(file_.get(), 3, forever.data()));
-    must(EGifPutExtensionTrailer(file_.get()));
+    throw_if_failed(EGifPutExtensionLeader(file_.get(), APPLICATION_EXT_FUNC_CODE));
+    throw_if_failed(EGifPutExtensionBlock(file_.get(), 11, "NETSCAPE2.0"));
+    throw_if_failed(EGifPutExtensionBlock(file_.get(), 3, forever.data()));
+    throw_if_failed(EGifPutExtensionTrailer(file_.get()));
   }
 
   void add(const Image& frame) override {
@@ -103,8 +103,8 @@ class GifWriter final : public FilmWriter {
 
   void finish() override {
     palettes_.finish();
-    int wrong = 0;
-    must(EGifCloseFile(file_.release(), &wrong));
+    int error_code = 0;
+    throw_if_failed(EGifCloseFile(file_.release(), &error_code));
     write_file(out_, bytes_);
   }
 
@@ -116,12 +116,13 @@ class GifWriter final : public FilmWriter {
     control.TransparentColor = quantized.transparent;
     std::array<GifByteType, 4> block{};
     EGifGCBToExtension(&control, block.data());
-    must(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
+    throw_if_failed(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
     const Owned<ColorMapObject, GifFreeMapObject> colors(
         GifMakeMapObject(static_cast<int>(quantized.palette.size()), quantized.palette.data()));
-    must(EGifPutImageDesc(file_.get(), 0, 0, shape_.width, shape_.height, false, colors.get()));
+    throw_if_failed(
+        EGifPutImageDesc(file_.get(), 0, 0, shape_.width, shape_.height, false, colors.get()));
     for (int row = 0; row < shape_.height; ++row)
-      must(EGifPutLine(
+      throw_if_failed(EGifPutLine(
           file_.get(),
           &quantized.pixels[static_cast<size_t>(row) * static_cast<size_t>(shape_.width)],
           shape_.width));
@@ -131,7 +132,7 @@ class GifWriter final : public FilmWriter {
   int hundredths(int frames) const {
     return static_cast<int>(std::lround(100 * frames / shape_.frames_per_second));
   }
-  void must(int result) const {
+  void throw_if_failed(int result) const {
     if (result != GIF_OK)
       throw Error(ErrorKind::failed, out_.string() + ": the GIF encoder failed");
   }

@@ -14,24 +14,24 @@ namespace holomorph {
 template <class Result>
 class OrderedTasks {
  public:
-  explicit OrderedTasks(std::function<void(Result)> take) : take_(std::move(take)) {}
+  explicit OrderedTasks(std::function<void(Result)> take) : deliver_(std::move(take)) {}
 
   void add(std::function<Result()> task) {
-    if (running_.size() >= std::max(1u, std::thread::hardware_concurrency())) take_first();
+    if (running_.size() >= std::max(1u, std::thread::hardware_concurrency())) deliver_first();
     running_.push_back(std::async(std::launch::async, std::move(task)));
   }
   void finish() {
-    while (!running_.empty()) take_first();
+    while (!running_.empty()) deliver_first();
   }
 
  private:
-  void take_first() {
+  void deliver_first() {
     std::future<Result> first = std::move(running_.front());
     running_.pop_front();
-    take_(first.get());
+    deliver_(first.get());
   }
 
-  std::function<void(Result)> take_;
+  std::function<void(Result)> deliver_;
   std::deque<std::future<Result>> running_;
 };
 

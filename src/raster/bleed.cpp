@@ -21,13 +21,14 @@ class Nearest {
         if (covered[index(c, r)]) found_[index(c, r)] = {c, r};
     for (int r = 0; r < height; ++r) {
       for (int c = 0; c < width; ++c)
-        for (const auto& [dc, dr] : {Pixel{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) take(c, r, dc, dr);
-      for (int c = width - 1; c >= 0; --c) take(c, r, 1, 0);
+        for (const auto& [dc, dr] : {Pixel{-1, 0}, {-1, -1}, {0, -1}, {1, -1}})
+          propagate(c, r, dc, dr);
+      for (int c = width - 1; c >= 0; --c) propagate(c, r, 1, 0);
     }
     for (int r = height - 1; r >= 0; --r) {
       for (int c = width - 1; c >= 0; --c)
-        for (const auto& [dc, dr] : {Pixel{1, 0}, {1, 1}, {0, 1}, {-1, 1}}) take(c, r, dc, dr);
-      for (int c = 0; c < width; ++c) take(c, r, -1, 0);
+        for (const auto& [dc, dr] : {Pixel{1, 0}, {1, 1}, {0, 1}, {-1, 1}}) propagate(c, r, dc, dr);
+      for (int c = 0; c < width; ++c) propagate(c, r, -1, 0);
     }
   }
 
@@ -40,10 +41,10 @@ class Nearest {
   size_t index(int c, int r) const {
     return static_cast<size_t>(r) * static_cast<size_t>(width_) + static_cast<size_t>(c);
   }
-  void take(int c, int r, int dc, int dr) {
+  void propagate(int c, int r, int dc, int dr) {
     if (c + dc < 0 || c + dc >= width_ || r + dr < 0 || r + dr >= height_) return;
-    const Pixel theirs = at(c + dc, r + dr);
-    if (distance(c, r, theirs) < distance(c, r, at(c, r))) found_[index(c, r)] = theirs;
+    const Pixel candidate = at(c + dc, r + dr);
+    if (distance(c, r, candidate) < distance(c, r, at(c, r))) found_[index(c, r)] = candidate;
   }
 
   int width_, height_;

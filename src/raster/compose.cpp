@@ -40,12 +40,12 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input,
                 "the picture would have more than 16384 pixels on a side; choose a smaller scale");
-  const auto place_of = [&](const Image& image, int x, int y) {
+  const auto offset_of = [&](const Image& image, int x, int y) {
     return PixelOffset{x - left_edge, height - (y - bottom_edge) - image.height};
   };
   RasterResult result = std::move(under);
   if (width != result.image.width || height != result.image.height) {
-    const PixelOffset at = place_of(result.image, 0, 0);
+    const PixelOffset at = offset_of(result.image, 0, 0);
     Image larger(width, height);
     for (int r = 0; r < result.image.height; ++r)
       std::memcpy(larger.at(at.column, at.row + r), result.image.at(0, r),
@@ -53,14 +53,14 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
     result.image = std::move(larger);
     result.corner += Complex(left_edge, bottom_edge) / pixels_per_unit;
   }
-  const PixelOffset at = place_of(over.image, right, up);
+  const PixelOffset at = offset_of(over.image, right, up);
   for (int r = 0; r < over.image.height; ++r)
     for (int c = 0; c < over.image.width; ++c)
       blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r));
   return result;
 }
 
-void lay_on(Image& image, const std::array<std::uint8_t, 3>& color) {
+void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     std::uint8_t pixel[4] = {color[0], color[1], color[2], 255};
     blend(&image.pixels[i], pixel);

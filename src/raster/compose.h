@@ -12,6 +12,6 @@ namespace holomorph {
 RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit);
 
 /// Composites the image onto an opaque background color, in place.
-void lay_on(Image& image, const std::array<std::uint8_t, 3>& color);
+void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color);
 
 }  // namespace holomorph

@@ -9,9 +9,9 @@
 namespace holomorph {
 namespace {
 
-constexpr int kSub = 4;       ///< coverage samples per pixel in each direction
-constexpr int kBand = 16;     ///< rows that one task draws
-constexpr int kMostTaps = 8;  ///< most color samples per pixel in each direction when shrinking
+constexpr int kSub = 4;      ///< coverage samples per pixel in each direction
+constexpr int kBand = 16;    ///< rows that one task draws
+constexpr int kMaxTaps = 8;  ///< most color samples per pixel in each direction when shrinking
 
 /// An output triangle and the affine map from output pixels to its source coordinates (u, v): a
 /// position in the source picture, or for heat maps the heat value in u.
@@ -117,7 +117,7 @@ class Drawing {
     gradient(u, piece.u0, piece.ux, piece.uy);
     gradient(v, piece.v0, piece.vx, piece.vy);
     const auto taps = [](double du, double dv) {
-      return std::clamp(static_cast<int>(std::ceil(std::hypot(du, dv) - 0.05)), 1, kMostTaps);
+      return std::clamp(static_cast<int>(std::ceil(std::hypot(du, dv) - 0.05)), 1, kMaxTaps);
     };
     piece.taps_x = job_.view == View::image ? taps(piece.ux, piece.vx) : 1;
     piece.taps_y = job_.view == View::image ? taps(piece.uy, piece.vy) : 1;

@@ -10,8 +10,8 @@
 namespace holomorph {
 
 RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options,
-                        const Pictures& others) {
-  return PictureMaker(scene, source, others).picture(options);
+                        const Pictures& other_pictures) {
+  return PictureMaker(scene, source, other_pictures).picture(options);
 }
 
 /// One layer, prepared when it is first drawn.
@@ -52,22 +52,24 @@ class PictureMaker::LayerMaker {
     return rasterized(job_of(options, top));
   }
 
-  /// Extends `box` by all positions of the mesh during the motion. Returns false if `go_on` does.
-  bool include_motion(Box& box, const std::function<bool()>& go_on) {
+  /// Extends `box` by all positions of the mesh during the motion. Returns false if `keep_going`
+  /// does.
+  bool include_motion(Box& box, const std::function<bool()>& keep_going) {
     if (!deformation_.has_cage()) return true;
     const auto map = [&](double time) { return map_at(time, false).f; };
     VectorXc before = map(0);
     for (const Complex& z : before) box.include(z);
-    for (const auto& [from, to, held] : motion_.stretches()) {
+    for (const auto& [from, to, held] : motion_.key_intervals()) {
       // A piece that turns by at most 45 degrees is short enough to estimate how the paths bend.
-      const double turn = motion_.turned_at(to) - motion_.turned_at(from);
+      const double turn = motion_.rotation_at(to) - motion_.rotation_at(from);
       const int pieces =
-          held ? 0 : 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMostPieces));
+          held ? 0 : 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMaxPieces));
       for (int i = 0; i < pieces; ++i) {
         const double start = from + (to - from) * i / pieces,
                      end = from + (to - from) * (i + 1) / pieces;
         VectorXc after = map(end);
-        if (!include_between(start, end, before, after, box, go_on, kMostHalves)) return false;
+        if (!include_between(start, end, before, after, box, keep_going, kMaxHalvings))
+          return false;
         before = std::move(after);
       }
       if (!held) continue;
@@ -83,23 +85,23 @@ class PictureMaker::LayerMaker {
   }
 
  private:
-  static constexpr int kMostHalves = 10;
-  static constexpr double kMostPieces = 2000;
+  static constexpr int kMaxHalvings = 10;
+  static constexpr double kMaxPieces = 2000;
 
   /// Extends `box` by the motion from one time to another. Halves the interval until the path of
   /// each vertex hardly bends, so that its ends and its middle bound it.
   bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
-                       Box& box, const std::function<bool()>& go_on, int halves) {
+                       Box& box, const std::function<bool()>& keep_going, int halves) {
     const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // plane units
-    if (!go_on()) return false;
+    if (!keep_going()) return false;
     const double middle = 0.5 * (from + to);
     const VectorXc at_middle = map_at(middle, false).f;
     // A parabola deviates from the chords of its halves by an eighth of `bend`. The margin below is
     // twice that.
     const double bend = (at_from - 2 * at_middle + at_to).cwiseAbs().maxCoeff();
     if (bend > kBend && halves > 0)
-      return include_between(from, middle, at_from, at_middle, box, go_on, halves - 1) &&
-             include_between(middle, to, at_middle, at_to, box, go_on, halves - 1);
+      return include_between(from, middle, at_from, at_middle, box, keep_going, halves - 1) &&
+             include_between(middle, to, at_middle, at_to, box, keep_going, halves - 1);
     Box here;
     for (const VectorXc* f : {&at_middle, &at_to})
       for (const Complex& z : *f) here.include(z);
@@ -114,7 +116,7 @@ class PictureMaker::LayerMaker {
     job.source = source_;
     job.view = options.view;
     job.pixels_per_unit = options.scale;
-    job.shows = options.shows;
+    job.region = options.region;
     job.crop = options.crop;
     job.top = top;
     return job;
@@ -139,12 +141,13 @@ class PictureMaker::LayerMaker {
   Motion motion_;
 };
 
-PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictures& others)
+PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictures& other_pictures)
     : scene_(scene) {
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
-    layers_.push_back(std::make_unique<LayerMaker>(layer, scene.animation.linear_blend,
-                                                   i == scene.edited ? source : others.of(layer)));
+    layers_.push_back(
+        std::make_unique<LayerMaker>(layer, scene.animation.linear_blend,
+                                     i == scene.edited ? source : other_pictures.of(layer)));
   }
 }
 
@@ -168,11 +171,11 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
     if (scene_.background.fill == Background::Fill::original)
       result = composed(edited.original(options, top), result, options.scale);
     if (scene_.background.fill == Background::Fill::color)
-      lay_on(result.image, scene_.background.color);
+      composite_onto_color(result.image, scene_.background.color);
     return result;
   }
   const Box rectangle = this->rectangle();
-  if (options.crop && !options.shows && !rectangle.empty()) options.shows = rectangle;
+  if (options.crop && !options.region && !rectangle.empty()) options.region = rectangle;
   const double top = rectangle.empty() ? 0 : rectangle.top;
   std::optional<RasterResult> result;
   const auto add = [&](RasterResult over) {
@@ -185,16 +188,17 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
     if (layer->visible()) add(layer->picture(options, top));
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   if (scene_.background.fill == Background::Fill::color)
-    lay_on(result->image, scene_.background.color);
+    composite_onto_color(result->image, scene_.background.color);
   return std::move(*result);
 }
 
-std::optional<Box> PictureMaker::shown(const std::function<bool()>& go_on) {
+std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep_going) {
   Box box;
   for (const auto& layer : layers_)
     if (layer->visible()) layer->include_picture(box);
   for (const auto& layer : layers_)
-    if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, go_on)) return {};
+    if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, keep_going))
+      return {};
   // The rounding of single-precision operators must not add a row of pixels.
   constexpr double kRounding = 1e-3;
   return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,

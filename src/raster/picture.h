@@ -14,28 +14,29 @@ struct PictureOptions {
   double scale = 1;         ///< output pixels per image pixel
   bool crop = false;        ///< crop to the lowest picture's rectangle; else nothing is cut off
   bool automatic_range = false;
-  std::optional<Box> shows = {};    ///< draw exactly this part of the plane
+  std::optional<Box> region = {};   ///< draw exactly this part of the plane
   std::optional<double> time = {};  ///< time on the timeline in seconds; none: the scene's pose
 };
 
 /// Draws the posed scene: its visible layers over its background. `source` is the edited layer's
-/// picture, or null if it has none; `others` holds the pictures of the other layers. Throws Error
-/// if the scene has neither a picture nor a cage or no layer is visible, and if rasterized throws.
+/// picture, or null if it has none; `other_pictures` holds the pictures of the other layers. Throws
+/// Error if the scene has neither a picture nor a cage or no layer is visible, and if rasterized
+/// throws.
 RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options = {},
-                        const Pictures& others = {});
+                        const Pictures& other_pictures = {});
 
 /// Draws pictures of one scene at many times, and prepares its layers only once.
 class PictureMaker {
  public:
   /// Arguments as in picture_of; all of them must outlive this object. Throws Error.
-  PictureMaker(const Scene& scene, const Image* source, const Pictures& others = {});
+  PictureMaker(const Scene& scene, const Image* source, const Pictures& other_pictures = {});
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles. It
-  /// does not depend on which frames are drawn. Calls `go_on` from time to time and returns none
-  /// if that returns false. Cost: one map per keyframe and about ten between two keyframes.
-  std::optional<Box> shown(const std::function<bool()>& go_on = [] { return true; });
+  /// does not depend on which frames are drawn. Calls `keep_going` from time to time and returns
+  /// none if that returns false. Cost: one map per keyframe and about ten between two keyframes.
+  std::optional<Box> motion_region(const std::function<bool()>& keep_going = [] { return true; });
   /// The rectangle of the lowest visible picture, to which `crop` crops; empty if there is none.
   Box rectangle() const;
 

@@ -29,15 +29,15 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
     return true;
   };
   int top = 0, bottom = image.height, left = 0, right = image.width;
-  const auto stay = [&](int frame_side, int least_side) {
+  const auto may_trim = [&](int frame_side, int least_side) {
     return least.width == 0 || frame_side < least_side;
   };
-  while (top < bottom && stay(frame.top + top, least.top) && row_empty(top)) ++top;
-  while (bottom > top && stay(-(frame.top + bottom), -(least.top + least.height)) &&
+  while (top < bottom && may_trim(frame.top + top, least.top) && row_empty(top)) ++top;
+  while (bottom > top && may_trim(-(frame.top + bottom), -(least.top + least.height)) &&
          row_empty(bottom - 1))
     --bottom;
-  while (left < right && stay(frame.left + left, least.left) && column_empty(left)) ++left;
-  while (right > left && stay(-(frame.left + right), -(least.left + least.width)) &&
+  while (left < right && may_trim(frame.left + left, least.left) && column_empty(left)) ++left;
+  while (right > left && may_trim(-(frame.left + right), -(least.left + least.width)) &&
          column_empty(right - 1))
     --right;
   if (right - left == image.width && bottom - top == image.height) return;
@@ -99,8 +99,8 @@ RasterResult rasterized(const RasterJob& job) {
              top_edge == height ? std::max(1, static_cast<int>(std::lround(height * scale)))
                                 : static_cast<int>(std::ceil(top_edge * scale)) - top};
   }
-  if (job.shows) {
-    const Box& box = *job.shows;
+  if (job.region) {
+    const Box& box = *job.region;
     least.left = static_cast<int>(std::floor(std::clamp(box.left * scale, -1e8, 1e8)));
     least.top = static_cast<int>(std::floor(std::clamp((top_edge - box.top) * scale, -1e8, 1e8)));
     check_size(box.width() * scale + 1, box.height() * scale + 1);
@@ -109,7 +109,7 @@ RasterResult rasterized(const RasterJob& job) {
   }
   double left = least.left, top = least.top, right = least.left + least.width,
          bottom = least.top + least.height;
-  if (job.mesh && !job.shows && !(job.crop && job.source)) {
+  if (job.mesh && !job.region && !(job.crop && job.source)) {
     const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
     constexpr double kRounding = 1e-3;  // for operators in single precision
@@ -127,7 +127,7 @@ RasterResult rasterized(const RasterJob& job) {
                   static_cast<int>(bottom - top)};
   Image image =
       drawn(job, frame.left / scale, top_edge - frame.top / scale, frame.width, frame.height);
-  if (!job.crop && !job.shows) trim(image, frame, least);
+  if (!job.crop && !job.region) trim(image, frame, least);
   return {std::move(image), {frame.left / scale, top_edge - (frame.top + frame.height) / scale}};
 }
 

@@ -21,7 +21,7 @@ struct RasterJob {
   double pixels_per_unit = 1;  ///< output pixels per image pixel
   bool surroundings = true;    ///< also draw the source outside the rest cage
   bool crop = false;           ///< crop to the source's rectangle; else nothing is cut off
-  std::optional<Box> shows;    ///< draw exactly this part of the plane, rounded to whole pixels
+  std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
   std::optional<double> top;   ///< y from which pixel rows count; none: the source's height
   int threads = 0;             ///< 0: one per processor core
 };

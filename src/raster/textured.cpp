@@ -25,7 +25,7 @@ std::vector<bool> covered(RasterJob job) {
 
 }  // namespace
 
-TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
+TexturedSurface textured(const FlattenedSurface& surface, const Deformation& deformation,
                          const Image* source, double scale) {
   // kReach is a fraction of the texture's size, larger than the error of most outlines. kFilter is
   // the reach of texture filters in pixels.
@@ -45,7 +45,7 @@ TexturedSurface textured(const LaidSurface& surface, const Deformation& deformat
   const Complex low(box.left, box.bottom), high(box.right, box.top);
   box.include(low - margin);
   box.include(high + margin);
-  job.shows = box;
+  job.region = box;
   RasterResult drawn = rasterized(job);
   const int rows = drawn.image.height;
   const double width = drawn.image.width / scale, height = rows / scale;
@@ -69,7 +69,7 @@ std::array<Path, 3> files_of_textured(const Path& path) {
   return {path, with(".mtl"), with(".png")};
 }
 
-void write_textured(const std::filesystem::path& path, const LaidSurface& surface,
+void write_textured(const std::filesystem::path& path, const FlattenedSurface& surface,
                     const TexturedSurface& textured) {
   if (lower_case(path.extension().string()) != ".obj")
     throw Error(ErrorKind::bad_input,

@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "scene/flattened_surface.h"
 #include "scene/formats/image.h"
-#include "scene/laid_surface.h"
 #include "system/file.h"
 
 namespace holomorph {
@@ -17,7 +17,7 @@ struct TexturedSurface {
 /// The texture is the posed picture inside the cage, cut to the surface's surroundings, with its
 /// colors extended to the surface's edge and a little beyond. `scale` is in texture pixels per
 /// plane unit. Throws Error if the scene has no picture or no cage, and if rasterized throws.
-TexturedSurface textured(const LaidSurface& surface, const Deformation& deformation,
+TexturedSurface textured(const FlattenedSurface& surface, const Deformation& deformation,
                          const Image* source, double scale = 1);
 
 /// The three files that write_textured writes for a path: surface, material and texture.
@@ -25,7 +25,7 @@ std::array<std::filesystem::path, 3> files_of_textured(const std::filesystem::pa
 
 /// Writes the surface to `path`, and next to it a material (.mtl) and a texture (.png) with the
 /// same name. Throws Error if the extension is not .obj.
-void write_textured(const std::filesystem::path& path, const LaidSurface& surface,
+void write_textured(const std::filesystem::path& path, const FlattenedSurface& surface,
                     const TexturedSurface& textured);
 
 }  // namespace holomorph

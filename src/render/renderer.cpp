@@ -387,9 +387,9 @@ void Renderer::draw(const RenderFrame& frame) {
     gl.draw_mesh(frame.placement);
   else if (picture && !frame.over)
     gl.draw_quad();
-  if (frame.shows != Shows::map) {
+  if (frame.content != Content::map) {
     gl.color(Coloring::picture);
-    if (picture && frame.shows == Shows::original) gl.draw_quad();
+    if (picture && frame.content == Content::original) gl.draw_quad();
     return finish(frame);
   }
   if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings();

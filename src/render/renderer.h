@@ -29,7 +29,7 @@ struct Ghost {
 
 /// What is drawn of the picture: its image under the map, the undeformed original, or only the
 /// backdrop behind it.
-enum class Shows { map, original, nothing };
+enum class Content { map, original, nothing };
 
 /// The contents and settings of one frame of the canvas. In window pixels, x points right, y down.
 struct RenderFrame {
@@ -45,7 +45,7 @@ struct RenderFrame {
   double from = 0, to = 1;  ///< draw only this part of the canvas's width, as fractions
   bool map_alone = false;   ///< draw only the mesh, opaque on a transparent canvas
   bool over = false;        ///< draw over the canvas: do not clear it, and draw no backdrop
-  Shows shows = Shows::map;
+  Content content = Content::map;
   Color background{0.2f, 0.2f, 0.2f},
       backdrop{0.25f, 0.25f, 0.25f};  ///< of the canvas; behind the picture
 };

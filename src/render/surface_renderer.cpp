@@ -18,14 +18,15 @@ void upload(GLuint buffer, GLenum target, const void* data, size_t bytes) {
 
 SurfaceRenderer::SurfaceRenderer() {
   glGenVertexArrays(1, &array_);
-  for (GLuint* buffer : {&places_, &normals_, &coordinates_, &triangles_}) glGenBuffers(1, buffer);
+  for (GLuint* buffer : {&positions_, &normals_, &coordinates_, &triangles_})
+    glGenBuffers(1, buffer);
   glBindVertexArray(array_);
   const auto attribute = [](GLuint buffer, GLuint location, GLint size) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, 0, nullptr);
   };
-  attribute(places_, 0, 3);
+  attribute(positions_, 0, 3);
   attribute(normals_, 1, 3);
   attribute(coordinates_, 2, 2);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_);
@@ -33,7 +34,7 @@ SurfaceRenderer::SurfaceRenderer() {
 }
 
 SurfaceRenderer::~SurfaceRenderer() {
-  for (const GLuint buffer : {places_, normals_, coordinates_, triangles_})
+  for (const GLuint buffer : {positions_, normals_, coordinates_, triangles_})
     glDeleteBuffers(1, &buffer);
   glDeleteVertexArrays(1, &array_);
 }
@@ -41,15 +42,15 @@ SurfaceRenderer::~SurfaceRenderer() {
 void SurfaceRenderer::set_surface(const Surface& surface) {
   vertex_count_ = static_cast<int>(surface.vertices.size());
   index_count_ = static_cast<int>(3 * surface.triangles.size());
-  Eigen::Matrix3Xf places(3, vertex_count_), normals = Eigen::Matrix3Xf::Zero(3, vertex_count_);
+  Eigen::Matrix3Xf positions(3, vertex_count_), normals = Eigen::Matrix3Xf::Zero(3, vertex_count_);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
   middle_ = vertex_count_ > 0 ? Eigen::Vector3d(box.center()) : Eigen::Vector3d::Zero();
   for (int i = 0; i < vertex_count_; ++i)
-    places.col(i) = (surface.vertices[static_cast<size_t>(i)] - middle_).cast<float>();
+    positions.col(i) = (surface.vertices[static_cast<size_t>(i)] - middle_).cast<float>();
   for (const auto& [a, b, c] : surface.triangles) {
     const Eigen::Vector3f area =
-        (places.col(b) - places.col(a)).cross(places.col(c) - places.col(a));
+        (positions.col(b) - positions.col(a)).cross(positions.col(c) - positions.col(a));
     for (const int v : {a, b, c}) normals.col(v) += area;
   }
   const Eigen::Matrix2Xf nowhere = Eigen::Matrix2Xf::Zero(2, vertex_count_);
@@ -57,7 +58,7 @@ void SurfaceRenderer::set_surface(const Surface& surface) {
   const auto bytes = [](const auto& matrix) {
     return static_cast<size_t>(matrix.size()) * sizeof(float);
   };
-  upload(places_, GL_ARRAY_BUFFER, places.data(), bytes(places));
+  upload(positions_, GL_ARRAY_BUFFER, positions.data(), bytes(positions));
   upload(normals_, GL_ARRAY_BUFFER, normals.data(), bytes(normals));
   upload(coordinates_, GL_ARRAY_BUFFER, nowhere.data(), bytes(nowhere));
   glBindVertexArray(array_);

@@ -32,7 +32,7 @@ class SurfaceRenderer {
 
  private:
   Program program_ = surface_program();
-  unsigned array_ = 0, places_ = 0, normals_ = 0, coordinates_ = 0, triangles_ = 0;
+  unsigned array_ = 0, positions_ = 0, normals_ = 0, coordinates_ = 0, triangles_ = 0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< vertices are stored relative to it
   int vertex_count_ = 0, index_count_ = 0;
 };

@@ -10,13 +10,13 @@ namespace {
 
 /// Averages blocks of factor x factor pixels, weighted by alpha, and premultiplies.
 TextureLevel premultiplied(int width, int height, const std::uint8_t* pixels, int factor,
-                           const std::function<bool()>& go_on) {
+                           const std::function<bool()>& keep_going) {
   const int w = (width + factor - 1) / factor, h = (height + factor - 1) / factor;
   TextureLevel level{w, h, std::vector<std::uint8_t>(static_cast<size_t>(w) * h * 4)};
   if (factor == 1) {
     constexpr size_t kBetween = 1 << 22;
     for (size_t i = 0; i < level.pixels.size(); i += 4) {
-      if (i % kBetween == 0 && !go_on()) break;
+      if (i % kBetween == 0 && !keep_going()) break;
       const unsigned alpha = pixels[i + 3];
       for (size_t k = 0; k < 3; ++k)
         level.pixels[i + k] = static_cast<std::uint8_t>((pixels[i + k] * alpha + 127) / 255);
@@ -24,7 +24,7 @@ TextureLevel premultiplied(int width, int height, const std::uint8_t* pixels, in
     }
     return level;
   }
-  for (int r = 0; r < h && go_on(); ++r)
+  for (int r = 0; r < h && keep_going(); ++r)
     for (int c = 0; c < w; ++c) {
       unsigned sum[4] = {0, 0, 0, 0}, count = 0;
       for (int y = r * factor; y < std::min(height, (r + 1) * factor); ++y)
@@ -60,11 +60,11 @@ TextureLevel halved(const TextureLevel& from) {
 }  // namespace
 
 TextureLevels texture_levels(int width, int height, const std::uint8_t* pixels, int largest,
-                             const std::function<bool()>& go_on) {
+                             const std::function<bool()>& keep_going) {
   TextureLevels all{width, height, 1, {}};
   while ((std::max(width, height) + all.factor - 1) / all.factor > largest) ++all.factor;
-  all.levels.push_back(premultiplied(width, height, pixels, all.factor, go_on));
-  while ((all.levels.back().width > 1 || all.levels.back().height > 1) && go_on())
+  all.levels.push_back(premultiplied(width, height, pixels, all.factor, keep_going));
+  while ((all.levels.back().width > 1 || all.levels.back().height > 1) && keep_going())
     all.levels.push_back(halved(all.levels.back()));
   return all;
 }

@@ -21,10 +21,10 @@ struct TextureLevels {
 
 /// The levels of a picture in straight-alpha RGBA, rows from the top, which must not be empty. No
 /// level has more than `largest` pixels on a side. Needs no OpenGL and may run on any thread. Calls
-/// `go_on` from time to time; the result is incomplete if that returns false. Cost: linear, about
-/// 10 ns per pixel.
+/// `keep_going` from time to time; the result is incomplete if that returns false. Cost: linear,
+/// about 10 ns per pixel.
 TextureLevels texture_levels(
     int width, int height, const std::uint8_t* pixels, int largest,
-    const std::function<bool()>& go_on = [] { return true; });
+    const std::function<bool()>& keep_going = [] { return true; });
 
 }  // namespace holomorph

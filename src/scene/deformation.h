@@ -9,6 +9,7 @@
 #include "core/maps/deformer.h"
 #include "core/mesh/flatten.h"
 #include "core/mesh/surface.h"
+#include "scene/limits.h"
 
 namespace holomorph {
 
@@ -65,13 +66,6 @@ struct Keyframe {
   Extra pose_extra = {}, extra = {};
   bool operator==(const Keyframe&) const = default;
 };
-
-inline constexpr double kMostPinTurn = 1e5;                    ///< radians
-inline constexpr int kMostDepth = 1000;                        ///< of a pin, in absolute value
-inline constexpr double kLongestTime = 3600;                   ///< seconds
-inline constexpr double kFewestFrames = 1, kMostFrames = 240;  ///< per second
-inline constexpr int kMostTurns = 150;                         ///< between two keyframes
-inline constexpr size_t kMostKeyframes = 2000;
 
 /// How a picture is deformed. The rest and posed cages have the same number of segments; both are
 /// empty until a cage is drawn. Value type.

@@ -45,7 +45,7 @@ Document Document::copy_of(const Path& scene) {
 
 Document Document::recover(const Path& autosave) {
   LoadOptions options{true, {true}};
-  options.recovers = true;
+  options.keeps_origin = true;
   Document document(load_scene(autosave, options), Path());
   Scene scene = document.scene();
   const Origin origin = origin_of(scene);
@@ -86,7 +86,7 @@ Path Document::first_picture() const {
   return {};
 }
 
-std::vector<size_t> Document::without_picture() const {
+std::vector<size_t> Document::layers_without_picture() const {
   std::vector<size_t> layers;
   for (size_t i = 0; i < scene().layers.size(); ++i)
     if (const Layer& layer = *scene().layers[i]; layer.image && !pictures_.of(layer))
@@ -106,7 +106,7 @@ namespace {
 
 /// The scene with its pictures as they are in memory, and with copies of pasted ones next to its
 /// file.
-Scene with_present_pictures(Scene scene, Pictures& pictures, const Path& target) {
+Scene with_current_pictures(Scene scene, Pictures& pictures, const Path& target) {
   std::vector<Layer> layers = layers_of(scene);
   for (Layer& layer : layers) {
     if (!layer.image) continue;
@@ -118,7 +118,7 @@ Scene with_present_pictures(Scene scene, Pictures& pictures, const Path& target)
     const Path copy =
         target.parent_path() / (target.stem().string() + "-" + file.stem().string() + ".png");
     // A pasted picture is named after its content, so an existing file of this name is the copy.
-    if (!is_there(copy)) write_file(copy, encode_png(*picture->image));
+    if (!path_exists(copy)) write_file(copy, encode_png(*picture->image));
     Picture copied = *picture;
     std::error_code ignored;
     copied.changed = fs::last_write_time(copy, ignored);
@@ -134,7 +134,7 @@ Scene with_present_pictures(Scene scene, Pictures& pictures, const Path& target)
 void Document::save(const Path& path) {
   const Path target = absolute_path(path);
   check_not_read_only(target);
-  Scene present = with_present_pictures(scene(), pictures_, target);
+  Scene present = with_current_pictures(scene(), pictures_, target);
   const std::string text = json_of(portable(present, target.parent_path()));
   write_file(target, text);
   history_.replace(std::move(present));

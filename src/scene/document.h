@@ -34,7 +34,7 @@ class Document {
   Path first_picture() const;
   Sources sources() const;
   /// The layers whose picture could not be read, from bottom to top.
-  std::vector<size_t> without_picture() const;
+  std::vector<size_t> layers_without_picture() const;
   /// The files that the scene names but that are out of its reach. They have not been accessed.
   std::vector<Path> withheld() const;
   const std::string& warning() const { return warning_; }
@@ -55,16 +55,16 @@ class Document {
   /// Stores all pictures of another scene.
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
   /// Allows the files that are out of reach to be read.
-  void release_pictures() { pictures_.release(); }
+  void allow_withheld() { pictures_.release(); }
 
   /// Marks the scene as saved, in the state of `read`, a document just read from the same file.
-  void count_as_saved(const Document& read) {
+  void mark_saved(const Document& read) {
     saved_ = scene();
     unsaved_ = false;
     stamp_ = read.stamp_;
   }
   /// Marks the scene as unsaved: the file no longer holds it.
-  void count_as_unsaved() { unsaved_ = true; }
+  void mark_unsaved() { unsaved_ = true; }
 
   /// Adds a step to the history, unless nothing has changed. `at` is the displayed time. Returns
   /// whether a step was added.

@@ -41,7 +41,7 @@ Deformation without_key(Deformation deformation, size_t key) {
 
 std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t key, double time) {
   Keyframe moved = deformation.keyframes[key];
-  moved.time = std::clamp(time, 0.0, kLongestTime);
+  moved.time = std::clamp(time, 0.0, kMaxTime);
   deformation = without_key(std::move(deformation), key);
   if (const size_t there = key_at(deformation, moved.time); there < deformation.keyframes.size())
     deformation = without_key(std::move(deformation), there);

@@ -18,7 +18,7 @@ LiveMap& LayerMaps::of(int id) const {
 
 bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
   for (auto entry = maps_.begin(); entry != maps_.end();) {
-    const bool gone = layer_of_id(scene, entry->first) == scene.layers.size();
+    const bool gone = layer_index(scene, entry->first) == scene.layers.size();
     if (gone) {
       entry->second->clear();
       spare_.push_back(std::move(entry->second));

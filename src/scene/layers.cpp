@@ -43,7 +43,7 @@ int fresh_id() {
 
 }  // namespace
 
-size_t layer_of_id(const Scene& scene, int id) {
+size_t layer_index(const Scene& scene, int id) {
   const auto found =
       std::ranges::find(scene.layers, id, [](const SharedLayer& l) { return l->id; });
   return static_cast<size_t>(found - scene.layers.begin());
@@ -69,7 +69,7 @@ Scene with_layer_at(Scene scene, size_t number, Layer layer) {
 }
 
 Scene with_layers_added(Scene scene, const Scene& added) {
-  if (scene.layers.size() + added.layers.size() > kMostLayers)
+  if (scene.layers.size() + added.layers.size() > kMaxLayers)
     throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
   std::vector<Layer> more = layers_of(added);
   for (Layer& layer : more) layer.id = fresh_id();
@@ -80,7 +80,7 @@ Scene with_layers_added(Scene scene, const Scene& added) {
   return scene;
 }
 
-Scene with_layer_doubled(const Scene& scene) {
+Scene with_layer_duplicated(const Scene& scene) {
   Layer copy = scene.layer();
   copy.name = title_of_layer(scene, scene.edited) + " copy";
   return with_layers_added(scene, scene_of(std::move(copy)));

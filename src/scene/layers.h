@@ -5,10 +5,8 @@
 
 namespace holomorph {
 
-inline constexpr size_t kMostLayers = 100;
-
 /// The index of the layer with this id; the number of layers if there is none.
-size_t layer_of_id(const Scene& scene, int id);
+size_t layer_index(const Scene& scene, int id);
 /// The layer's name, else that of its picture, else "Layer 2" for the second one.
 std::string title_of_layer(const Scene& scene, size_t layer);
 /// Whether the scene is anything other than a single plain layer.
@@ -17,10 +15,10 @@ bool has_layers(const Scene& scene);
 /// Replaces the layer at this index; the replacement takes over its id.
 Scene with_layer_at(Scene scene, size_t number, Layer layer);
 /// Adds the layers of another scene above the edited one. The edited layer of `added` becomes the
-/// edited layer. Throws Error if there would be more than kMostLayers.
+/// edited layer. Throws Error if there would be more than kMaxLayers.
 Scene with_layers_added(Scene scene, const Scene& added);
 /// Adds a copy of the edited layer above it, which becomes the edited layer.
-Scene with_layer_doubled(const Scene& scene);
+Scene with_layer_duplicated(const Scene& scene);
 /// Removes the edited layer. The layer below it becomes the edited one, or the layer above it if
 /// there is none below. There must be another layer.
 Scene without_layer(Scene scene);

@@ -15,7 +15,7 @@ void LiveMap::order(const Deformation& deformation) {
   std::vector<Depth> depths = depths_of(deformation);
   if (drawn_ && depths == depths_) return;
   depths_ = std::move(depths);
-  drawn_ = drawn_mesh(shown_->mesh, depths_);
+  drawn_ = drawn_mesh(prepared_->mesh, depths_);
 }
 
 LiveMap::LiveMap(MeshOptions options) : options_(options), worker_([this] { work(); }) {}
@@ -81,7 +81,7 @@ void LiveMap::work() {
       result_ = std::move(result);
       result_motion_ = std::move(motion);
       if (milliseconds > 0) result_milliseconds_ = milliseconds;
-      result_scene_ = deformation;
+      result_deformation_ = deformation;
       failure_ = std::move(failure);
     }
     changed_.notify_all();
@@ -89,7 +89,7 @@ void LiveMap::work() {
   }
 }
 
-void LiveMap::take_result(const Deformation& deformation, EvalOptions options) {
+void LiveMap::adopt_result(const Deformation& deformation, EvalOptions options) {
   const std::lock_guard lock(mutex_);
   busy_ = working_ || waiting_;
   if (!std::exchange(finished_, false)) return;
@@ -97,7 +97,7 @@ void LiveMap::take_result(const Deformation& deformation, EvalOptions options) {
   failed_ = error_.has_value();
   failure_.reset();
   if (!result_) return;
-  shown_ = std::move(result_);
+  prepared_ = std::move(result_);
   drawn_.reset();
   motion_ = std::exchange(result_motion_, Motion());
   solve_milliseconds_ = std::max(solve_milliseconds_, std::exchange(result_milliseconds_, 0));
@@ -106,24 +106,25 @@ void LiveMap::take_result(const Deformation& deformation, EvalOptions options) {
   ++preparation_;
   // Mesh and map always belong together: if the deformation has changed since the request, it is
   // posed as it was requested.
-  pose(same_rest(*result_scene_, deformation) ? deformation : *result_scene_, options);
+  pose(same_rest(*result_deformation_, deformation) ? deformation : *result_deformation_, options);
 }
 
 bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
-  if (!shown_ || (posed_ == deformation && posed_options_ == options && posed_moment_ == moment_))
+  if (!prepared_ ||
+      (posed_ == deformation && posed_options_ == options && posed_moment_ == moment_))
     return false;
   const double start = now_ms();
   timed_.reset();
   try {
     const bool timed = moment_.time && !deformation.keyframes.empty();
-    if (timed) motion_.follow(deformation, moment_.linear_blend, shown_);
+    if (timed) motion_.follow(deformation, moment_.linear_blend, prepared_);
     SampledMap map;
     if (timed && motion_.plays()) {
-      map = blended_map(*shown_->mesh, motion_.map_at(*moment_.time), options.derivatives);
+      map = blended_map(*prepared_->mesh, motion_.map_at(*moment_.time), options.derivatives);
       if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
       timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
     } else {
-      map = shown_->deformer->deform(pose_of(deformation), options);
+      map = prepared_->deformer->deform(pose_of(deformation), options);
       if (!options.draft) solve_milliseconds_ = now_ms() - start;
     }
     map_ = std::move(map);
@@ -134,42 +135,43 @@ bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
   }
   pose_milliseconds_ = now_ms() - start;
   order(deformation);
-  describe();
+  evaluate_map();
   posed_ = deformation;
   posed_options_ = options;
   posed_moment_ = moment_;
   return true;
 }
 
-Points LiveMap::places_at(double time, std::span<const Complex> rest) {
+Points LiveMap::images_at(double time, std::span<const Complex> rest) {
   Points places(rest.begin(), rest.end());
   follow_keys();
   if (!motion_.plays()) return places;
   const VectorXc f = motion_.map_at(time);
   for (Complex& z : places)
-    if (const auto at = locate(*shown_->mesh, shown_->mesh->vertices, z))
-      z = at->in(*shown_->mesh, as_span(f));
+    if (const auto at = locate(*prepared_->mesh, prepared_->mesh->vertices, z))
+      z = at->in(*prepared_->mesh, as_span(f));
   return places;
 }
 
-std::optional<Complex> LiveMap::pin_place(const Deformation& deformation, size_t i) const {
+std::optional<Complex> LiveMap::pin_image(const Deformation& deformation, size_t i) const {
   if (!posed_ || !same_rest(*posed_, deformation)) return {};
-  if (!has_map() || map_.ignores_pins || i >= shown_->pins.size() || !shown_->pins[i]) return {};
-  return shown_->pins[i]->in(*shown_->mesh, as_span(map_.f));
+  if (!has_map() || map_.ignores_pins || i >= prepared_->pins.size() || !prepared_->pins[i])
+    return {};
+  return prepared_->pins[i]->in(*prepared_->mesh, as_span(map_.f));
 }
 
 /// Evaluates the map that was just posed: its injectivity, and the images of its zeros.
-void LiveMap::describe() {
-  const Mesh& mesh = *shown_->mesh;
+void LiveMap::evaluate_map() {
+  const Mesh& mesh = *prepared_->mesh;
   injectivity_ = injectivity_of(mesh, map_.f);
-  zero_places_.clear();
+  zero_images_.clear();
   for (const Complex& zero : map_.zeros)
     if (const auto at = locate(mesh, mesh.vertices, zero))
-      zero_places_.push_back(at->in(mesh, as_span(map_.f)));
+      zero_images_.push_back(at->in(mesh, as_span(map_.f)));
 }
 
 void LiveMap::clear() {
-  shown_.reset();
+  prepared_.reset();
   drawn_.reset();
   map_ = SampledMap{};
   posed_.reset();
@@ -179,7 +181,7 @@ void LiveMap::clear() {
   error_.reset();
   failed_ = false;
   injectivity_ = {};
-  zero_places_.clear();
+  zero_images_.clear();
   const std::lock_guard lock(mutex_);
   ++generation_;
   ++document_;
@@ -192,10 +194,10 @@ void LiveMap::clear() {
 /// requested and still have no map cannot be mapped.
 bool LiveMap::needs_worker(const Deformation& deformation) const {
   constexpr double kNoticed = 50, kShape = 4;  // both in ms; kShape is for the logarithms of a key
-  if (!moment_.time || !shown_ || busy_ || failed_) return false;
+  if (!moment_.time || !prepared_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == deformation.keyframes) return false;
   if (posed_moment_.time && posed_ && posed_->keyframes == deformation.keyframes) return false;
-  return static_cast<double>(motion_.unknown(deformation, shown_)) *
+  return static_cast<double>(motion_.unknown(deformation, prepared_)) *
              (solve_milliseconds_ + kShape) >
          kNoticed;
 }
@@ -203,9 +205,9 @@ bool LiveMap::needs_worker(const Deformation& deformation) const {
 bool LiveMap::update(const Deformation& deformation, EvalOptions options, const Moment& moment) {
   const unsigned before = preparation_;
   moment_ = moment;
-  take_result(deformation, options);
+  adopt_result(deformation, options);
   if (!deformation.has_cage()) {
-    const bool changed = shown_ != nullptr;
+    const bool changed = prepared_ != nullptr;
     clear();
     return changed;
   }

@@ -37,21 +37,21 @@ class LiveMap {
   /// tests.
   void finish(const Deformation& deformation, EvalOptions options);
 
-  const PreparedMap* prepared() const { return shown_.get(); }
+  const PreparedMap* prepared() const { return prepared_.get(); }
   /// The prepared mesh in drawing order, as it is drawn and picked.
   const std::shared_ptr<const Mesh>& drawn() const { return drawn_; }
   /// The map at mesh->vertices; empty until there is one.
   const SampledMap& map() const { return map_; }
-  bool has_map() const { return shown_ && map_.f.size() > 0; }
+  bool has_map() const { return prepared_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }
   /// The injectivity of the displayed map.
   const Injectivity& injectivity() const { return injectivity_; }
   /// The image of the rest position of pin `i` of a deformation. None if the map ignores pins, if
   /// the pin lies outside the mesh, or if the map belongs to another rest state.
-  std::optional<Complex> pin_place(const Deformation& deformation, size_t i) const;
+  std::optional<Complex> pin_image(const Deformation& deformation, size_t i) const;
   /// The images of the zeros that the map reports.
-  const Points& zero_places() const { return zero_places_; }
+  const Points& zero_images() const { return zero_images_; }
   /// The deformation to which map() belongs. It may lag behind the one being edited.
   const std::optional<Deformation>& posed() const { return posed_; }
   /// The deformation with its handles at the displayed time; none if no time is displayed.
@@ -60,11 +60,11 @@ class LiveMap {
   /// and after follow_keys().
   const Motion& motion() const { return motion_; }
   void follow_keys() {
-    if (shown_ && posed_) motion_.follow(*posed_, moment_.linear_blend, shown_);
+    if (prepared_ && posed_) motion_.follow(*posed_, moment_.linear_blend, prepared_);
   }
   /// The images of rest positions at a time of the posed deformation's keyframes. Positions outside
   /// the mesh stay.
-  Points places_at(double time, std::span<const Complex> rest);
+  Points images_at(double time, std::span<const Complex> rest);
   double pose_milliseconds() const { return pose_milliseconds_; }
   /// Increases by one whenever a newly prepared map is taken over.
   unsigned preparation() const { return preparation_; }
@@ -72,20 +72,20 @@ class LiveMap {
  private:
   void work();
   bool needs_worker(const Deformation& deformation) const;
-  void take_result(const Deformation& deformation, EvalOptions options);
+  void adopt_result(const Deformation& deformation, EvalOptions options);
   bool pose(const Deformation& deformation, EvalOptions options);
-  void describe();
+  void evaluate_map();
   void order(const Deformation& deformation);
 
   MeshOptions options_;
   std::function<void()> wake_;
-  std::shared_ptr<PreparedMap> shown_;
+  std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
   std::vector<Depth> depths_;  ///< by which drawn_ is ordered
   SampledMap map_;
   std::optional<Error> error_;
   Injectivity injectivity_;
-  Points zero_places_;
+  Points zero_images_;
   std::optional<Deformation> requested_;  ///< the deformation whose rest state was last requested
   bool requested_keys_ = false;           ///< whether the maps at its keyframes were requested too
   EvalOptions posed_options_;
@@ -106,7 +106,7 @@ class LiveMap {
   double result_milliseconds_ = 0;  ///< per keyframe
   std::shared_ptr<PreparedMap> base_, result_;
   std::optional<Error> failure_;
-  std::optional<Deformation> result_scene_;
+  std::optional<Deformation> result_deformation_;
   unsigned generation_ = 0;  ///< increases with every request
   unsigned document_ = 0;    ///< increases in clear(); the worker's result is then dropped
   bool working_ = false, finished_ = false, stop_ = false;

@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/mesh/mesher.h"
 #include "scene/budget.h"
+#include "scene/flattened_surface.h"
 #include "scene/formats/ora_image.h"
 #include "scene/formats/scene_json.h"
-#include "scene/laid_surface.h"
 #include "scene/preferences.h"
 #include "scene/prepared_map.h"
 #include "scene/recovery.h"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The absolute path of a file that a scene file names.
-Path beside(const Path& scene, const Path& file) {
+Path resolved_path(const Path& scene, const Path& file) {
   return absolute_path(file.is_absolute() ? file : scene.parent_path() / file);
 }
 
@@ -37,11 +37,11 @@ void for_each_file(std::vector<Layer>& layers, Use use) {
 
 /// Redirects a reference to the file of the same name next to the scene if that is the same
 /// picture.
-void look_beside(const Path& scene, ImageReference& reference, const Reach& reach,
-                 PictureFiles& files) {
+void look_next_to_scene(const Path& scene, ImageReference& reference, const Reach& reach,
+                        PictureFiles& files) {
   const Path name = Path(reference.file).filename();
   if (name.empty()) return;
-  const Path moved = beside(scene, name);
+  const Path moved = resolved_path(scene, name);
   if (!reach.covers(moved, scene.parent_path())) return;
   try {
     if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
@@ -58,7 +58,7 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
   ImageReference& reference = *layer.image;
   if (pictures.withheld().contains(reference.file))
     return "/image/file: " + reference.file + " is not in the scene's folder.";
-  if (!is_there(reference.file)) look_beside(scene, reference, options.reach, files);
+  if (!path_exists(reference.file)) look_next_to_scene(scene, reference, options.reach, files);
   try {
     if (!pictures.find(reference)) pictures.put(reference, files.picture(reference));
   } catch (const Error& error) {
@@ -92,8 +92,8 @@ namespace {
 
 /// Withholds the files that are out of a scene's reach, before any file is accessed. Throws Error
 /// if pictures may not be missing. A picture that also lies next to the scene is taken from there.
-void keep_in_reach(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
-                   PictureFiles& files, Pictures& pictures) {
+void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
+                          PictureFiles& files, Pictures& pictures) {
   const Path folder = scene.parent_path();
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
@@ -107,7 +107,7 @@ void keep_in_reach(std::vector<Layer>& layers, const Path& scene, const LoadOpti
       pictures.withhold(file);
     };
     if (auto& image = layers[i].image; image && !options.reach.covers(image->file, folder)) {
-      look_beside(scene, *image, options.reach, files);
+      look_next_to_scene(scene, *image, options.reach, files);
       if (!options.reach.covers(image->file, folder)) withhold(image->file, "/image/file");
     }
     if (const auto& surface = layers[i].deformation.surface;
@@ -129,8 +129,8 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   } catch (const Error& error) {
     throw about(path, error);
   }
-  for_each_file(layers, [&](std::string& file) { file = beside(path, file).string(); });
-  keep_in_reach(layers, path, options, files, loaded.pictures);
+  for_each_file(layers, [&](std::string& file) { file = resolved_path(path, file).string(); });
+  withhold_unreachable(layers, path, options, files, loaded.pictures);
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
@@ -139,7 +139,7 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene.layers = shared(std::move(layers));
-  if (!options.recovers) loaded.scene = without_origin(std::move(loaded.scene));
+  if (!options.keeps_origin) loaded.scene = without_origin(std::move(loaded.scene));
   return loaded;
 }
 
@@ -194,7 +194,7 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   }
   std::vector<Layer> layers;
   for (const OraLayer& each : ora_layers(read_file(path), path.string())) {
-    if (layers.size() == kMostLayers) {
+    if (layers.size() == kMaxLayers) {
       loaded.warning += "Only the lowest 100 layers were opened.";
       break;
     }
@@ -238,7 +238,7 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
   };
   const auto texture = [&]() -> std::string {
     if (file.materials.empty()) return "";
-    return texture_of_materials(read_file(in_reach(beside(obj, file.materials))));
+    return texture_of_materials(read_file(in_reach(resolved_path(obj, file.materials))));
   }();
   if (texture.empty())
     throw Error(
@@ -246,7 +246,8 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
         obj.string() +
             ": this surface has no texture picture. Open a picture, give it a cage and drop "
             "the surface onto it");
-  LoadedScene loaded = scene_of_image(in_reach(beside(beside(obj, file.materials), texture)));
+  LoadedScene loaded =
+      scene_of_image(in_reach(resolved_path(resolved_path(obj, file.materials), texture)));
   try {
     const Image& texture_image = *loaded.image();
     Deformation deformation =

@@ -23,8 +23,8 @@ struct LoadOptions {
   /// Otherwise both are errors.
   bool pictures_may_be_missing = false;
   Reach reach = {};
-  double open_pixels = 0;  ///< of pictures that are already open
-  bool recovers = false;   ///< keep what an autosave says about its origin
+  double open_pixels = 0;     ///< of pictures that are already open
+  bool keeps_origin = false;  ///< keep what an autosave says about its origin
 };
 /// Reads a scene file and the pictures that it names, relative to the file's folder. A missing
 /// picture is looked for next to the scene. Throws Error.

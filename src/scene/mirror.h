@@ -13,7 +13,7 @@ class Mirror {
   explicit Mirror(const Deformation& deformation) {
     const Box box = box_of(outline_of(deformation.rest));
     axis_ = box.center().real();
-    far_ = 0.02 * box.diagonal();
+    tolerance_ = 0.02 * box.diagonal();
   }
 
   /// The x coordinate of the line.
@@ -26,19 +26,19 @@ class Mirror {
   /// The index of the counterpart of z among these points, z being one of them: the point nearest
   /// to the mirror image of z, provided that it is within 2 % of the cage's size and that z is the
   /// point nearest to its own mirror image.
-  std::optional<size_t> counterpart(const Points& places, Complex z) const {
+  std::optional<size_t> counterpart(const Points& points, Complex z) const {
     const auto nearest_to = [&](Complex wanted) {
-      return std::ranges::min_element(places, {}, [&](Complex w) { return std::abs(w - wanted); });
+      return std::ranges::min_element(points, {}, [&](Complex w) { return std::abs(w - wanted); });
     };
     const auto nearest = nearest_to((*this)(z));
-    if (nearest == places.end() || std::abs(*nearest - (*this)(z)) > far_ ||
+    if (nearest == points.end() || std::abs(*nearest - (*this)(z)) > tolerance_ ||
         *nearest_to((*this)(*nearest)) != z)
       return {};
-    return static_cast<size_t>(nearest - places.begin());
+    return static_cast<size_t>(nearest - points.begin());
   }
 
  private:
-  double axis_ = 0, far_ = 0;
+  double axis_ = 0, tolerance_ = 0;
 };
 
 }  // namespace holomorph

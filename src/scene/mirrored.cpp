@@ -9,8 +9,8 @@
 namespace holomorph {
 namespace {
 
-size_t counterpart(const Mirror& mirror, const Points& places, Complex z, const char* what) {
-  if (const auto found = mirror.counterpart(places, z)) return *found;
+size_t counterpart(const Mirror& mirror, const Points& positions, Complex z, const char* what) {
+  if (const auto found = mirror.counterpart(positions, z)) return *found;
   throw Error(ErrorKind::bad_input,
               std::string("the pose cannot be mirrored: a ") + what +
                   " has no counterpart on the other side of the cage's middle",
@@ -40,11 +40,11 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
 
 std::vector<PosePin> mirrored_pins(const Mirror& mirror, const std::vector<Pin>& pins,
                                    const std::vector<PosePin>& posed) {
-  Points places;
-  for (const Pin& pin : pins) places.push_back(pin.rest);
+  Points positions;
+  for (const Pin& pin : pins) positions.push_back(pin.rest);
   std::vector<PosePin> result;
-  for (const Complex& z : places) {
-    const PosePin& other = posed[counterpart(mirror, places, z, "pin")];
+  for (const Complex& z : positions) {
+    const PosePin& other = posed[counterpart(mirror, positions, z, "pin")];
     result.push_back({mirror(other.position), -other.angle, other.scale});
   }
   return result;

@@ -19,8 +19,8 @@ double eased(Ease ease, double u) {
 
 /// The expected rotation of the picture from one pose to another, including whole turns: that of
 /// the first pin with an angle, or else the average over the corners.
-ExpectedTurn expected_turn(const Deformation& deformation, const Pose& from, const Pose& to,
-                           int turns) {
+ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
+                               int turns) {
   ExpectedTurn expected;
   // Slightly less than whole turns: of two equally near rotations, the smaller one is chosen.
   expected.radians = 2 * kPi * turns * (1 - kTie);
@@ -143,7 +143,7 @@ void Motion::align(const Deformation& deformation) {
         i == 0 ? between_->shape_of(key.f)
                : between_->shape_of(
                      key.f, &before,
-                     expected_turn(deformation, keys_[i - 1].pose, key.pose, key.turns));
+                     expected_rotation(deformation, keys_[i - 1].pose, key.pose, key.turns));
     key.whole_turns = shape.turns;
     key.turned = shape.logarithm.imag().mean();
     before = std::move(shape);
@@ -177,7 +177,7 @@ const Motion::Slopes& Motion::slopes_from(size_t key) const {
   return *slopes_;
 }
 
-Motion::Place Motion::place_of(double time) const {
+Motion::TimePosition Motion::position_of(double time) const {
   const auto next = std::ranges::upper_bound(keys_, time, {}, &Key::time);
   if (next == keys_.begin()) return {0, 0};
   const size_t from = static_cast<size_t>(next - keys_.begin()) - 1;
@@ -185,7 +185,7 @@ Motion::Place Motion::place_of(double time) const {
   return {from, (time - keys_[from].time) / (next->time - keys_[from].time)};
 }
 
-const VectorXc* Motion::key_beside(double time, bool later) const {
+const VectorXc* Motion::neighboring_key(double time, bool later) const {
   constexpr double kHere = 1e-3;
   const VectorXc* found = nullptr;
   for (const Key& key : keys_) {
@@ -199,7 +199,7 @@ const Pose* Motion::pose_at(double time) const {
   constexpr double kHere = 1e-9;  // seconds; the times of frames are rounded
   for (const Key& key : keys_)
     if (std::abs(key.time - time) < kHere) return &key.pose;
-  const auto [i, u] = place_of(time);
+  const auto [i, u] = position_of(time);
   if (u == 0) return &keys_[i].pose;
   // Between two keys with the same pose nothing moves, unless a smooth motion passes through them.
   constexpr double kStill = 1e-9;  // relative to the size
@@ -209,22 +209,22 @@ const Pose* Motion::pose_at(double time) const {
   return moved <= kStill * box_of(between_->mesh().vertices).diagonal() ? &from.pose : nullptr;
 }
 
-std::vector<Motion::Stretch> Motion::stretches() const {
-  std::vector<Stretch> all;
+std::vector<Motion::KeyInterval> Motion::key_intervals() const {
+  std::vector<KeyInterval> all;
   for (size_t i = 0; i + 1 < keys_.size(); ++i)
     all.push_back({keys_[i].time, keys_[i + 1].time, keys_[i].ease == Ease::hold});
   return all;
 }
 
-double Motion::turned_at(double time) const {
-  const auto [i, u] = place_of(time);
+double Motion::rotation_at(double time) const {
+  const auto [i, u] = position_of(time);
   const double from = keys_[i].turned;
   if (u == 0) return from;
   const double s = eased(keys_[i].ease, u);
   return from + s * (keys_[i + 1].turned - from);
 }
 
-void keep_turns(Deformation& deformation, const Deformation& before, const Motion& motion) {
+void preserve_turns(Deformation& deformation, const Deformation& before, const Motion& motion) {
   const auto is_new = [&](const Keyframe& key) {
     return key_at(before, key.time) == before.keyframes.size();
   };
@@ -239,15 +239,15 @@ void keep_turns(Deformation& deformation, const Deformation& before, const Motio
     Keyframe& to = deformation.keyframes[playing[i]];
     if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
       continue;
-    const double given = expected_turn(before, pose_at(from), pose_at(to), 0).radians,
-                 beyond = motion.turned_at(to.time) - motion.turned_at(from.time) - given;
+    const double given = expected_rotation(before, pose_at(from), pose_at(to), 0).radians,
+                 beyond = motion.rotation_at(to.time) - motion.rotation_at(from.time) - given;
     const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
-    to.turns = std::min(turns, kMostTurns) * (beyond < 0 ? -1 : 1);
+    to.turns = std::min(turns, kMaxTurns) * (beyond < 0 ? -1 : 1);
   }
 }
 
 VectorXc Motion::map_at(double time) const {
-  const auto [i, u] = place_of(time);
+  const auto [i, u] = position_of(time);
   const Key& from = keys_[i];
   if (u == 0) return from.f;
   const Key& to = keys_[i + 1];
@@ -265,20 +265,20 @@ VectorXc Motion::map_at(double time) const {
   return f;
 }
 
-Motion::Frame Motion::frame_at(Complex rest, const VectorXc& map) const {
+Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) const {
   const Mesh& mesh = between_->mesh();
   const auto [known, fresh] = locations_.try_emplace({rest.real(), rest.imag()});
   if (fresh) known->second = locate_near(mesh, rest);
   const Location& at = known->second;
   const Triangle& t = mesh.triangles[static_cast<size_t>(at.triangle)];
-  Frame frame{at.in(mesh, as_span(map)), derivatives_in(mesh, t, map).fz};
+  LocalMap frame{at.in(mesh, as_span(map)), derivatives_in(mesh, t, map).fz};
   if (std::abs(frame.fz) < 1e-9) frame.fz = 1e-9;
   return frame;
 }
 
 Deformation Motion::deformation_at(const Deformation& deformation, double time,
                                    const VectorXc& map) const {
-  const auto [i, u] = place_of(time);
+  const auto [i, u] = position_of(time);
   const Key& a = keys_[i];
   if (u == 0) return posed_as(deformation, a.pose);
   const Key& b = keys_[i + 1];
@@ -286,8 +286,8 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   // A handle with the same position at both keys stays there. Other handles follow the picture.
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
     if (at_a == at_b && b.turns == 0) return at_a;
-    const Frame now = frame_at(rest, map), before = frame_at(rest, a.f),
-                after = frame_at(rest, b.f);
+    const LocalMap now = local_map_at(rest, map), before = local_map_at(rest, a.f),
+                   after = local_map_at(rest, b.f);
     return now.f +
            now.fz * ((1 - s) * (at_a - before.f) / before.fz + s * (at_b - after.f) / after.fz);
   };

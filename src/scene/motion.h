@@ -41,23 +41,23 @@ class Motion {
 
   /// The map at the last key before a time or, if `later`, at the first key after it. Null if there
   /// is no such key.
-  const VectorXc* key_beside(double time, bool later) const;
+  const VectorXc* neighboring_key(double time, bool later) const;
   /// The key pose that is displayed at a time: at a key, while a key is held, before the first key
   /// and after the last one. Null while the pose changes between two keys.
   const Pose* pose_at(double time) const;
   /// The average rotation of the picture at a time, in radians, including whole turns.
-  double turned_at(double time) const;
+  double rotation_at(double time) const;
   /// Whether a time is between the first key and the last.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
   }
 
   /// The interval from one key that plays to the next.
-  struct Stretch {
+  struct KeyInterval {
     double from = 0, to = 0;
     bool held = false;  ///< nothing moves until its end
   };
-  std::vector<Stretch> stretches() const;
+  std::vector<KeyInterval> key_intervals() const;
 
   /// f at the mesh's vertices. It is constant before the first key and after the last one.
   VectorXc map_at(double time) const;
@@ -83,16 +83,16 @@ class Motion {
   };
   /// The position of a time: at key `from` or, for u > 0, at the fraction u of the way to the next
   /// key.
-  struct Place {
+  struct TimePosition {
     size_t from = 0;
     double u = 0;
   };
   /// The first-order behavior of a map near a rest position z: w -> f + fz (w - z).
-  struct Frame {
+  struct LocalMap {
     Complex f, fz;
   };
-  Place place_of(double time) const;
-  Frame frame_at(Complex rest, const VectorXc& map) const;
+  TimePosition position_of(double time) const;
+  LocalMap local_map_at(Complex rest, const VectorXc& map) const;
   void align(const Deformation& deformation);
   const Inbetween::Shape& shape_at(size_t key) const;
   VectorXc slopes_at(size_t key) const;
@@ -112,6 +112,6 @@ class Motion {
 
 /// Sets the whole turns of the keys that `before` does not have, and of the keys after them, so
 /// that the picture rotates as it did in `motion`, the motion of `before`.
-void keep_turns(Deformation& deformation, const Deformation& before, const Motion& motion);
+void preserve_turns(Deformation& deformation, const Deformation& before, const Motion& motion);
 
 }  // namespace holomorph

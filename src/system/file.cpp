@@ -75,7 +75,7 @@ Path folder_of(const Path& path) {
 
 /// The permissions of new files. umask() can only be queried by setting it, which would affect
 /// files that other threads are creating.
-mode_t mode_of_new_files() {
+mode_t default_file_mode() {
   static const mode_t mask = [] {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;)
@@ -88,7 +88,7 @@ mode_t mode_of_new_files() {
 /// The permissions of the file that is replaced, or those of new files.
 mode_t mode_for(const Path& path) {
   struct stat before {};
-  return ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : mode_of_new_files();
+  return ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : default_file_mode();
 }
 
 constexpr std::string_view kTemporary = ".holomorph-";
@@ -99,7 +99,7 @@ bool is_temporary(const std::string& name) {
          name.find_first_not_of("0123456789abcdef", kTemporary.size()) == std::string::npos;
 }
 
-Path fresh_temporary(const Path& folder) {
+Path temporary_path(const Path& folder) {
   thread_local std::random_device random;
   char name[32];
   std::snprintf(name, sizeof name, "%s%08x", kTemporary.data(), random());
@@ -108,7 +108,7 @@ Path fresh_temporary(const Path& folder) {
 
 /// Removes what a NewFile or a NewFolder left behind, unless it is in use or something else has
 /// that name.
-void remove_left(int folder, const char* name) {
+void remove_leftover(int folder, const char* name) {
   const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return;
   const Descriptor closed{fd};
@@ -154,13 +154,13 @@ void clean(const Path& folder) {
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (is_temporary(name)) remove_left(fd, name.c_str());
+    if (is_temporary(name)) remove_leftover(fd, name.c_str());
   }
 }
 
 /// Locks a file or folder that was just created. Returns false if another process has removed it
 /// before.
-bool lock_fresh(int descriptor) {
+bool lock_created(int descriptor) {
   while (::flock(descriptor, LOCK_EX) != 0)
     if (errno != EINTR) break;  // without locks, no process removes anything
   struct stat found {};
@@ -194,7 +194,7 @@ Path absolute_path(const Path& path) {
   return (error ? path : absolute).lexically_normal();
 }
 
-bool is_there(const Path& path) {
+bool path_exists(const Path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error);
 }
@@ -312,9 +312,9 @@ NewFile::NewFile(const Path& wanted, Readers readers)
   clean(folder);
   constexpr int kAttempts = 100;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    temporary_ = fresh_temporary(folder);
+    temporary_ = temporary_path(folder);
     descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (descriptor_ >= 0 && lock_fresh(descriptor_)) return;
+    if (descriptor_ >= 0 && lock_created(descriptor_)) return;
     if (descriptor_ < 0 && errno != EEXIST) fail(path_, "cannot write here");
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -343,20 +343,20 @@ void NewFile::put_in_place() {
   sync_directory(folder_of(path_));
 }
 
-NewFolder::NewFolder(const Path& beside) {
-  const Path folder = folder_of(beside);
+NewFolder::NewFolder(const Path& neighbor) {
+  const Path folder = folder_of(neighbor);
   clean(folder);
   constexpr int kAttempts = 100;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    path_ = fresh_temporary(folder);
+    path_ = temporary_path(folder);
     const bool made = ::mkdir(path_.c_str(), 0700) == 0;
-    if (!made && errno != EEXIST) fail(beside, "cannot write here");
+    if (!made && errno != EEXIST) fail(neighbor, "cannot write here");
     if (!made) continue;
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (descriptor_ >= 0 && lock_fresh(descriptor_)) return;
+    if (descriptor_ >= 0 && lock_created(descriptor_)) return;
     if (descriptor_ >= 0) ::close(descriptor_);
   }
-  fail(beside, "cannot write here");
+  fail(neighbor, "cannot write here");
 }
 
 NewFolder::~NewFolder() {

@@ -15,7 +15,7 @@ using Path = std::filesystem::path;
 Path absolute_path(const Path& path);
 
 /// Whether there is a file or folder with this name; false for names that cannot be looked up.
-bool is_there(const Path& path);
+bool path_exists(const Path& path);
 /// Whether there is a regular file with this name.
 bool is_file(const Path& path);
 
@@ -62,7 +62,7 @@ class NewFile {
 class NewFolder {
  public:
   /// Creates the folder next to a file. Throws Error{failed}.
-  explicit NewFolder(const Path& beside);
+  explicit NewFolder(const Path& neighbor);
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;

@@ -27,7 +27,7 @@ Job::~Job() {
   thread_.join();
 }
 
-bool Job::ends_within(double milliseconds) const {
+bool Job::ended_within(double milliseconds) const {
   using namespace std::chrono;
   const auto end = steady_clock::now() + duration<double, std::milli>(milliseconds);
   while (!ended_ && steady_clock::now() < end) std::this_thread::sleep_for(microseconds(500));

@@ -43,7 +43,7 @@ class Job {
   bool cancelled() const { return progress_.cancelled_; }
   bool ended() const { return ended_; }
   /// Waits for at most this long. Returns whether the job has ended.
-  bool ends_within(double milliseconds) const;
+  bool ended_within(double milliseconds) const;
   /// What went wrong in a job that has ended.
   std::optional<Error> error() const;
 

@@ -57,11 +57,12 @@ bool has_program(const std::string& name) {
   return false;
 }
 
-std::optional<Finished> run_program(const std::vector<std::string>& words, const std::string& input,
-                                    const std::function<bool()>& go_on, size_t limit) {
+std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
+                                         const std::string& input,
+                                         const std::function<bool()>& keep_running, size_t limit) {
   const std::optional<Child> child = start_program(words);
   if (!child) return {};
-  Finished finished;
+  ProcessResult finished;
   size_t sent = 0;
   bool good = true, told_end = false, ended = false;
   int status = 0;
@@ -92,7 +93,7 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
     } else {
       break;
     }
-    good = good && go_on() && finished.output.size() <= limit;
+    good = good && keep_running() && finished.output.size() <= limit;
   }
   ::close(child->socket);
   // The program may have closed its output and still run, or refuse to end.
@@ -100,7 +101,7 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
     const pid_t found = ::waitpid(child->pid, &status, WNOHANG);
     ended = found == child->pid || (found < 0 && errno != EINTR);
     if (ended) break;
-    if (good && !go_on()) good = false, waited = 0;
+    if (good && !keep_running()) good = false, waited = 0;
     if (!good) ::kill(child->pid, waited < 1000 ? SIGTERM : SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -8,7 +8,7 @@
 
 namespace holomorph {
 
-struct Finished {
+struct ProcessResult {
   int status = 0;      ///< exit status; 1 if it was ended by a signal
   std::string output;  ///< what it wrote to standard output
 };
@@ -28,11 +28,12 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
                                    int passed = -1);
 inline constexpr int kPassedDescriptor = 3;
 
-/// Runs a program found on the PATH, gives it `input` and waits for it. `go_on` is called every few
-/// hundredths of a second; if it returns false, the program is ended. A program that writes more
-/// than `limit` bytes is also ended. None in these two cases, and if it cannot be started.
-std::optional<Finished> run_program(
+/// Runs a program found on the PATH, gives it `input` and waits for it. `keep_running` is called
+/// every few hundredths of a second; if it returns false, the program is ended. A program that
+/// writes more than `limit` bytes is also ended. None in these two cases, and if it cannot be
+/// started.
+std::optional<ProcessResult> run_program(
     const std::vector<std::string>& words, const std::string& input = "",
-    const std::function<bool()>& go_on = [] { return true; }, size_t limit = 512u << 20);
+    const std::function<bool()>& keep_running = [] { return true; }, size_t limit = 512u << 20);
 
 }  // namespace holomorph

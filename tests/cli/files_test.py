@@ -290,7 +290,7 @@ class Files(Case):
                 ("--max-groups", "3", "8", ["new", self.path("red.png"), "--cage", deep, "--force", "--out", self.path("n.json")])):
             with self.subTest(option=option, words=words):
                 said = self.bad(*words, option, little, says=option).stderr
-                self.assertIn("at most", said)
+                self.assertIn("the limit is", said)
                 self.good(*words, option, enough)
                 # The limit that the message suggests is enough.
                 asked = said.split(option + " ")[1].split()[0]

@@ -11,8 +11,8 @@ namespace {
 const Points kSquare{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
 
 /// Two layers with the same cage; the upper one is edited.
-struct TwoLayers : Desk {
-  TwoLayers() : Desk(kSquare) {
+struct TwoLayers : TestWorkspace {
+  TwoLayers() : TestWorkspace(kSquare) {
     run("layer.double", workspace);
     settle();
   }
@@ -125,7 +125,7 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
 
 TEST_CASE("Folds are walked from the worst one on, and around") {
   // Two corners of the square cross to the other side, one of them farther.
-  Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
+  TestWorkspace desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
   Workspace& w = desk.workspace;
   run("view.fold", w);
   CHECK(w.messages.toasts.back().text == "Nothing folds.");
@@ -147,7 +147,7 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
 }
 
 TEST_CASE("A box around a picture moves all of it, and the view is of where it is") {
-  Desk desk(Points{});
+  TestWorkspace desk(Points{});
   ImageReference reference = reference_in("/nowhere/blank.png");
   const Picture blank{std::make_shared<const Image>(100, 80), "", {}};
   reference = described(reference, blank);

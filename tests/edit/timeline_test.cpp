@@ -13,21 +13,21 @@ namespace {
 
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
-void act(Desk& desk, const char* id) {
+void act(TestWorkspace& desk, const char* id) {
   run(id, desk.workspace);
   desk.workspace.update_map({});
 }
 
-void go_to(Desk& desk, double time) {
+void go_to(TestWorkspace& desk, double time) {
   desk.workspace.go_to_time(time);
   desk.workspace.update_map({});
 }
 
 /// A bar with keys at 0 (at rest) and at 1 s (moved to the right by 40).
-void set_two_keys(Desk& desk) {
+void set_two_keys(TestWorkspace& desk) {
   act(desk, "time.key");
   desk.workspace.shown.timeline.go_to(1);
-  desk.workspace.shown.timeline.shows = false;
+  desk.workspace.shown.timeline.active = false;
   Deformation moved = desk.deformation();
   for (Points& segment : moved.pose.segments) segment[0] += 40.0;
   desk.workspace.commit("Move", moved);
@@ -37,7 +37,7 @@ void set_two_keys(Desk& desk) {
 }  // namespace
 
 TEST_CASE("Timeline: keys are set, and the picture between them is shown") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   CHECK(desk.deformation().keyframes.size() == 2);
   CHECK(desk.workspace.shown.timeline.visible);
@@ -50,7 +50,7 @@ TEST_CASE("Timeline: keys are set, and the picture between them is shown") {
 }
 
 TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to it") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.5);
   const size_t steps = desk.steps();
@@ -60,7 +60,7 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   desk.workspace.update_map({});  // as the window does while it is dragged
   desk.move({400, 200});
   desk.release({400, 200});
-  CHECK_FALSE(desk.workspace.shown.timeline.shows);
+  CHECK_FALSE(desk.workspace.shown.timeline.active);
   CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-6);
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
   CHECK(desk.deformation().keyframes.size() == 2);
@@ -69,23 +69,23 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   CHECK_FALSE(desk.workspace.messages.toasts.empty());  // it has no key
   act(desk, "edit.undo");
   CHECK(desk.workspace.shown.timeline.time == 0.5);  // where it was made
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.deformation().pose.vertex(2).real() == Approx(320).margin(1e-3));
   act(desk, "edit.redo");
   act(desk, "time.key");  // now it is one
   CHECK(desk.deformation().keyframes.size() == 3);
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   CHECK(std::abs(desk.deformation().keyframes[1].pose.cage.vertex(2) - Complex(400, 200)) < 1e-6);
 }
 
 TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   act(desk, "time.auto_key");
   go_to(desk, 0.5);
   desk.drag(desk.deformation().pose.vertex(2), Complex(400, 200));
   desk.workspace.update_map({});
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   REQUIRE(desk.deformation().keyframes.size() == 3);
   CHECK(desk.deformation().keyframes[1].time == 0.5);
   CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-3);
@@ -93,12 +93,12 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   act(desk, "edit.undo");
   CHECK(desk.deformation().keyframes.size() == 2);
   // The time stays shown, and the next edit is one of what is there.
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
 }
 
 TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
   CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
@@ -113,7 +113,7 @@ TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
 
 TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
   for (const bool auto_key : {false, true}) {
-    Desk desk(kBar);
+    TestWorkspace desk(kBar);
     set_two_keys(desk);
     desk.workspace.shown.timeline.auto_key = auto_key;
     // The own pose is that of the second key: copied there, pasted onto the first.
@@ -123,7 +123,7 @@ TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
     CHECK(desk.deformation().pose.vertex(0) == Complex(0, 0));
     act(desk, "time.paste");
     CHECK(desk.deformation().pose.vertex(0) == Complex(40, 0));
-    CHECK(desk.workspace.shown.timeline.shows == auto_key);
+    CHECK(desk.workspace.shown.timeline.active == auto_key);
     if (auto_key) CHECK(desk.deformation().keyframes[0].pose.cage.vertex(0) == Complex(40, 0));
     act(desk, "edit.undo");
     go_to(desk, 0.5);
@@ -133,7 +133,7 @@ TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
 }
 
 TEST_CASE("Timeline: while a time's picture is on its way no key is set from another pose") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);
   desk.workspace.commit("Method", with_method(desk.deformation(), "harmonic"));
@@ -150,7 +150,7 @@ TEST_CASE("Timeline: while a time's picture is on its way no key is set from ano
 }
 
 TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   act(desk, "time.key");
   desk.workspace.shown.timeline.time = 1;
   act(desk, "time.key");
@@ -162,7 +162,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       desk.workspace.commit("Turns", deformation, EditBase::document);
       const auto turned = [&](double at) {
         go_to(desk, at);
-        return desk.workspace.map().motion().turned_at(at);
+        return desk.workspace.map().motion().rotation_at(at);
       };
       const double before = turned(0.9), mid = turned(time);
       CHECK(before == Approx(0.9 * 2 * kPi * turns).margin(1e-6));
@@ -178,7 +178,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
 }
 
 TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   act(desk, "time.auto_key");
   go_to(desk, 0);
@@ -188,7 +188,7 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
                         EditBase::document);
   CHECK(desk.workspace.shown.own().keyframes[0].pose == first);
   CHECK(desk.steps() == steps + 1);
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   desk.workspace.update_map({});
   for (const double time : {1.25, 1.5, 1.75}) {
     desk.workspace.commit_or_amend(
@@ -204,7 +204,7 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
 }
 
 TEST_CASE("Timeline: two drags of keys are two steps") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   const size_t steps = desk.steps();
   Workspace& w = desk.workspace;
@@ -220,9 +220,9 @@ TEST_CASE("Timeline: two drags of keys are two steps") {
 }
 
 TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   Deformation deformation = desk.deformation();
-  for (size_t i = 0; i < kMostKeyframes; ++i)
+  for (size_t i = 0; i < kMaxKeyframes; ++i)
     deformation.keyframes.push_back({static_cast<double>(i), whole_pose_of(deformation)});
   REQUIRE(desk.workspace.commit("Many keys", deformation, EditBase::document));
   desk.workspace.shown.timeline.auto_key = true;
@@ -236,12 +236,12 @@ TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
 }
 
 TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the time") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.25);
   Deformation other = with_method(desk.deformation(), "harmonic");
   desk.workspace.commit("Method", other);
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);
   // An inserted point goes into all keyframes; the own pose is then the shown one.
   desk.settle();
@@ -253,7 +253,7 @@ TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the ti
 }
 
 TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture is there") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
   desk.workspace.tools.active = ToolId::pin;
@@ -266,7 +266,7 @@ TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture 
 }
 
 TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the picture is there") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
   desk.workspace.tools.active = ToolId::stroke;
@@ -283,7 +283,7 @@ TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the pic
 }
 
 TEST_CASE("Timeline: the onion skin is the keys before and after") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.5);
   CHECK(desk.workspace.onion_skins().empty());
@@ -297,7 +297,7 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
   Deformation deformation = desk.workspace.shown.own();
   for (Points& segment : deformation.keyframes[1].pose.cage.segments) segment[0] += 7.0;
   desk.workspace.commit("Key", deformation, EditBase::document);
-  desk.workspace.shown.timeline.shows = false;
+  desk.workspace.shown.timeline.active = false;
   desk.workspace.update_map({});
   CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
   deformation.keyframes.insert(deformation.keyframes.begin() + 1,
@@ -324,7 +324,7 @@ Complex straight(double seconds) {
 }
 
 /// Two seconds with Ctrl, sixty times a second.
-void record(Desk& desk, Way way = on_arc) {
+void record(TestWorkspace& desk, Way way = on_arc) {
   constexpr Modifiers kCtrl{true, false, false};
   desk.now_ms = 5000;
   desk.press(way(0), kCtrl);
@@ -341,7 +341,7 @@ void record(Desk& desk, Way way = on_arc) {
 }  // namespace
 
 TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   const size_t steps = desk.steps();
   record(desk);
   const Deformation& deformation = desk.workspace.shown.own();
@@ -351,7 +351,7 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
   CHECK(deformation.keyframes.front().time == 0);
   CHECK(length_of(desk.workspace.document.scene()) == 2);
   CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // its own pose stays
-  CHECK(desk.workspace.shown.timeline.shows);
+  CHECK(desk.workspace.shown.timeline.active);
   for (const double time : {0.3, 0.77, 1.31, 1.9}) {
     go_to(desk, time);
     INFO("at " << time << " s");
@@ -362,7 +362,7 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
 }
 
 TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   record(desk, straight);
   CHECK(desk.workspace.shown.own().keyframes.size() <= 10);
   for (const double time : {0.2, 0.9, 1.5, 1.95}) {
@@ -374,7 +374,7 @@ TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
 }
 
 TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of others") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();
   deformation.keyframes[0].pose.pins.push_back({{5, 5}});  // another structure
@@ -396,11 +396,11 @@ TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of 
   CHECK(after.keyframes[0] == hollow);
   CHECK(after.keyframes.back().time == 3);
   go_to(desk, 3);
-  CHECK(desk.workspace.map().motion().turned_at(3) == Approx(2 * kPi).margin(0.05));
+  CHECK(desk.workspace.map().motion().rotation_at(3) == Approx(2 * kPi).margin(0.05));
 }
 
 TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();
   Points& segment = deformation.keyframes[1].pose.cage.segments[0];
@@ -437,7 +437,7 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
 }
 
 TEST_CASE("Timeline: another document opened during a recording keeps its time") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.75);
   const Complex from = desk.deformation().pose.vertex(2);
@@ -451,10 +451,10 @@ TEST_CASE("Timeline: another document opened during a recording keeps its time")
 }
 
 TEST_CASE("Timeline: what moves already goes on under a recording") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   act(desk, "edit.reset");  // from the deformation's own pose, too
-  CHECK_FALSE(desk.workspace.shown.timeline.shows);
+  CHECK_FALSE(desk.workspace.shown.timeline.active);
   desk.workspace.shown.timeline.time = 0;
   record(desk);
   const Deformation& deformation = desk.workspace.shown.own();
@@ -469,7 +469,7 @@ TEST_CASE("Timeline: what moves already goes on under a recording") {
 }
 
 TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   constexpr Modifiers kCtrl{true, false, false};
   const size_t steps = desk.steps();
   desk.press({300, 100}, kCtrl);
@@ -490,7 +490,7 @@ TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing
 }
 
 TEST_CASE("Timeline: time goes on, loops, and stops at the end") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   Timeline& timeline = desk.workspace.shown.timeline;
   const Scene& scene = desk.workspace.document.scene();
@@ -509,7 +509,7 @@ TEST_CASE("Timeline: time goes on, loops, and stops at the end") {
 }
 
 TEST_CASE("Timeline: steps by frames and keys") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);
   act(desk, "time.forward");
@@ -528,7 +528,7 @@ TEST_CASE("Timeline: steps by frames and keys") {
 }
 
 TEST_CASE("Timeline: poses are copied, pasted and mirrored") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   desk.drag({300, 0}, {360, 10});
   act(desk, "time.copy");
   act(desk, "edit.undo");

@@ -22,7 +22,7 @@ Scene film_scene() {
   return scene_of(with_key(deformation, 0.5));
 }
 
-Image grey() {
+Image gray() {
   Image image(40, 30);
   for (std::uint8_t& value : image.pixels) value = 200;
   return image;
@@ -31,7 +31,7 @@ Image grey() {
 }  // namespace
 
 TEST_CASE("A canceled film leaves no file, and existing files stay") {
-  const Image image = grey();
+  const Image image = gray();
   for (const char* kind : {".webp", ".gif", ".apng", ".png"}) {
     INFO(kind);
     const Folder folder;
@@ -68,7 +68,7 @@ TEST_CASE("A canceled film leaves no file, and existing files stay") {
 
 TEST_CASE("A folder with the name of a frame is reported before any frame is replaced") {
   const Folder folder;
-  const Image image = grey();
+  const Image image = gray();
   const Path out = folder.path / "film.png";
   write_file(numbered(out, 0), "what was there");
   std::filesystem::create_directory(numbered(out, 7));
@@ -85,7 +85,7 @@ TEST_CASE("A folder with the name of a frame is reported before any frame is rep
 TEST_CASE("A film on its own thread reports its progress, and ends when it is canceled") {
   const Folder folder;
   const Path out = folder.path / "film.apng";
-  const Image image = grey();
+  const Image image = gray();
   const auto film_into = [&](const Path& path) {
     return [&image, path](Job::Progress& progress) {
       write_film(path, film_scene(), &image, {},
@@ -105,7 +105,7 @@ TEST_CASE("A film on its own thread reports its progress, and ends when it is ca
   std::filesystem::remove(out);
   {
     Job job("Film", film_into(folder.path / "none" / "film.apng"));
-    CHECK(job.ends_within(60000));
+    CHECK(job.ended_within(60000));
     REQUIRE(job.error());
   }
   { Job cancelled("Film", film_into(out)); }
@@ -120,27 +120,27 @@ TEST_CASE("A film on its own thread reports its progress, and ends when it is ca
 
 TEST_CASE("A range of frames equals the same part of the whole film") {
   const Folder folder;
-  const Image image = grey();
-  const auto go_on = [](int, int) { return true; };
+  const Image image = gray();
+  const auto keep_going = [](int, int) { return true; };
   FilmOptions options;
-  write_film(folder.path / "all.png", film_scene(), &image, options, go_on);
+  write_film(folder.path / "all.png", film_scene(), &image, options, keep_going);
   options.first = 4;
   options.last = 6;
-  options.picture.shows = PictureMaker(film_scene(), &image).rectangle();
-  write_film(folder.path / "part.png", film_scene(), &image, options, go_on);
+  options.picture.region = PictureMaker(film_scene(), &image).rectangle();
+  write_film(folder.path / "part.png", film_scene(), &image, options, keep_going);
   CHECK(folder.names().size() == 13 + 3);
   PictureOptions still;
-  still.shows = options.picture.shows;
+  still.region = options.picture.region;
   still.time = 5 / film_scene().animation.frames_per_second;
   CHECK(read_file(numbered(folder.path / "part.png", 1)) ==
         encode_png(picture_of(film_scene(), &image, still).image));
   options.last = 13;
-  CHECK_THROWS_WITH(write_film(folder.path / "no.png", film_scene(), &image, options, go_on),
+  CHECK_THROWS_WITH(write_film(folder.path / "no.png", film_scene(), &image, options, keep_going),
                     Catch::Contains("0 to 12"));
 }
 
 TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame rate") {
-  const Image image = grey();
+  const Image image = gray();
   for (const unsigned seed : seeds_of("rectangles of films", {1, 2, 3})) {
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -168,7 +168,7 @@ TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame ra
       Scene scene = scene_of(deformation);
       scene.animation.frames_per_second = rate;
       const int before = asked;
-      const auto found = PictureMaker(scene, &image).shown([&] { return ++asked > 0; });
+      const auto found = PictureMaker(scene, &image).motion_region([&] { return ++asked > 0; });
       REQUIRE(found.has_value());
       CHECK(asked - before < 4000);
       if (box) {

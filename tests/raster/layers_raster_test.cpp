@@ -36,12 +36,12 @@ constexpr Pixel kRed{255, 0, 0, 255}, kBlue{0, 0, 255, 255}, kNothing{0, 0, 0, 0
 
 /// A red picture of 60 x 40 below a blue one of 30 x 20, which is the edited layer. Both have a
 /// cage.
-struct Two {
+struct TwoLayers {
   Image blue = filled(30, 20, kBlue);
   Pictures pictures;
   Scene scene;
 
-  Two() {
+  TwoLayers() {
     const auto named = [](const char* file, double width, double height) {
       Layer layer;
       layer.image = reference(file);
@@ -66,7 +66,7 @@ Scene moved(Scene scene, Complex by) {
 }  // namespace
 
 TEST_CASE("The upper layer covers the lower one in its own rectangle, and nothing else changes") {
-  Two two;
+  TwoLayers two;
   const Image image = two.drawn().image;
   REQUIRE(image.width == 60);
   REQUIRE(image.height == 40);
@@ -78,7 +78,7 @@ TEST_CASE("The upper layer covers the lower one in its own rectangle, and nothin
 }
 
 TEST_CASE("A layer outside the lowest picture's rectangle enlarges the result, except with crop") {
-  Two two;
+  TwoLayers two;
   two.scene = moved(two.scene, {-10, 30});
   const RasterResult result = two.drawn();
   CHECK(result.image.width == 70);
@@ -97,7 +97,7 @@ TEST_CASE("A layer outside the lowest picture's rectangle enlarges the result, e
 }
 
 TEST_CASE("Hidden layers are not drawn, and a scene with only hidden layers is an error") {
-  Two two;
+  TwoLayers two;
   change_layer(two.scene, [](Layer& layer) { layer.visible = false; });
   CHECK(two.drawn().image == filled(60, 40, kRed));
   Layer state = *two.scene.layers[0];
@@ -109,7 +109,7 @@ TEST_CASE("Hidden layers are not drawn, and a scene with only hidden layers is a
 }
 
 TEST_CASE("The background shows through where no layer is") {
-  Two two;
+  TwoLayers two;
   Layer state = *two.scene.layers[0];
   state.visible = false;
   two.scene = moved(with_layer_at(two.scene, 0, state), {40, 0});
@@ -130,7 +130,7 @@ TEST_CASE("The background shows through where no layer is") {
 }
 
 TEST_CASE("Views of the map show only the edited layer") {
-  const Two two;
+  const TwoLayers two;
   PictureOptions options;
   options.view = View::checker;
   CHECK(two.drawn(options).image.width == 30);
@@ -152,7 +152,7 @@ TEST_CASE("Blended pixels are the mean of their colors, weighted by their visibl
 }
 
 TEST_CASE("Layers with different heights share one pixel grid at any scale") {
-  const Two two;
+  const TwoLayers two;
   PictureOptions options;
   options.scale = 0.37;
   const Image image = two.drawn(options).image;

@@ -243,10 +243,12 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
   onto.include({40, -20});
   onto.include({160, 190});  // beyond the picture
   deformation.outline =
-      laid_onto(surface_of_obj(read_file(file), file).surface, Flattening::circle, onto).outline();
+      flattened_onto(surface_of_obj(read_file(file), file).surface, Flattening::circle, onto)
+          .outline();
   deformation.method = "outline";
   for (const double scale : {0.5, 1.0, 3.0}) {
-    const TexturedSurface on = textured(laid_surface_of(deformation), deformation, &image, scale);
+    const TexturedSurface on =
+        textured(flattened_surface_of(deformation), deformation, &image, scale);
     const int w = on.texture.width, h = on.texture.height;
     CHECK(on.texture.at(0, 0)[3] == 0);  // around the surface it is transparent
     for (const Complex& uv : on.coordinates) {
@@ -260,12 +262,12 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
       }
     }
     // The coordinates are one similarity of the plane, so texture pixels are not stretched.
-    const LaidSurface laid = laid_surface_of(deformation);
+    const FlattenedSurface laid = flattened_surface_of(deformation);
     const Complex first = on.coordinates[0], last = on.coordinates.back();
     CHECK((last - first).real() * w ==
           Approx(scale * (laid.plane.back() - laid.plane[0]).real()).margin(1e-6));
     CHECK((last - first).imag() * h ==
           Approx(scale * (laid.plane.back() - laid.plane[0]).imag()).margin(1e-6));
   }
-  CHECK_THROWS_AS(textured(laid_surface_of(deformation), deformation, nullptr), Error);
+  CHECK_THROWS_AS(textured(flattened_surface_of(deformation), deformation, nullptr), Error);
 }

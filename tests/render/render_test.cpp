@@ -100,21 +100,21 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
     Image shown(width, height);
     read_framebuffer(width, height, shown.pixels.data());
     double sum = 0;
-    int far = 0;
+    int outliers = 0;
     for (int r = 0; r < height; ++r)
       for (int c = 0; c < width; ++c) {
         const std::uint8_t* e = exported.at(c, r);
         for (int k = 0; k < 3; ++k) {
-          const double over_grey = (e[k] * e[3] + 127.5 * (255 - e[3])) / 255;
-          const double difference = std::abs(over_grey - shown.at(c, r)[k]);
+          const double over_gray = (e[k] * e[3] + 127.5 * (255 - e[3])) / 255;
+          const double difference = std::abs(over_gray - shown.at(c, r)[k]);
           sum += difference;
-          far += difference > 40;
+          outliers += difference > 40;
         }
       }
     const double mean = sum / (3.0 * width * height);
-    INFO(name << ", mean difference " << mean << ", far " << far << ", " << driver_name());
-    CHECK(mean < 0.8);                        // of 255
-    CHECK(far < 0.002 * 3 * width * height);  // only silhouettes and small details
+    INFO(name << ", mean difference " << mean << ", far " << outliers << ", " << driver_name());
+    CHECK(mean < 0.8);                             // of 255
+    CHECK(outliers < 0.002 * 3 * width * height);  // only silhouettes and small details
   }
 }
 
@@ -139,11 +139,11 @@ TEST_CASE("Ghosts of the picture are tinted, half transparent, and drawn behind 
   Image shown(kSide, kSide);
   read_framebuffer(kSide, kSide, shown.pixels.data());
   const std::uint8_t *drawn = shown.at(10, 49), *ghost = shown.at(30, 49),
-                     *beside = shown.at(50, 49);
+                     *outside = shown.at(50, 49);
   CHECK((drawn[0] == 255 && drawn[1] == 255));
   CHECK(static_cast<int>(ghost[0]) == Approx(0.4 * 255).margin(2));
   CHECK(static_cast<int>(ghost[1]) == Approx(0.2 * 255).margin(2));
-  CHECK((beside[0] == 0 && beside[1] == 0));
+  CHECK((outside[0] == 0 && outside[1] == 0));
 }
 
 TEST_CASE("A picture too large for the driver is reduced, but keeps its position and size") {
@@ -225,17 +225,17 @@ TEST_CASE("A heat map on the canvas has the colors of the exported one") {
     renderer.draw(frame);
     Image shown(width, height);
     read_framebuffer(width, height, shown.pixels.data());
-    int compared = 0, far = 0;
+    int compared = 0, outliers = 0;
     for (int r = 0; r < height; ++r)
       for (int c = 0; c < width; ++c) {
         const std::uint8_t* e = exported.image.at(c, r);
         if (e[3] != 255) continue;  // the silhouette
         ++compared;
-        for (int k = 0; k < 3; ++k) far += std::abs(e[k] - shown.at(c, r)[k]) > 6;
+        for (int k = 0; k < 3; ++k) outliers += std::abs(e[k] - shown.at(c, r)[k]) > 6;
       }
-    INFO("view " << static_cast<int>(view) << ", far " << far << " of " << compared);
+    INFO("view " << static_cast<int>(view) << ", far " << outliers << " of " << compared);
     CHECK(compared > 20000);
-    CHECK(far < compared / 50);  // only at edges of the checker
+    CHECK(outliers < compared / 50);  // only at edges of the checker
   }
 }
 
@@ -307,10 +307,10 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   const auto back = pixel(50, 50);
   CHECK((back[0] < 0.7 * front[0] && back[0] > 0));
   // Far from the origin the result is the same.
-  Surface far = square;
+  Surface outliers = square;
   const Eigen::Vector3d away(3e7, -2e7, 1e7);
-  for (Eigen::Vector3d& p : far.vertices) p += away;
-  renderer.set_surface(far);
+  for (Eigen::Vector3d& p : outliers.vertices) p += away;
+  renderer.set_surface(outliers);
   renderer.set_coordinates({{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}});
   frame.to_view.topRightCorner<3, 1>() -= away;
   CHECK(pixel(50, 50) == back);

@@ -41,7 +41,7 @@ std::string complaint(const std::string& keys) {
   Deformation deformation = bar();
   std::string text = json_of(scene_of(deformation));
   text.insert(text.rfind('}'), ", \"keyframes\": " + keys);
-  return complaint_of([&] { scene_from_json(text, "s.json"); });
+  return error_message_of([&] { scene_from_json(text, "s.json"); });
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ std::string names(const Scene& scene) {
 }
 
 std::string complaint(const std::string& text) {
-  return complaint_of([&] { scene_from_json(text, "s.json"); });
+  return error_message_of([&] { scene_from_json(text, "s.json"); });
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ TEST_CASE("Moving, duplicating and deleting a layer leaves the other layers unch
   CHECK(names(with_layer_moved(scene, 0)) == "tbm");
   CHECK(with_layer_moved(with_layer_moved(scene, 0), 2) == scene);
   CHECK(with_layer_moved(scene, 1).edited == 1);
-  const Scene doubled = with_layer_doubled(with_edited(scene, 1));
+  const Scene doubled = with_layer_duplicated(with_edited(scene, 1));
   CHECK(names(doubled) == "bmmt");
   CHECK(doubled.layer().name == "middle copy");
   CHECK(doubled.deformation() == scene.layers[1]->deformation);
@@ -83,9 +83,9 @@ TEST_CASE("Moving, duplicating and deleting a layer leaves the other layers unch
   // Ids do not change and are never shared.
   for (size_t i = 0; i < doubled.layers.size(); ++i) {
     const int id = doubled.layers[i]->id;
-    CHECK(layer_of_id(doubled, id) == i);
+    CHECK(layer_index(doubled, id) == i);
   }
-  CHECK(layer_of_id(doubled, 99) == doubled.layers.size());
+  CHECK(layer_index(doubled, 99) == doubled.layers.size());
   Layer hidden = *scene.layers[0];
   hidden.visible = false;
   hidden.id = 77;
@@ -99,7 +99,7 @@ TEST_CASE("Moving, duplicating and deleting a layer leaves the other layers unch
   CHECK(names(both) == "bbmtmt");
   CHECK(both.edited == 2);
   Scene full = scene;
-  while (full.layers.size() < kMostLayers) full = with_layers_added(full, Scene{});
+  while (full.layers.size() < kMaxLayers) full = with_layers_added(full, Scene{});
   CHECK_THROWS_AS(with_layers_added(full, Scene{}), Error);
 }
 
@@ -243,11 +243,11 @@ TEST_CASE(
   const Document moved = Document::open(folder.path / "s.json");
   REQUIRE(moved.image());
   CHECK(moved.image_path() == folder.path / "a.png");
-  CHECK(moved.without_picture().empty());
+  CHECK(moved.layers_without_picture().empty());
   std::filesystem::remove(folder.path / "a.png");
   const Document without = Document::open(folder.path / "s.json");
   CHECK_FALSE(without.image());
-  CHECK(without.without_picture() == std::vector<size_t>{0});
+  CHECK(without.layers_without_picture() == std::vector<size_t>{0});
   CHECK_THAT(without.warning(), Catch::Matchers::Contains("a.png"));
   CHECK(without.image_path() == folder.path / "art" / "a.png");
   CHECK(without.scene().layer().image->sha256 == moved.scene().layer().image->sha256);
@@ -269,7 +269,7 @@ TEST_CASE("A file of the same name next to the scene is not taken for the pictur
   std::filesystem::rename(folder.path / "a" / "hero.png", folder.path / "hero.png");
   std::filesystem::remove(folder.path / "b" / "hero.png");
   const Document opened = Document::open(folder.path / "s.json");
-  CHECK(opened.without_picture() == std::vector<size_t>{1});
+  CHECK(opened.layers_without_picture() == std::vector<size_t>{1});
   CHECK(opened.pictures().of(*opened.scene().layers[0])->width == 8);
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);
 }

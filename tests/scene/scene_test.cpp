@@ -43,7 +43,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string complaint(const std::string& text) {
-  return complaint_of([&] { scene_from_json(text, "scene.json"); });
+  return error_message_of([&] { scene_from_json(text, "scene.json"); });
 }
 
 }  // namespace
@@ -427,12 +427,12 @@ TEST_CASE("A scene reaches its own folder, the allowed folders, and nothing else
     CAPTURE(outside);
     names(outside);
     // The message does not depend on whether the file exists.
-    const std::string said = complaint_of([&] { load_scene(home / "s.json"); });
+    const std::string said = error_message_of([&] { load_scene(home / "s.json"); });
     CHECK_THAT(said, Catch::Contains("--allow-outside") && Catch::Contains("/image/file"));
     const Document document = Document::open(home / "s.json");
     CHECK(document.withheld().size() == 1);
     CHECK_FALSE(document.image());
-    CHECK(document.without_picture().size() == 1);
+    CHECK(document.layers_without_picture().size() == 1);
   }
   names("../away/b.png");
   CHECK(Document::open(home / "s.json", {true}).image());

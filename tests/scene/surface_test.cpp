@@ -6,8 +6,8 @@
 #include "core/geometry/curve.h"
 #include "core/mesh/flatten.h"
 #include "scene/document.h"
+#include "scene/flattened_surface.h"
 #include "scene/formats/scene_json.h"
-#include "scene/laid_surface.h"
 #include "support/complaint.h"
 
 using namespace holomorph;
@@ -87,7 +87,7 @@ TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and li
 
 TEST_CASE("OBJ: damaged data are rejected with the line") {
   const auto complaint = [](const std::string& text) {
-    return complaint_of([&] { surface_of_obj(text, "s.obj"); });
+    return error_message_of([&] { surface_of_obj(text, "s.obj"); });
   };
   CHECK_THAT(complaint("v 0 0 0\nv 1 x 0\n"),
              Catch::Contains("s.obj: line 2") && Catch::Contains("'x'"));
@@ -177,20 +177,20 @@ TEST_CASE("A placed surface is recovered from its own outline, and from no other
   onto.include({100, 50});
   onto.include({700, 650});
   for (const Flattening how : {Flattening::lscm, Flattening::circle}) {
-    const LaidSurface laid = laid_onto(mask, how, onto);
+    const FlattenedSurface laid = flattened_onto(mask, how, onto);
     CHECK(std::abs(box_of(laid.plane).center() - onto.center()) < 1e-9);
     CHECK(box_of(laid.plane).diagonal() == Approx(onto.diagonal()));
     CHECK(signed_area(laid.outline()) > 0);
     Points outline = laid.outline();
-    const LaidSurface again = laid_along({mask, flattened(mask, how)}, outline);
+    const FlattenedSurface again = aligned_with_outline({mask, flattened(mask, how)}, outline);
     for (size_t i = 0; i < laid.plane.size(); ++i)
       REQUIRE(std::abs(again.plane[i] - laid.plane[i]) < 1e-6);
     for (Complex& z : outline) z = std::polar(2.0, 0.7) * z + Complex(5, 9);  // moved by the user
-    CHECK(std::abs(laid_along(laid, outline).plane[3] -
+    CHECK(std::abs(aligned_with_outline(laid, outline).plane[3] -
                    (std::polar(2.0, 0.7) * laid.plane[3] + Complex(5, 9))) < 1e-5);
     outline[4] += 5.0;
-    CHECK_THROWS_WITH(laid_along(laid, outline), Catch::Contains("not this surface's"));
-    CHECK_THROWS_WITH(laid_along(laid, Points{{0, 0}, {1, 0}, {0, 1}}),
+    CHECK_THROWS_WITH(aligned_with_outline(laid, outline), Catch::Contains("not this surface's"));
+    CHECK_THROWS_WITH(aligned_with_outline(laid, Points{{0, 0}, {1, 0}, {0, 1}}),
                       Catch::Contains("not this surface's"));
   }
 }
@@ -204,27 +204,27 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and errors sa
   onto.include({300, 400});
   Deformation deformation =
       with_cage(Deformation{}, Points{{0, 0}, {300, 0}, {300, 400}, {0, 400}});
-  CHECK_THROWS_WITH(laid_surface_of(deformation), Catch::Contains("no surface"));
-  deformation.outline = laid_onto(sample("mask.obj"), Flattening::circle, onto).outline();
+  CHECK_THROWS_WITH(flattened_surface_of(deformation), Catch::Contains("no surface"));
+  deformation.outline = flattened_onto(sample("mask.obj"), Flattening::circle, onto).outline();
   deformation.surface = SurfaceReference{file, Flattening::circle, R"({"kept":1})"};
   for (const Path& at : {folder / "s.json", folder / "inside" / "s.json"}) {
     write_file(at, json_of(portable(scene_of(deformation), at.parent_path())));
     CHECK_THAT(read_file(at), Catch::Contains("\"../") && Catch::Contains("\"kept\": 1"));
     const Deformation again = load_scene(at, {false, {true}}).scene.deformation();
     CHECK(again.surface == deformation.surface);
-    CHECK(laid_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
+    CHECK(flattened_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
   }
   CHECK(portable(scene_of(deformation), {}).deformation().surface ==
         deformation.surface);  // as an autosave has it
   Deformation other = deformation;
   other.surface->flattening = Flattening::lscm;
-  CHECK_THROWS_WITH(laid_surface_of(other),
+  CHECK_THROWS_WITH(flattened_surface_of(other),
                     Catch::Contains("mask.obj") && Catch::Contains("not this surface's"));
   other.surface->file = (folder / "gone.obj").string();
-  CHECK_THROWS_WITH(laid_surface_of(other),
+  CHECK_THROWS_WITH(flattened_surface_of(other),
                     Catch::Contains("gone.obj") && Catch::Contains("no such file"));
   const auto complaint = [](const std::string& surface) {
-    return complaint_of([&] {
+    return error_message_of([&] {
       scene_from_json(R"({"format": "holomorph", "version": 1, "cage": {"rest": []}, )"
                       R"("outline": [[0, 0], [1, 0], [0, 1]], "surface": )" +
                           surface + "}",

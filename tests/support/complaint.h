@@ -10,7 +10,7 @@ namespace holomorph {
 
 /// The message of the Error{bad_input} that `act` throws; empty if it throws none.
 template <class Act>
-std::string complaint_of(const Act& act) {
+std::string error_message_of(const Act& act) {
   try {
     act();
   } catch (const Error& error) {

@@ -7,12 +7,12 @@
 namespace holomorph {
 
 /// A workspace whose viewport shows one plane unit as one pixel, with its tools.
-struct Desk {
+struct TestWorkspace {
   Workspace workspace{MeshOptions{500}};
   std::vector<std::unique_ptr<Tool>> tools;
   double now_ms = 0;
 
-  explicit Desk(const Points& polygon = {}) {
+  explicit TestWorkspace(const Points& polygon = {}) {
     tools.push_back(select_tool());
     tools.push_back(pen_tool());
     tools.push_back(pin_tool());

@@ -64,7 +64,7 @@ bool Canvas::make_room() {
 void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
   if (std::exchange(forgets_, false)) painters_.clear();
   std::erase_if(painters_, [&](const auto& entry) {
-    return layer_of_id(workspace.document.scene(), entry.first) ==
+    return layer_index(workspace.document.scene(), entry.first) ==
            workspace.document.scene().layers.size();
   });
   const double split = workspace.display.split.value_or(0);
@@ -103,12 +103,12 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     frame.over = true;
   };
   if (drawn.empty()) {
-    frame.shows = Shows::nothing;
+    frame.content = Content::nothing;
     return draw(edited, frame);
   }
   if (scene.background.fill == Background::Fill::original && !alone) {
     RenderFrame as_it_was = frame;
-    as_it_was.shows = Shows::original;
+    as_it_was.content = Content::original;
     for (const Layer* layer : drawn) {
       draw(*layer, as_it_was);
       as_it_was.over = true;

@@ -278,8 +278,8 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
       const ImVec2 at =
           px(workspace,
              workspace.at_rest() ? rest[i] : workspace.map().map().f[static_cast<Index>(i)]);
-      const float r = static_cast<float>(level > 0 ? 2 + 2 * level / kMostStiffness
-                                                   : 2 + 2 * level / kLeastStiffness) *
+      const float r = static_cast<float>(level > 0 ? 2 + 2 * level / kMaxStiffness
+                                                   : 2 + 2 * level / kMinStiffness) *
                       s;
       if (level > 0) {
         list.AddRectFilled({at.x - r - s, at.y - 1.6f * s}, {at.x + r + s, at.y + 1.6f * s},
@@ -386,10 +386,10 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
     if (posed && same_rest(*posed, deformation)) {
       const bool at_rest = mode == EditMode::rest;
       for (size_t i = 0; i < deformation.pins.size() && !at_rest; ++i)
-        if (const auto place = workspace.map().pin_place(deformation, i))
+        if (const auto place = workspace.map().pin_image(deformation, i))
           draw_miss(list, px(workspace, deformation.pins[i].pose), px(workspace, *place), style);
       for (const Complex& zero :
-           at_rest ? workspace.map().map().zeros : workspace.map().zero_places())
+           at_rest ? workspace.map().map().zeros : workspace.map().zero_images())
         draw_zero(list, px(workspace, zero), style);
       if (!at_rest) draw_limited_corners(list, workspace, style);
     }

@@ -64,7 +64,7 @@ void SurfacePane::read(const Workspace& workspace) {
       reading_->cancel();
       abandoned_.push_back(std::move(reading_));
     }
-    found_ = std::make_shared<LaidSurface>();
+    found_ = std::make_shared<FlattenedSurface>();
     if (withheld) {
       problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
       return;
@@ -96,7 +96,7 @@ void SurfacePane::follow(const Workspace& workspace) {
   laid_.reset();
   problem_.clear();
   try {
-    laid_ = laid_along(*flat_, outline_);
+    laid_ = aligned_with_outline(*flat_, outline_);
     box_ = Canvas::whole_pixels(box_of(laid_->plane));
     Points coordinates;
     for (const Complex& z : laid_->plane)

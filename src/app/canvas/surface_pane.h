@@ -5,7 +5,7 @@
 #include "app/canvas/overlay.h"
 #include "edit/tools/orbit.h"
 #include "render/surface_renderer.h"
-#include "scene/laid_surface.h"
+#include "scene/flattened_surface.h"
 
 namespace holomorph {
 
@@ -40,14 +40,14 @@ class SurfacePane {
 
   std::function<void()> wake_;
   std::unique_ptr<Drawing> drawing_;
-  std::shared_ptr<LaidSurface> found_;  ///< what is being read
+  std::shared_ptr<FlattenedSurface> found_;  ///< what is being read
   std::unique_ptr<Job> reading_;
   std::vector<std::unique_ptr<Job>> abandoned_;  ///< cancelled; they end when they notice
   std::optional<SurfaceReference> shown_;
   std::filesystem::file_time_type read_;  ///< its file's time when it was read
   Points outline_;                        ///< that `laid_` was laid along
-  std::optional<LaidSurface> flat_;       ///< as it was flattened; none when it cannot be read
-  std::optional<LaidSurface> laid_;
+  std::optional<FlattenedSurface> flat_;  ///< as it was flattened; none when it cannot be read
+  std::optional<FlattenedSurface> laid_;
   Box box_;  ///< of the plane, that the texture shows
   OrbitCamera camera_;
   double fitted_ = 0;    ///< aspect of the view that the camera shows all in; 0: it is to be fitted

@@ -57,7 +57,7 @@ PictureOptions as_shown(const Workspace& workspace) {
 std::string lacking(const Workspace& workspace) {
   const Document& document = workspace.document;
   if (as_shown(workspace).view != View::image) return "";
-  for (const size_t i : document.without_picture())
+  for (const size_t i : document.layers_without_picture())
     if (const Layer& layer = *document.scene().layers[i]; layer.visible)
       return Path(layer.image->file).filename().string() +
              (document.pictures().withheld().contains(layer.image->file)
@@ -164,7 +164,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   if (settings.background) scene.background = *settings.background;
   PictureOptions options = as_shown(workspace_);
   options.scale = settings.scale;
-  options.shows = region_box();
+  options.region = region_box();
   struct Work {
     Scene scene;
     Pictures pictures;

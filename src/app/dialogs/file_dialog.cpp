@@ -40,7 +40,7 @@ void FileDialog::ask(FileQuestion question, Answer answer) {
   enter(start);
 }
 
-bool FileDialog::shows(const Path& path) const {
+bool FileDialog::is_listed(const Path& path) const {
   const auto is = [&](const std::string& extension) {
     return std::ranges::find(question_.extensions, extension) != question_.extensions.end();
   };
@@ -58,7 +58,7 @@ void FileDialog::enter(const Path& folder) {
     if (entry->path().filename().string().starts_with(".")) continue;
     std::error_code ignored;
     const bool is_folder = entry->is_directory(ignored);
-    if (is_folder || shows(entry->path())) items.push_back({entry->path(), is_folder});
+    if (is_folder || is_listed(entry->path())) items.push_back({entry->path(), is_folder});
   }
   if (error) {
     message_ = folder.string() + " cannot be read: " + error.message();
@@ -92,12 +92,12 @@ void FileDialog::accept(const Path& wanted) {
       return;
     }
   } else {
-    if (!shows(path) && question_.extensions.size() > 1 && path.has_extension()) {
+    if (!is_listed(path) && question_.extensions.size() > 1 && path.has_extension()) {
       message_ = path.extension().string() + " is not written here; choose one of";
       for (const std::string& extension : question_.extensions) message_ += " " + extension;
       return;
     }
-    if (!shows(path)) path += question_.extensions[0];
+    if (!is_listed(path)) path += question_.extensions[0];
     if (const std::vector<Path> there = confirming_ ? std::vector<Path>() : files_there(path);
         !there.empty()) {
       confirming_ = true;

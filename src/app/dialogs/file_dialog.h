@@ -41,7 +41,7 @@ class FileDialog {
   void enter(const Path& folder);
   void accept(const Path& path);
   std::vector<Path> files_there(const Path& path) const;
-  bool shows(const Path& path) const;
+  bool is_listed(const Path& path) const;
 
   FileQuestion question_;
   Answer answer_;

@@ -19,7 +19,7 @@ std::string Jobs::run(const std::string& title, Job::Work work, std::function<vo
   if (job_) abandon();
   job_ = std::make_unique<Job>(title, std::move(work), wake_);
   then_ = std::move(then);
-  return job_->ends_within(kShort) ? finish() : "";
+  return job_->ended_within(kShort) ? finish() : "";
 }
 
 void Jobs::abandon() {

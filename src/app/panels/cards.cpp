@@ -6,7 +6,7 @@
 namespace holomorph {
 
 void draw_missing_picture(Workspace& workspace, double scale, float above) {
-  const std::vector<size_t> missing = workspace.document.without_picture();
+  const std::vector<size_t> missing = workspace.document.layers_without_picture();
   if (missing.empty()) return;
   const Path file = workspace.document.scene().layers[missing.front()]->image->file;
   const float s = static_cast<float>(scale);

@@ -178,14 +178,14 @@ void one_handle(Workspace& workspace, Handle handle) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (ImGui::InputInt("depth", &depth)) {
     Deformation after = deformation;
-    after.pins[handle.index].depth = std::clamp(depth, -kMostDepth, kMostDepth);
+    after.pins[handle.index].depth = std::clamp(depth, -kMaxDepth, kMaxDepth);
     workspace.commit_or_amend("Pin depth", std::move(after));
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "Where parts of the picture overlap, what is around a higher pin is drawn on top");
   if (mode == EditMode::rest) return;
-  if (const auto place = workspace.map().pin_place(deformation, static_cast<size_t>(handle.index)))
+  if (const auto place = workspace.map().pin_image(deformation, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.display.viewport.zoom > 1)
       ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
   bool turns = deformation.pins[handle.index].angle.has_value();

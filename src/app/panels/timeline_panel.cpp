@@ -92,7 +92,7 @@ void draw_key_numbers(Workspace& workspace, float s) {
   int& turns = deformation.keyframes[key].turns;
   ImGui::SetNextItemWidth(96 * s);
   if (ImGui::InputInt("##turns", &turns, 1, 1)) {
-    turns = std::clamp(turns, -kMostTurns, kMostTurns);
+    turns = std::clamp(turns, -kMaxTurns, kMaxTurns);
     workspace.commit_or_amend("Whole turns", deformation, EditBase::document);
   }
   tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
@@ -118,7 +118,7 @@ void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool
 
 /// To a frame, unless Alt is held.
 double snapped(const Scene& scene, double time) {
-  if (ImGui::GetIO().KeyAlt) return std::clamp(time, 0.0, kLongestTime);
+  if (ImGui::GetIO().KeyAlt) return std::clamp(time, 0.0, kMaxTime);
   return time_of_frame(scene, std::max(0, frame_at(scene, time)));
 }
 
@@ -147,7 +147,7 @@ void draw_key_menu(Workspace& workspace) {
     ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
     if (key > 0 && ImGui::InputInt("whole turns before it", &turns)) {
       Deformation after = deformation;
-      after.keyframes[key].turns = std::clamp(turns, -kMostTurns, kMostTurns);
+      after.keyframes[key].turns = std::clamp(turns, -kMaxTurns, kMaxTurns);
       workspace.commit_or_amend("Whole turns", after, EditBase::document);
     }
     ImGui::Separator();
@@ -183,7 +183,7 @@ void draw_ruler(const Workspace& workspace, const Ruler& ruler, std::optional<si
     draw_key(list, at, (hovered == i ? 8.5f : 7) * s, color, deformation.keyframes[i].ease, plays);
   }
   const float x = ruler.x(std::min(workspace.shown.timeline.time, ruler.length));
-  const ImU32 head = workspace.shown.timeline.shows ? accent : text;
+  const ImU32 head = workspace.shown.timeline.active ? accent : text;
   list.AddLine({x, ruler.top}, {x, ruler.bottom}, head, 2 * s);
   list.AddTriangleFilled({x - 6 * s, ruler.top}, {x + 6 * s, ruler.top}, {x, ruler.top + 8 * s},
                          head);
@@ -201,7 +201,7 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
   if (!typed || !rate_) return;
   rate = *std::exchange(rate_, std::nullopt);
   if (!std::isfinite(rate)) return;
-  settings.frames_per_second = std::clamp(rate, kFewestFrames, kMostFrames);
+  settings.frames_per_second = std::clamp(rate, kMinFrameRate, kMaxFrameRate);
   workspace.commit_layers("Frame rate", with_animation(workspace.document.scene(), settings));
 }
 

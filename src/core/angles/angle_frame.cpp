@@ -10,7 +10,7 @@ namespace holomorph {
 namespace {
 
 /// Equally many samples on each segment, the first one at its start.
-std::vector<BoundaryPoint> places_along(const Cage& cage) {
+std::vector<BoundaryPoint> samples_along(const Cage& cage) {
   const Index per_segment = std::clamp<Index>(160 / cage.size(), 2, 8);
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < cage.size(); ++e)
@@ -36,17 +36,18 @@ Complex mean_of_vertices(const Points& along, const std::vector<BoundaryPoint>& 
 
 AngleFrame::AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
                        Precision precision)
-    : places_(places_along(coordinates->cage())),
-      boundary_(mesh, coordinates, at(coordinates->cage(), places_), precision) {}
+    : samples_(samples_along(coordinates->cage())),
+      boundary_(mesh, coordinates, at(coordinates->cage(), samples_), precision) {}
 
 PlacedAngles AngleFrame::place(const VectorXd& theta, const Cage& pose) {
   constexpr double kLeastScale = 1e-6;  // for a cage that is pulled to a point
   VectorXc f;
   boundary_.map(theta, f);
-  const Points image(f.begin(), f.end()), wanted = at(pose, places_);
+  const Points image(f.begin(), f.end()), target = at(pose, samples_);
   PlacedAngles placed{theta};
-  placed.scale = std::max(perimeter(wanted) / perimeter(image), kLeastScale);
-  placed.move = mean_of_vertices(wanted, places_) - placed.scale * mean_of_vertices(image, places_);
+  placed.scale = std::max(perimeter(target) / perimeter(image), kLeastScale);
+  placed.move =
+      mean_of_vertices(target, samples_) - placed.scale * mean_of_vertices(image, samples_);
   if (!std::isfinite(placed.scale) || !is_finite(placed.move))
     throw Error(ErrorKind::bad_input,
                 "the angles bend the picture so far that coordinates are not finite; turn the "

@@ -26,7 +26,7 @@ class AngleFrame {
   PlacedAngles place(const VectorXd& theta, const Cage& pose);
 
  private:
-  std::vector<BoundaryPoint> places_;  ///< samples along the boundary, vertices included
+  std::vector<BoundaryPoint> samples_;  ///< samples along the boundary, vertices included
   AngleMap boundary_;
 };
 

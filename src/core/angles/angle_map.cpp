@@ -43,7 +43,7 @@ AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> c
   }
   angles_.resize(cage.size());
   for (Index j = 0; j < cage.size(); ++j) angles_[j] = coordinates_->angle(j);
-  const MatrixXc h = rows(paths_.places());
+  const MatrixXc h = rows(paths_.quadrature_points());
   const auto keep = [&]<class T>(Parts<T> parts) {
     parts.re = h.real().template cast<T>();
     parts.im = h.imag().template cast<T>();
@@ -55,7 +55,7 @@ AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> c
     keep(Parts<float>{});
 }
 
-void AngleMap::turn_to(const VectorXd& theta, bool draft) {
+void AngleMap::set_angles(const VectorXd& theta, bool draft) {
   std::vector<Index> changed;
   if (draft && theta_.size() == theta.size())
     for (Index c = 0; c < theta.size(); ++c)
@@ -67,13 +67,13 @@ void AngleMap::turn_to(const VectorXd& theta, bool draft) {
         if (few) {
           for (const Index c : changed) {
             const double by = theta[c] - theta_[c];
-            turn_ += by * h.re.col(c).template cast<double>();
-            shrink_ += by * h.im.col(c).template cast<double>();
+            re_h_theta_ += by * h.re.col(c).template cast<double>();
+            im_h_theta_ += by * h.im.col(c).template cast<double>();
           }
         } else {
           const auto by = theta.cast<T>().eval();
-          turn_ = (h.re * by).template cast<double>();
-          shrink_ = (h.im * by).template cast<double>();
+          re_h_theta_ = (h.re * by).template cast<double>();
+          im_h_theta_ = (h.im * by).template cast<double>();
         }
       },
       h_);
@@ -93,21 +93,21 @@ VectorXc AngleMap::integral(const VectorXc& values) const {
 }
 
 void AngleMap::map(const VectorXd& theta, VectorXc& f, bool draft) {
-  turn_to(theta, draft);
-  slopes_.resize(turn_.size());
-  for (Index i = 0; i < slopes_.size(); ++i)
-    slopes_[i] = std::polar(std::exp(-shrink_[i]), turn_[i]);
-  f = integral(slopes_);
+  set_angles(theta, draft);
+  derivatives_.resize(re_h_theta_.size());
+  for (Index i = 0; i < derivatives_.size(); ++i)
+    derivatives_[i] = std::polar(std::exp(-im_h_theta_[i]), re_h_theta_[i]);
+  f = integral(derivatives_);
 }
 
-MatrixXc AngleMap::changes() const {
+MatrixXc AngleMap::jacobian() const {
   MatrixXc by(static_cast<Index>(nodes_of_samples_.size()), theta_.size());
   std::visit(
       [&](const auto& h) {
         for (Index c = 0; c < theta_.size(); ++c) {
-          VectorXc column(slopes_.size());
+          VectorXc column(derivatives_.size());
           for (Index i = 0; i < column.size(); ++i)
-            column[i] = times(Complex(-h.im(i, c), h.re(i, c)), slopes_[i]);
+            column[i] = times(Complex(-h.im(i, c), h.re(i, c)), derivatives_[i]);
           by.col(c) = integral(column);
         }
       },

@@ -30,7 +30,7 @@ class AngleMap {
   void map(const VectorXd& theta, VectorXc& f, bool draft = false);
   /// The derivatives of f with respect to the angles, at the angles of the last call of map():
   /// samples x angles. Cost: one integration per angle.
-  MatrixXc changes() const;
+  MatrixXc jacobian() const;
 
   /// Near vertex j, f' is asymptotically a power of the distance to that vertex. Returns the
   /// exponents for boundary angles theta, one per vertex.
@@ -45,7 +45,7 @@ class AngleMap {
     Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> re, im;
   };
 
-  void turn_to(const VectorXd& theta, bool draft);
+  void set_angles(const VectorXd& theta, bool draft);
   VectorXc integral(const VectorXc& values) const;
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;
@@ -55,8 +55,8 @@ class AngleMap {
   std::vector<int> nodes_of_samples_;
   VectorXd angles_;                              ///< the inner angle at each vertex
   std::variant<Parts<float>, Parts<double>> h_;  ///< H at the quadrature points
-  VectorXd theta_, turn_, shrink_;               ///< last angles, Re H theta, Im H theta
-  VectorXc slopes_;                              ///< f' at the quadrature points
+  VectorXd theta_, re_h_theta_, im_h_theta_;     ///< last angles, Re H theta, Im H theta
+  VectorXc derivatives_;                         ///< f' at the quadrature points
 };
 
 }  // namespace holomorph

@@ -13,14 +13,14 @@ namespace holomorph {
 namespace {
 
 constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
-constexpr double kMostStep = 0.5;   ///< of any angle in one iteration, in radians
-constexpr double kSettled = 1e-9;   ///< relative to the size, or in radians
-constexpr double kHeldTurn = 0.05;  ///< weight of the mean angle; jumps and bends have 1
-constexpr double kHeldSize = 0.05, kHeldPlace = 0.05;
+constexpr double kMostStep = 0.5;          ///< of any angle in one iteration, in radians
+constexpr double kSettled = 1e-9;          ///< relative to the size, or in radians
+constexpr double kMeanAngleWeight = 0.05;  ///< weight of the mean angle; jumps and bends have 1
+constexpr double kScaleWeight = 0.05, kTranslationWeight = 0.05;
 
 /// (D^T D)^-1, where D penalizes jumps, bends, and the rotation, scale and translation of the
 /// whole.
-MatrixXd softness_of(Index corners, double size) {
+MatrixXd inverse_penalty(Index corners, double size) {
   const Index n = 2 * corners;
   MatrixXd held = MatrixXd::Zero(n + 4, n + 3);
   for (Index j = 0; j < corners; ++j) {
@@ -29,9 +29,9 @@ MatrixXd softness_of(Index corners, double size) {
     held(2 * j + 1, 2 * j + 1) = -1;  // the bend of the edge after it
     held(2 * j + 1, (2 * j + 2) % n) = 1;
   }
-  held.row(n).head(n).setConstant(kHeldTurn / static_cast<double>(n));
-  held(n + 1, n) = kHeldSize;
-  held(n + 2, n + 1) = held(n + 3, n + 2) = kHeldPlace / size;
+  held.row(n).head(n).setConstant(kMeanAngleWeight / static_cast<double>(n));
+  held(n + 1, n) = kScaleWeight;
+  held(n + 2, n + 1) = held(n + 3, n + 2) = kTranslationWeight / size;
   return (held.transpose() * held).ldlt().solve(MatrixXd::Identity(n + 3, n + 3));
 }
 
@@ -52,9 +52,9 @@ AnglePins::AnglePins(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates>
       size_(box_of(mesh.vertices).diagonal()),
       map_(mesh, coordinates_, positions_of(pins_, false), Precision::full),
       rows_(map_.rows(positions_of(pins_, true))),
-      softness_(softness_of(static_cast<Index>(corners_.size()), size_)) {}
+      inverse_penalty_(inverse_penalty(static_cast<Index>(corners_.size()), size_)) {}
 
-double AnglePins::room(size_t corner) const {
+double AnglePins::largest_jump(size_t corner) const {
   const double inner = coordinates_->angle(corners_[corner]);
   return inner - std::min(kLeastCornerAngle, inner);
 }
@@ -66,17 +66,17 @@ AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<Pose
   const double scale = std::exp(x[n]);
   Linear linear{VectorXd(2 * (pins + turning) + held),
                 MatrixXd::Zero(2 * (pins + turning) + held, n + 3)};
-  auto& [off, by, missed] = linear;
+  auto& [off, by, largest_miss] = linear;
   VectorXc f;
   map_.map(theta, f);
-  const MatrixXc changes = scale / size_ * map_.changes();
+  const MatrixXc jacobian = scale / size_ * map_.jacobian();
   for (Index i = 0; i < pins; ++i) {
     const Complex way =
         targets[static_cast<size_t>(i)].position - (scale * f[i] + Complex(x[n + 1], x[n + 2]));
-    missed = std::max(missed, std::abs(way));
+    largest_miss = std::max(largest_miss, std::abs(way));
     off.segment(2 * i, 2) << way.real() / size_, way.imag() / size_;
-    by.row(2 * i).head(n) = changes.row(i).real();
-    by.row(2 * i + 1).head(n) = changes.row(i).imag();
+    by.row(2 * i).head(n) = jacobian.row(i).real();
+    by.row(2 * i + 1).head(n) = jacobian.row(i).imag();
     by(2 * i, n) = scale / size_ * f[i].real();
     by(2 * i + 1, n) = scale / size_ * f[i].imag();
     by(2 * i, n + 1) = by(2 * i + 1, n + 2) = 1 / size_;
@@ -99,7 +99,7 @@ AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<Pose
     const Index before = 2 * static_cast<Index>(j);
     by(row, before) = -1;
     by(row, before + 1) = 1;
-    off[row++] = room(j) - (theta[before + 1] - theta[before]);
+    off[row++] = largest_jump(j) - (theta[before + 1] - theta[before]);
   }
   return linear;
 }
@@ -125,19 +125,19 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
     }
     halved = 0;
     least = std::min(least, off);
-    answer.missed = linear.missed;
+    answer.largest_miss = linear.largest_miss;
     answer.settled = off <= kSettled ||
                      (answer.iterations > 0 && step.head(n + 1).cwiseAbs().maxCoeff() <= kSettled);
     if (answer.settled || answer.iterations == (draft ? kDraftIterations : kMostIterations)) break;
     ++answer.iterations;
-    const MatrixXd soft = softness_ * linear.by.transpose();
+    const MatrixXd soft = inverse_penalty_ * linear.by.transpose();
     MatrixXd gram = linear.by * soft;
     gram.diagonal().array() += 1e-13 * gram.diagonal().maxCoeff();
     step = start + soft * gram.ldlt().solve(linear.off + linear.by * (x - start)) - x;
     step *= std::min(1.0, kMostStep / std::max(1e-12, step.head(n + 1).cwiseAbs().maxCoeff()));
     for (size_t j = 0; j < corners_.size(); ++j) {
       const Index before = 2 * static_cast<Index>(j), after = before + 1;
-      const double over = x[after] - x[before] + step[after] - step[before] - room(j);
+      const double over = x[after] - x[before] + step[after] - step[before] - largest_jump(j);
       if (over <= 1e-12) continue;
       held_[j] = 1;
       step[after] -= over / 2;

@@ -16,7 +16,7 @@ class AnglePins {
   struct Answer {
     int iterations = 0;
     bool settled = true;
-    double missed = 0;           ///< the largest distance of a pin from its target
+    double largest_miss = 0;     ///< the largest distance of a pin from its target
     std::vector<Index> limited;  ///< vertex numbers of corners held at the smallest angle
   };
   /// Changes `placed` by Gauss-Newton steps that penalize jumps and bends of the angles. A pin with
@@ -30,21 +30,21 @@ class AnglePins {
   struct Linear {
     VectorXd off;
     MatrixXd by;
-    double missed = 0;
+    double largest_miss = 0;
   };
   Linear linear_at(const VectorXd& x, const std::vector<PosePin>& targets);
   /// The largest jump of the angles that a corner allows.
-  double room(size_t corner) const;
+  double largest_jump(size_t corner) const;
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;
   std::vector<Index> corners_;
   std::vector<RestPin> pins_;
   double size_;
   AngleMap map_;
-  MatrixXc rows_;           ///< H at the pins with a frame
-  MatrixXd softness_;       ///< inverse of the penalty on angles, scale and translation
-  VectorXd last_;           ///< the unknowns of the last answer
-  std::vector<char> held_;  ///< which corners are held at the smallest angle
+  MatrixXc rows_;             ///< H at the pins with a frame
+  MatrixXd inverse_penalty_;  ///< inverse of the penalty on angles, scale and translation
+  VectorXd last_;             ///< the unknowns of the last answer
+  std::vector<char> held_;    ///< which corners are held at the smallest angle
 };
 
 }  // namespace holomorph

@@ -15,51 +15,51 @@ double angle_between(Complex from, Complex to) {
 }
 
 /// The directions of a segment at its start and end, and how far it turns between them.
-struct Course {
+struct SegmentTurn {
   Complex start = 0, end = 0;  ///< 0: the segment has no length
   double turn = 0;
 };
 
-Course course_of(const Points& controls) {
+SegmentTurn segment_turn(const Points& controls) {
   double size = 0;
   for (const Complex& z : controls) size = std::max(size, std::abs(z));
-  Points ways;
+  Points directions;
   constexpr double kRounding = 1e-13;  // in a segment of no length whose degree was raised
   for (size_t i = 0; i + 1 < controls.size(); ++i)
     if (std::abs(controls[i + 1] - controls[i]) > kRounding * size)
-      ways.push_back(controls[i + 1] - controls[i]);
-  Course course;
-  if (ways.empty()) return course;
-  course.start = ways.front();
-  course.end = ways.back();
+      directions.push_back(controls[i + 1] - controls[i]);
+  SegmentTurn course;
+  if (directions.empty()) return course;
+  course.start = directions.front();
+  course.end = directions.back();
   if (controls.size() == 2) return course;
   constexpr int kSteps = 48;
   Points all;
   for (size_t i = 0; i + 1 < controls.size(); ++i) all.push_back(controls[i + 1] - controls[i]);
   Complex last = course.start;
   for (int k = 1; k <= kSteps; ++k) {
-    const Complex way =
+    const Complex direction =
         k < kSteps ? bezier_point(all, static_cast<double>(k) / kSteps) : course.end;
-    if (way == 0.0) continue;
-    course.turn += angle_between(last, way);
-    last = way;
+    if (direction == 0.0) continue;
+    course.turn += angle_between(last, direction);
+    last = direction;
   }
   return course;
 }
 
 /// How far a closed loop turns at its vertices and along its segments, 2 pi in total.
 struct Turns {
-  std::vector<Course> segments;
+  std::vector<SegmentTurn> segments;
   std::vector<double> vertices;
 };
 
-Turns turns_of(const Cage& cage, const Turns* instead) {
+Turns turns_of(const Cage& cage, const Turns* fallback) {
   Turns turns;
   const size_t n = static_cast<size_t>(cage.size());
   double sum = 0;
   for (size_t e = 0; e < n; ++e) {
-    turns.segments.push_back(course_of(cage.controls(static_cast<Index>(e))));
-    if (turns.segments[e].start == 0.0 && instead) turns.segments[e] = instead->segments[e];
+    turns.segments.push_back(segment_turn(cage.controls(static_cast<Index>(e))));
+    if (turns.segments[e].start == 0.0 && fallback) turns.segments[e] = fallback->segments[e];
     sum += turns.segments[e].turn;
   }
   for (size_t j = 0; j < n; ++j) {

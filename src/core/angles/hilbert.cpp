@@ -12,11 +12,11 @@
 namespace holomorph {
 namespace {
 
-constexpr int kDegree = 3, kPlaces = 16;  ///< per piece
-constexpr int kCornerPlaces = 4;
-constexpr int kMostRounds = 7, kRefinements = 3;
+constexpr int kDegree = 3, kSamplesPerPiece = 16;  ///< per piece
+constexpr int kCornerSamples = 4;
+constexpr int kMaxRounds = 7, kRefinements = 3;
 constexpr double kHighestPower = 3.2, kFlat = 8 * kPi / 180;
-constexpr size_t kMostPowers = 6;
+constexpr size_t kMaxPowers = 6;
 
 /// The length of a ray until it meets the polygon again; infinite when it never does.
 double free_length(const Points& polygon, Complex from, Complex direction) {
@@ -63,7 +63,7 @@ std::vector<double> powers_of(double angle) {
   powers.erase(std::unique(powers.begin(), powers.end(),
                            [](double a, double b) { return std::abs(a - b) < 1e-6; }),
                powers.end());
-  powers.resize(std::min(powers.size(), kMostPowers));
+  powers.resize(std::min(powers.size(), kMaxPowers));
   return powers;
 }
 
@@ -72,12 +72,13 @@ double length_to(const Points& controls, double t) {
   constexpr int kNodes = 24;
   if (controls.size() == 2) return t * std::abs(controls[1] - controls[0]);
   const double degree = static_cast<double>(controls.size() - 1);
-  Points ways;
-  for (size_t i = 0; i + 1 < controls.size(); ++i) ways.push_back(controls[i + 1] - controls[i]);
+  Points differences;
+  for (size_t i = 0; i + 1 < controls.size(); ++i)
+    differences.push_back(controls[i + 1] - controls[i]);
   const GaussRule& rule = gauss_rule(kNodes);
   double length = 0;
   for (size_t k = 0; k < kNodes; ++k)
-    length += rule.weights[k] * std::abs(bezier_point(ways, t * rule.nodes[k]));
+    length += rule.weights[k] * std::abs(bezier_point(differences, t * rule.nodes[k]));
   return t * degree * length;
 }
 
@@ -100,22 +101,22 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
   for (Index e = 0; e < cage.size(); ++e)
     lengths.push_back(lengths.back() + length_to(cage.controls(e), 1));
   RealParts parts;
-  parts.values = [cage, corners, lengths, p](std::span<const BoundaryPoint> places) {
-    MatrixXd values = MatrixXd::Zero(static_cast<Index>(places.size()), 2 * p);
+  parts.values = [cage, corners, lengths, p](std::span<const BoundaryPoint> samples) {
+    MatrixXd values = MatrixXd::Zero(static_cast<Index>(samples.size()), 2 * p);
     const auto length_at = [&](Index corner) {
       return lengths[static_cast<size_t>(corners[static_cast<size_t>(corner)])];
     };
-    for (size_t i = 0; i < places.size(); ++i) {
-      const auto& [segment, t] = places[i];
+    for (size_t i = 0; i < samples.size(); ++i) {
+      const auto& [segment, t] = samples[i];
       double here = lengths[static_cast<size_t>(segment)] + length_to(cage.controls(segment), t);
       // `from` is the last corner at or before the start of the segment.
       const Index after = std::ranges::upper_bound(corners, segment) - corners.begin(),
                   from = (after + p - 1) % p, to = (from + 1) % p;
       if (here < length_at(from)) here += lengths.back();
       const double whole = length_at(to) + (to <= from ? lengths.back() : 0) - length_at(from);
-      const double share = (here - length_at(from)) / whole;
-      values(static_cast<Index>(i), 2 * from + 1) = 1 - share;
-      values(static_cast<Index>(i), 2 * to) = share;
+      const double fraction = (here - length_at(from)) / whole;
+      values(static_cast<Index>(i), 2 * from + 1) = 1 - fraction;
+      values(static_cast<Index>(i), 2 * to) = fraction;
     }
     return values;
   };
@@ -135,7 +136,8 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
 HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolerance)
     : cage_(std::move(cage)), parts_(std::move(parts)) {
   set_up_vertices();
-  shares_ = (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
+  correction_weights_ =
+      (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
   const auto bends = [&](Index vertex) {
     return std::abs(angle(vertex % cage_.size()) - kPi) > kFlat;
   };
@@ -146,8 +148,8 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
       pieces_.push_back({e, 0, 1});
   }
   std::vector<double> errors = solve();
-  for (int round = 0; round < kMostRounds && error_ > tolerance; ++round) {
-    cut(errors, tolerance);
+  for (int round = 0; round < kMaxRounds && error_ > tolerance; ++round) {
+    refine(errors, tolerance);
     errors = solve();
   }
 }
@@ -155,7 +157,7 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
 void HilbertCoordinates::set_up_vertices() {
   const Index n = cage_.size();
   const Points outline = flattened(cage_).points;
-  steps_ = MatrixXc::Zero(n, parts_.jumps.cols());
+  log_coefficients_ = MatrixXc::Zero(n, parts_.jumps.cols());
   for (Index j = 0; j < n; ++j) {
     const Points before = cage_.controls((j + n - 1) % n), after = cage_.controls(j);
     const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
@@ -166,12 +168,12 @@ void HilbertCoordinates::set_up_vertices() {
     vertex.powers = powers_of(vertex.angle);
     // The logarithm's imaginary part decreases by the inner angle where the boundary passes its
     // vertex.
-    steps_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
+    log_coefficients_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
     vertices_.push_back(std::move(vertex));
   }
 }
 
-void HilbertCoordinates::cut(const std::vector<double>& errors, double tolerance) {
+void HilbertCoordinates::refine(const std::vector<double>& errors, double tolerance) {
   const double most = std::max(tolerance / 2, error_ / 4);
   std::vector<Piece> finer;
   for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -188,7 +190,7 @@ void HilbertCoordinates::cut(const std::vector<double>& errors, double tolerance
 /// Fits all coordinates; returns each piece's largest error.
 std::vector<double> HilbertCoordinates::solve() {
   boundary_ = {};
-  std::vector<BoundaryPoint> places, on_cage;
+  std::vector<BoundaryPoint> samples, on_cage;
   for (size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
     Points controls = part_of(cage_.controls(piece.segment), piece.from, piece.to);
@@ -196,21 +198,21 @@ std::vector<double> HilbertCoordinates::solve() {
     controls.pop_back();
     boundary_.segments.push_back(std::move(controls));
     const auto add = [&](double t) {
-      places.push_back({static_cast<Index>(i), t});
+      samples.push_back({static_cast<Index>(i), t});
       on_cage.push_back({piece.segment, piece.from + t * (piece.to - piece.from)});
     };
-    for (int k = 0; k < kPlaces; ++k) add((k + 0.5) / kPlaces);
-    for (int k = 1; k <= kCornerPlaces; ++k) {
+    for (int k = 0; k < kSamplesPerPiece; ++k) add((k + 0.5) / kSamplesPerPiece);
+    for (int k = 1; k <= kCornerSamples; ++k) {
       const double near = std::pow(10.0, -k) / 3;
       if (piece.from == 0) add(near);
       if (piece.to == 1) add(1 - near);
     }
   }
   Points points;
-  for (const BoundaryPoint& place : places) points.push_back(position_of(boundary_, place));
+  for (const BoundaryPoint& place : samples) points.push_back(position_of(boundary_, place));
   const MatrixXc basis = this->basis(points, 0);
-  const MatrixXd wanted =
-      parts_.values(on_cage) - matrix_product(logarithms(points, 0), steps_).real();
+  const MatrixXd targets =
+      parts_.values(on_cage) - matrix_product(logarithms(points, 0), log_coefficients_).real();
 
   MatrixXd rows(basis.rows(), 2 * basis.cols());
   rows << basis.real(), -basis.imag();
@@ -221,15 +223,15 @@ std::vector<double> HilbertCoordinates::solve() {
   gram.diagonal().array() += 1e-14 * static_cast<double>(gram.rows());
   Cholesky cholesky;
   check(cholesky.factor(gram), "Hilbert coordinates: the normal equations are definite");
-  MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, wanted));
-  MatrixXd off = wanted - matrix_product(rows, x);
+  MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, targets));
+  MatrixXd off = targets - matrix_product(rows, x);
   for (int refined = 0; refined < kRefinements; ++refined) {
     x += cholesky.solve_all(transposed_matrix_product(rows, off));
-    off = wanted - matrix_product(rows, x);
+    off = targets - matrix_product(rows, x);
   }
   std::vector<double> errors(pieces_.size(), 0);
   for (Index i = 0; i < off.rows(); ++i) {
-    double& error = errors[static_cast<size_t>(places[static_cast<size_t>(i)].segment)];
+    double& error = errors[static_cast<size_t>(samples[static_cast<size_t>(i)].segment)];
     error = std::max(error, off.row(i).cwiseAbs().maxCoeff());
   }
   x.array().colwise() /= norms.array();
@@ -251,7 +253,7 @@ MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int ord
       MatrixXc::Zero(static_cast<Index>(points.size()), static_cast<Index>(vertices_.size()));
   for (size_t j = 0; j < vertices_.size(); ++j) {
     const Index column = static_cast<Index>(j);
-    if (steps_.row(column).isZero(0)) continue;
+    if (log_coefficients_.row(column).isZero(0)) continue;
     for (size_t i = 0; i < points.size(); ++i)
       values(static_cast<Index>(i), column) = order == 0
                                                   ? logarithm(vertices_[j], points[i])
@@ -295,7 +297,7 @@ MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) cons
 }
 
 MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
-  MatrixXc values = matrix_product(logarithms(points, order), steps_) +
+  MatrixXc values = matrix_product(logarithms(points, order), log_coefficients_) +
                     matrix_product(basis(points, order), coefficients_);
   const Index sums = parts_.linear.cols();
   MatrixXc missing(values.rows(), sums);
@@ -306,7 +308,7 @@ MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) c
     for (Index k = 0; k < sums; ++k) missing(i, k) = exact[static_cast<size_t>(k)];
   }
   missing -= values * parts_.linear;
-  return values + missing * shares_;
+  return values + missing * correction_weights_;
 }
 
 }  // namespace holomorph

@@ -63,7 +63,7 @@ class HilbertCoordinates {
 
   MatrixXc block(std::span<const Complex> points, int order) const;
   void set_up_vertices();
-  void cut(const std::vector<double>& errors, double tolerance);
+  void refine(const std::vector<double>& errors, double tolerance);
   std::vector<double> solve();
   Complex logarithm(const Vertex& vertex, Complex z) const;
   Complex logarithmic_slope(const Vertex& vertex, Complex z) const;
@@ -74,8 +74,8 @@ class HilbertCoordinates {
 
   Cage cage_;
   RealParts parts_;
-  MatrixXd shares_;  ///< correction weights that make the sums in `linear` exact
-  MatrixXc steps_;   ///< coefficients of the logarithms, a column per coordinate
+  MatrixXd correction_weights_;  ///< correction weights that make the sums in `linear` exact
+  MatrixXc log_coefficients_;    ///< coefficients of the logarithms, a column per coordinate
   std::vector<Vertex> vertices_;
   std::vector<Piece> pieces_;
   Cage boundary_;          ///< the pieces as segments of degree 3 or more

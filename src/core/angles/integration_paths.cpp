@@ -44,21 +44,21 @@ void IntegrationPaths::add(int from, int to) {
   const End a{nodes_[start], vertex_at_[start]}, b{nodes_[end], vertex_at_[end]};
   const bool may_leave = on_boundary_[start] && on_boundary_[end] && !is_straight(*cage_);
   if (!may_leave || !(add_inside({a, b}) || add_detour(a, b))) add_leg(a, b);
-  steps_.push_back({from, to, static_cast<Index>(places_.size())});
+  steps_.push_back({from, to, static_cast<Index>(quadrature_points_.size())});
 }
 
 void IntegrationPaths::add_leg(const End& a, const End& b) {
   if (a.vertex < 0 && b.vertex < 0) {
     const double ratio = std::abs(b.at - a.at) / distance_to_corner(a.at, b.at);
-    plain(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
+    add_gauss_rule(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
   } else if (a.vertex < 0) {
-    graded(a.at, b.vertex, 1);
+    add_graded_panels(a.at, b.vertex, 1);
   } else if (b.vertex < 0) {
-    graded(b.at, a.vertex, -1);
+    add_graded_panels(b.at, a.vertex, -1);
   } else {
     const Complex middle = 0.5 * (a.at + b.at);
-    graded(middle, b.vertex, 1);
-    graded(middle, a.vertex, -1);
+    add_graded_panels(middle, b.vertex, 1);
+    add_graded_panels(middle, a.vertex, -1);
   }
 }
 
@@ -82,15 +82,15 @@ int IntegrationPaths::add_node(Complex z) {
   return nodes() - 1;
 }
 
-void IntegrationPaths::plain(Complex a, Complex b, int count, double sign) {
+void IntegrationPaths::add_gauss_rule(Complex a, Complex b, int count, double sign) {
   const GaussRule& rule = gauss_rule(count);
   for (size_t g = 0; g < static_cast<size_t>(count); ++g) {
-    places_.push_back(a + rule.nodes[g] * (b - a));
+    quadrature_points_.push_back(a + rule.nodes[g] * (b - a));
     weights_.push_back(sign * rule.weights[g] * (b - a));
   }
 }
 
-void IntegrationPaths::graded(Complex a, int vertex, double sign) {
+void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
   // At this distance only the power is left, or rounding dominates.
   const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
@@ -100,23 +100,24 @@ void IntegrationPaths::graded(Complex a, int vertex, double sign) {
                least = std::max(kPower * edge, 1e4 * rounding);
   for (int panel = 0; panel < panels_ && std::abs(a - corner) > least; ++panel) {
     const Complex b = corner + kRatio * (a - corner);
-    plain(a, b, kPanelNodes + more_nodes_, sign);
+    add_gauss_rule(a, b, kPanelNodes + more_nodes_, sign);
     a = b;
   }
-  tails_.push_back({static_cast<Index>(steps_.size()), static_cast<Index>(places_.size()),
-                    sign * (corner - a), vertex});
-  places_.push_back(a);
+  tails_.push_back({static_cast<Index>(steps_.size()),
+                    static_cast<Index>(quadrature_points_.size()), sign * (corner - a), vertex});
+  quadrature_points_.push_back(a);
   weights_.push_back(0);
 }
 
 /// Adds a chain of legs and returns true, unless one of their quadrature points is outside.
 bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
-  const size_t places = places_.size(), tails = tails_.size();
+  const size_t places = quadrature_points_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
   const auto is_inside = [&](Complex z) { return contains(*cage_, z); };
-  if (std::all_of(places_.begin() + static_cast<Index>(places), places_.end(), is_inside))
+  if (std::all_of(quadrature_points_.begin() + static_cast<Index>(places), quadrature_points_.end(),
+                  is_inside))
     return true;
-  places_.resize(places);
+  quadrature_points_.resize(places);
   weights_.resize(places);
   tails_.resize(tails);
   return false;
@@ -149,7 +150,7 @@ void IntegrationPaths::integrate(const VectorXc& values, const VectorXd& exponen
       sum += times(weights_[static_cast<size_t>(place)], values[place]);
     for (; tail < tails_.size() && tails_[tail].step == static_cast<Index>(s); ++tail) {
       const Tail& t = tails_[tail];
-      sum += values[t.place] * t.way / (1 + exponents[t.vertex]);
+      sum += values[t.point] * t.offset / (1 + exponents[t.vertex]);
     }
     integral[steps_[s].to] = integral[steps_[s].from] + sum;
   }

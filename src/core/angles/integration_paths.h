@@ -28,11 +28,11 @@ class IntegrationPaths {
   int nodes() const { return static_cast<int>(nodes_.size()); }
 
   /// The quadrature points: inside the cage or on its boundary, never at its vertices.
-  const Points& places() const { return places_; }
+  const Points& quadrature_points() const { return quadrature_points_; }
 
   /// Computes the integral at all nodes; on input, `integral` must hold its values where the paths
-  /// start. values[i] is the function at places()[i]. Near vertex j the function is a power of the
-  /// distance with the exponent exponents[j], which must be above -1.
+  /// start. values[i] is the function at quadrature_points()[i]. Near vertex j the function is a
+  /// power of the distance with the exponent exponents[j], which must be above -1.
   void integrate(const VectorXc& values, const VectorXd& exponents, VectorXc& integral) const;
 
  private:
@@ -42,8 +42,8 @@ class IntegrationPaths {
   };
   /// The last part of a step into a cage vertex; it starts at a quadrature point of weight 0.
   struct Tail {
-    Index step, place;
-    Complex way;
+    Index step, point;
+    Complex offset;
     int vertex;
   };
 
@@ -56,13 +56,13 @@ class IntegrationPaths {
   void add_leg(const End& a, const End& b);
   bool add_inside(std::initializer_list<End> chain);
   bool add_detour(const End& a, const End& b);
-  void plain(Complex a, Complex b, int count, double sign);
-  void graded(Complex a, int vertex, double sign);
+  void add_gauss_rule(Complex a, Complex b, int count, double sign);
+  void add_graded_panels(Complex a, int vertex, double sign);
   double distance_to_corner(Complex a, Complex b) const;
 
   const Mesh* mesh_;
   const Cage* cage_;
-  Points corners_, nodes_, places_;
+  Points corners_, nodes_, quadrature_points_;
   int more_nodes_, panels_;     ///< what Precision::full adds
   std::vector<int> vertex_at_;  ///< the cage vertex at each node, or -1
   std::vector<char> on_boundary_;

@@ -59,7 +59,7 @@ bool ReferenceSampler::is_identity() const {
   for (Index i = 0; i < m; ++i)
     if (map_.f[i] != points_.boundary[static_cast<size_t>(i)]) return false;
   for (size_t i = 0; i < anchors_.size(); ++i)
-    if (anchor_places()[i] != mesh_->vertices[static_cast<size_t>(anchors_[i])]) return false;
+    if (anchor_images()[i] != mesh_->vertices[static_cast<size_t>(anchors_[i])]) return false;
   return map_.fz.head(m + inner) == VectorXc::Ones(m + inner) &&
          map_.fzbar.head(m + inner).isZero(0);
 }
@@ -73,12 +73,13 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   const VectorXc& gamma = method_.harmonic ? fz : fitted;
   std::vector<Zero> found;
   zeros.clear();
-  if (turns_of(gamma) != 0) {
+  if (winding_around_zero(gamma) != 0) {
     found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
     // Zeros between the loop of samples and the boundary are not inside the loop.
-    std::erase_if(
-        found, [&](const Zero& zero) { return winding_number(points_.boundary, zero.place) == 0; });
-    for (const Zero& zero : found) zeros.push_back(zero.place);
+    std::erase_if(found, [&](const Zero& zero) {
+      return winding_number(points_.boundary, zero.position) == 0;
+    });
+    for (const Zero& zero : found) zeros.push_back(zero.position);
   }
   const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
   BoundedReference target;
@@ -93,7 +94,7 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   return target;
 }
 
-std::span<const Complex> ReferenceSampler::anchor_places() const {
+std::span<const Complex> ReferenceSampler::anchor_images() const {
   return {map_.f.data() + points_.boundary.size(), anchors_.size()};
 }
 

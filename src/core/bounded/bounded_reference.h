@@ -36,7 +36,7 @@ class ReferenceSampler {
   BoundedReference reference(Points& zeros) const;
   /// Indices of some of the mesh's vertices, at least one, and the images of these vertices.
   const std::vector<int>& anchors() const { return anchors_; }
-  std::span<const Complex> anchor_places() const;
+  std::span<const Complex> anchor_images() const;
   /// The method's note, such as a pin that it could not use.
   const std::string& note() const { return map_.note; }
 

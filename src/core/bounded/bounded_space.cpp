@@ -112,7 +112,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
   const ConeTarget target = target_of(reference);
   ConeSettings settings;
   settings.gap = warm ? 1e-3 : 1e-4;
-  settings.share = warm ? 1e-2 : 1e-3;
+  settings.relative_gap = warm ? 1e-2 : 1e-3;
   settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
   settings.neglected = 0.1;
   const CertifiedProgram program{certifier_,
@@ -123,11 +123,11 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
                                  [this](const Points& points, ConeSystem& system) {
                                    append_samples(basis_->whitened(basis_->values(points)), system);
                                  }};
-  const VectorXd itself = unconstrained(reference);
+  const VectorXd best_fit = unconstrained(reference);
   constexpr double kNothing = 1e-9;  // a reference in the space, within bounds, is the answer
-  if (is_feasible(system_, itself) && energy_of(system_, target, itself) <= kNothing) {
+  if (is_feasible(system_, best_fit) && energy_of(system_, target, best_fit) <= kNothing) {
     ConeSolution known;
-    known.x = itself;
+    known.x = best_fit;
     known.status = ConeSolution::Status::solved;
     return program.proved(target, settings, std::move(known));
   }

@@ -17,9 +17,9 @@ void Bounds::check_usable() const {
                 "must be finite");
 }
 
-Bounds Bounds::tightened(double share) const {
-  const double inwards = share * 0.5 * (std::log(Sigma) - std::log(sigma));
-  return {k * (1 - share), sigma * std::exp(inwards), Sigma * std::exp(-inwards)};
+Bounds Bounds::tightened(double fraction) const {
+  const double inwards = fraction * 0.5 * (std::log(Sigma) - std::log(sigma));
+  return {k * (1 - fraction), sigma * std::exp(inwards), Sigma * std::exp(-inwards)};
 }
 
 const char* bound_name(Bound bound) {
@@ -52,25 +52,25 @@ namespace {
 
 /// The influence of the polygon's vertices on a piece of the boundary: weights of the slopes'
 /// jumps.
-struct Sight {
+struct VertexInfluence {
   VectorXc second;        ///< give F'' at the piece's midpoint
   VectorXd near, nearer;  ///< with the moduli of the jumps, bound |F''| and |F'''| on the piece
 };
 
-Sight sight_of(const Points& polygon, const BoundaryPiece& piece) {
+VertexInfluence influence_of(const Points& polygon, const BoundaryPiece& piece) {
   const Index n = static_cast<Index>(polygon.size());
-  Sight sight{VectorXc(n), VectorXd(n), VectorXd(n)};
+  VertexInfluence influence{VectorXc(n), VectorXd(n), VectorXd(n)};
   const Complex middle = 0.5 * (piece.start + piece.end);
   for (Index j = 0; j < n; ++j) {
     const Complex z = polygon[static_cast<size_t>(j)];
-    sight.second[j] = inverse(2 * kPi * kI * (z - middle));
+    influence.second[j] = inverse(2 * kPi * kI * (z - middle));
     // The piece stays within bend / 8 of its chord.
     const double gap =
         std::max(nearest_on_segment(piece.start, piece.end, z).distance - piece.bend / 8, 1e-300);
-    sight.near[j] = 1 / (2 * kPi * gap);
-    sight.nearer[j] = sight.near[j] / gap;
+    influence.near[j] = 1 / (2 * kPi * gap);
+    influence.nearer[j] = influence.near[j] / gap;
   }
-  return sight;
+  return influence;
 }
 
 /// A bound on the distance of a piece's points from its midpoint.
@@ -101,10 +101,11 @@ Certifier::Certifier(const BoundaryBasis& basis)
   near_.resize(count, basis.size());
   nearer_.resize(count, basis.size());
   for (Index i = 0; i < count; ++i) {
-    const Sight sight = sight_of(basis.polygon(), basis.pieces()[static_cast<size_t>(i)]);
-    second_.row(i) = sight.second.transpose();
-    near_.row(i) = sight.near.transpose();
-    nearer_.row(i) = sight.nearer.transpose();
+    const VertexInfluence influence =
+        influence_of(basis.polygon(), basis.pieces()[static_cast<size_t>(i)]);
+    second_.row(i) = influence.second.transpose();
+    near_.row(i) = influence.near.transpose();
+    nearer_.row(i) = influence.nearer.transpose();
   }
 }
 
@@ -148,7 +149,7 @@ class Certifier::Proof {
 
   /// Proves the bounds on a leaf, halving it up to `depth` times. Records where that fails.
   void prove(const Leaf& leaf, int depth) {
-    const auto failed = open_bound(leaf);
+    const auto failed = unproved_bound(leaf);
     if (!failed) return;
     const BoundaryPiece& piece = leaf.piece;
     if (result.unproved.empty()) result.failed = *failed;
@@ -187,23 +188,24 @@ class Certifier::Proof {
   }
 
   /// A bound that the values at the leaf's ends and the second derivatives do not prove, if any.
-  std::optional<Bound> open_bound(const Leaf& leaf) const {
+  std::optional<Bound> unproved_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
     if (second_ == LogMap::Second::nu)
-      return first_of(open_bound_of_nu(leaf.start, dl, dw), open_bound_of_nu(leaf.end, dl, dw));
+      return first_of(unproved_bound_of_nu(leaf.start, dl, dw),
+                      unproved_bound_of_nu(leaf.end, dl, dw));
     // |f_z| = e^u lies below its chord by at most (Delta u)^2 / 8 max e^u.
     const double from = leaf.start.l.real(), to = leaf.end.l.real(),
                  below = (to - from) * (to - from) / 8 * std::exp(std::max(from, to));
-    return first_of(open_bound_of_psi(leaf.start, dl, dw, below),
-                    open_bound_of_psi(leaf.end, dl, dw, below));
+    return first_of(unproved_bound_of_psi(leaf.start, dl, dw, below),
+                    unproved_bound_of_psi(leaf.end, dl, dw, below));
   }
 
   /// An end of the leaf that itself violates a bound, if any.
   std::optional<Complex> broken_end(const Leaf& leaf) const {
     const auto is_broken = [&](const Values& at) {
-      return second_ == LogMap::Second::nu ? open_bound_of_nu(at, 0, 0).has_value()
-                                           : open_bound_of_psi(at, 0, 0, 0).has_value();
+      return second_ == LogMap::Second::nu ? unproved_bound_of_nu(at, 0, 0).has_value()
+                                           : unproved_bound_of_psi(at, 0, 0, 0).has_value();
     };
     if (is_broken(leaf.start)) return leaf.piece.start;
     if (is_broken(leaf.end)) return leaf.piece.end;
@@ -221,15 +223,15 @@ class Certifier::Proof {
 
   /// A bound that may be violated where l and w differ from these values by up to dl and dw, if
   /// any.
-  std::optional<Bound> open_bound_of_nu(const Values& at, double dl, double dw) const {
+  std::optional<Bound> unproved_bound_of_nu(const Values& at, double dl, double dw) const {
     const double u = at.l.real(), w = std::abs(at.w) + dw;
     if (!(w <= bounds_.k)) return Bound::k;
     if (!(u + dl + w <= log_Sigma_)) return Bound::Sigma;
     if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
     return {};
   }
-  std::optional<Bound> open_bound_of_psi(const Values& at, double dl, double dw,
-                                         double below) const {
+  std::optional<Bound> unproved_bound_of_psi(const Values& at, double dl, double dw,
+                                             double below) const {
     const double size = std::exp(at.l.real()), w = std::abs(at.w) + dw;
     const double least = std::exp(-dl) * (size - below);
     if (!(w <= bounds_.k * least)) return Bound::k;

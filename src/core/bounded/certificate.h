@@ -22,7 +22,7 @@ struct Bounds {
   void check_usable() const;
   /// Bounds narrowed by a fraction, in k and in ln of the stretches. A map that is solved for these
   /// can be proved to keep the original ones.
-  Bounds tightened(double share) const;
+  Bounds tightened(double fraction) const;
   /// The Re l that is farthest from both stretch bounds.
   double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }
 };

@@ -8,15 +8,15 @@ namespace holomorph {
 
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions) {
   constexpr double kNothing = 1e-2;  // smaller multipliers remain from the interior point method
-  std::optional<Bound> hardest;
+  std::optional<Bound> binding;
   double most = kNothing;
   for (const ConeSolution* solution : solutions)
     for (size_t c = 0; c < solution->z.size(); ++c)
       if (const double push = solution->z[c].row(0).sum(); push > most) {
         most = push;
-        hardest = static_cast<Bound>(c);
+        binding = static_cast<Bound>(c);
       }
-  return hardest;
+  return binding;
 }
 
 namespace {
@@ -24,8 +24,8 @@ namespace {
 /// The start, moved towards the center as far as necessary to be strictly feasible.
 ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& center) {
   const VectorXd x = start.x;
-  for (double share = 0.02; !is_feasible(system, start.x) && share <= 1; share *= 2)
-    start.x = (1 - share) * x + share * center;
+  for (double fraction = 0.02; !is_feasible(system, start.x) && fraction <= 1; fraction *= 2)
+    start.x = (1 - fraction) * x + fraction * center;
   if (!is_feasible(system, start.x)) start.x = center;
   return start;
 }
@@ -67,13 +67,13 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
   }
   // The center is certified, and every enclosure shrinks on the way there.
   const VectorXd x = best.solution.x;
-  for (double share = 1e-5; !best.certificate.holds; share = std::min(4 * share, 1.0)) {
-    best.blend = share;
+  for (double fraction = 1e-5; !best.certificate.holds; fraction = std::min(4 * fraction, 1.0)) {
+    best.blend = fraction;
     ConeSolution nearer = best.solution;
     nearer.iterations = 0;
-    nearer.x = (1 - share) * x + share * center;
+    nearer.x = (1 - fraction) * x + fraction * center;
     take(std::move(nearer));
-    if (share == 1) break;
+    if (fraction == 1) break;
   }
   return best;
 }

@@ -16,12 +16,12 @@ HolomorphicDistance::HolomorphicDistance(const BoundaryBasis& basis, const Refer
     if (rows->rows() == 0) continue;
     MatrixXd re, im;
     real_columns(*rows, re, im);
-    quadratic_ += share(*rows) * (re * re.transpose() + im * im.transpose());
+    quadratic_ += row_weight(*rows) * (re * re.transpose() + im * im.transpose());
   }
 }
 
 /// The weight of one squared difference at these rows.
-double HolomorphicDistance::share(const MatrixXc& rows) const {
+double HolomorphicDistance::row_weight(const MatrixXc& rows) const {
   return weight_ * (inner_.rows() > 0 ? 0.5 : 1) / static_cast<double>(rows.rows());
 }
 
@@ -39,8 +39,8 @@ HolomorphicDistance::Target HolomorphicDistance::target(const VectorXc& boundary
       else if (size > most)
         x *= most / size;
     }
-    target.linear -= share(rows) * stacked(rows.adjoint() * values);
-    target.constant += 0.5 * share(rows) * values.squaredNorm();
+    target.linear -= row_weight(rows) * stacked(rows.adjoint() * values);
+    target.constant += 0.5 * row_weight(rows) * values.squaredNorm();
   };
   add(boundary_.rows(), boundary);
   add(inner_, inner);

@@ -31,7 +31,7 @@ class HolomorphicDistance {
   const MatrixXc& inner() const { return inner_; }  ///< the whitened basis at the inner points
 
  private:
-  double share(const MatrixXc& rows) const;
+  double row_weight(const MatrixXc& rows) const;
 
   HolomorphicFit boundary_;
   MatrixXc inner_;

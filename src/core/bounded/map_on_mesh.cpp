@@ -28,11 +28,11 @@ VectorXc MapOnMesh::integrated(const LogMap& map) const {
   for (const auto [from, to] : tree_.edges())
     lines.push_back(
         {mesh_.vertices[static_cast<size_t>(from)], mesh_.vertices[static_cast<size_t>(to)]});
-  const VectorXc growth = growth_along(basis_, map, lines);
+  const VectorXc increments = increments_along(basis_, map, lines);
   VectorXc f = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
   for (size_t e = 0; e < lines.size(); ++e) {
     const auto [from, to] = tree_.edges()[e];
-    f[to] = f[from] + growth[static_cast<Index>(e)];
+    f[to] = f[from] + increments[static_cast<Index>(e)];
   }
   return f;
 }
@@ -46,12 +46,13 @@ VectorXc MapOnMesh::antiderivative(const VectorXc& coefficients) const {
   return tree_.antiderivative(function(coefficients), product(slopes_, coefficients));
 }
 
-MatrixXc MapOnMesh::psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const {
-  MatrixXc rows(static_cast<Index>(places.size()), coefficients.cols());
+MatrixXc MapOnMesh::psi_rows(std::span<const Location> locations,
+                             const MatrixXc& coefficients) const {
+  MatrixXc rows(static_cast<Index>(locations.size()), coefficients.cols());
   for (Index j = 0; j < coefficients.cols(); ++j) {
     const VectorXc psi = antiderivative(coefficients.col(j));
-    for (size_t i = 0; i < places.size(); ++i)
-      rows(static_cast<Index>(i), j) = places[i].in(mesh_, as_span(psi));
+    for (size_t i = 0; i < locations.size(); ++i)
+      rows(static_cast<Index>(i), j) = locations[i].in(mesh_, as_span(psi));
   }
   return rows;
 }

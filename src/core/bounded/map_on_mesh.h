@@ -26,7 +26,7 @@ class MapOnMesh {
   VectorXc phi(const VectorXc& l) const;
   /// Psi at the given locations, one row for each. Column j is for Psi' with the coefficients in
   /// column j.
-  MatrixXc psi_rows(std::span<const Location> places, const MatrixXc& coefficients) const;
+  MatrixXc psi_rows(std::span<const Location> locations, const MatrixXc& coefficients) const;
 
   /// The antiderivative of a function of the basis at the vertices, 0 in the middle of the mesh.
   VectorXc antiderivative(const VectorXc& coefficients) const;

@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kAtOnce = 2048;
+constexpr size_t kBatch = 2048;
 constexpr int kNodes = 12;
 
 /// The ends of a line's panels, as fractions of the line.
@@ -33,8 +33,8 @@ std::vector<double> panels_of(const Points& polygon, const Line& line) {
 Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const Complex> points) {
   Slopes slopes{VectorXc(static_cast<Index>(points.size())),
                 VectorXc(static_cast<Index>(points.size()))};
-  for (size_t first = 0; first < points.size(); first += kAtOnce) {
-    const size_t count = std::min(kAtOnce, points.size() - first);
+  for (size_t first = 0; first < points.size(); first += kBatch) {
+    const size_t count = std::min(kBatch, points.size() - first);
     const MatrixXc c = basis.values(points.subspan(first, count));
     const Derivatives d = derivatives_of(map, c * map.l, c * map.w);
     slopes.fz.segment(static_cast<Index>(first), static_cast<Index>(count)) = d.phi;
@@ -43,7 +43,8 @@ Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const 
   return slopes;
 }
 
-VectorXc growth_along(const BoundaryBasis& basis, const LogMap& map, std::span<const Line> lines) {
+VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
+                          std::span<const Line> lines) {
   const GaussRule& rule = gauss_rule(kNodes);
   Points points;
   struct Node {
@@ -52,26 +53,26 @@ VectorXc growth_along(const BoundaryBasis& basis, const LogMap& map, std::span<c
   };
   std::vector<Node> nodes;
   for (size_t i = 0; i < lines.size(); ++i) {
-    const Complex way = lines[i].to - lines[i].from;
-    if (way == Complex(0)) continue;
+    const Complex direction = lines[i].to - lines[i].from;
+    if (direction == Complex(0)) continue;
     const std::vector<double> ends = panels_of(basis.polygon(), lines[i]);
     for (size_t p = 0; p + 1 < ends.size(); ++p)
       for (int g = 0; g < kNodes; ++g) {
         const double length = ends[p + 1] - ends[p],
-                     share = ends[p] + length * rule.nodes[static_cast<size_t>(g)];
-        points.push_back(lines[i].from + share * way);
+                     fraction = ends[p] + length * rule.nodes[static_cast<size_t>(g)];
+        points.push_back(lines[i].from + fraction * direction);
         nodes.push_back(
-            {static_cast<Index>(i), length * rule.weights[static_cast<size_t>(g)] * way});
+            {static_cast<Index>(i), length * rule.weights[static_cast<size_t>(g)] * direction});
       }
   }
   const Slopes slopes = slopes_at(basis, map, points);
-  VectorXc growth = VectorXc::Zero(static_cast<Index>(lines.size()));
+  VectorXc increments = VectorXc::Zero(static_cast<Index>(lines.size()));
   for (size_t k = 0; k < nodes.size(); ++k) {
     const Index at = static_cast<Index>(k);
-    growth[nodes[k].line] +=
+    increments[nodes[k].line] +=
         slopes.fz[at] * nodes[k].weight + slopes.fzbar[at] * std::conj(nodes[k].weight);
   }
-  return growth;
+  return increments;
 }
 
 }  // namespace holomorph

@@ -14,7 +14,8 @@ struct Line {
 /// The increment of f = Phi + conj(Psi) along each line. Each Gauss-Legendre panel is shorter than
 /// its distance from the basis' polygon, outside which the functions are not defined. The error is
 /// therefore that of rounding. Cost: 12 rows of the basis for each panel.
-VectorXc growth_along(const BoundaryBasis& basis, const LogMap& map, std::span<const Line> lines);
+VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
+                          std::span<const Line> lines);
 
 /// Phi' and conj(Psi') at points.
 struct Slopes {

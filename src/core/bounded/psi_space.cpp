@@ -38,19 +38,19 @@ PsiSpace::PsiSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePo
       size_(pins.size) {
   check(pins_.rows() == 0 || pins_.cols() == basis->size(), "pins: a column for each unknown");
   if (pins_.rows() > 0) pins_ = (pins_.rowwise() - pins_.colwise().mean()).eval() / size_;
-  discs_.height.resize(0, 0);
-  real_columns(basis->at_samples(), discs_.re, discs_.im);
-  discs_.quadratic = distance_.quadratic();
+  disks_.height.resize(0, 0);
+  real_columns(basis->at_samples(), disks_.re, disks_.im);
+  disks_.quadratic = distance_.quadratic();
   MatrixXd re, im;
   if (pins_.rows() > 0) {
     real_columns(pins_, re, im);
-    discs_.quadratic += pin_weight_ * (re * re.transpose() + im * im.transpose());
+    disks_.quadratic += pin_weight_ * (re * re.transpose() + im * im.transpose());
   }
   real_columns(distance_.boundary().rows(), re, im);
   dirichlet_.compute(re.transpose());
 }
 
-std::vector<Cone> PsiSpace::discs(const VectorXd& u) const {
+std::vector<Cone> PsiSpace::disks(const VectorXd& u) const {
   const Eigen::ArrayXd size = u.array().exp();
   return {{tight_.Sigma - size, 0, 0}, {size - tight_.sigma, 0, 0}, {tight_.k * size, 0, 0}};
 }
@@ -65,16 +65,16 @@ ConeTarget PsiSpace::target_of(const BoundedReference& reference, const VectorXc
   target.linear = psi.linear;
   target.constant = psi.constant;
   if (pins_.rows() > 0) {
-    const VectorXc centerd = (wanted.array() - wanted.mean()).matrix() / size_;
-    target.linear -= pin_weight_ * stacked(pins_.adjoint() * centerd);
-    target.constant += 0.5 * pin_weight_ * centerd.squaredNorm();
+    const VectorXc centered = (wanted.array() - wanted.mean()).matrix() / size_;
+    target.linear -= pin_weight_ * stacked(pins_.adjoint() * centered);
+    target.constant += 0.5 * pin_weight_ * centered.squaredNorm();
   }
   return target;
 }
 
-void PsiSpace::append_discs(const Points& points, const VectorXc& l, ConeSystem& system) const {
+void PsiSpace::append_disks(const Points& points, const VectorXc& l, ConeSystem& system) const {
   const MatrixXc c = basis_->values(points);
-  const std::vector<Cone> more = discs((c * l).real());
+  const std::vector<Cone> more = disks((c * l).real());
   MatrixXd re, im;
   real_columns(basis_->whitened(c), re, im);
   append_columns(re, system.re);
@@ -92,8 +92,8 @@ BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference
   const VectorXc& l = conformal.map.l;
   // When l is proved, the disks have positive radii everywhere on the boundary.
   if (settings_.bounds.k == 0 || !conformal.certificate.holds) return conformal;
-  ConeSystem system = discs_;
-  system.cones = discs((conformal_.certifier().coordinates() * l).real());
+  ConeSystem system = disks_;
+  system.cones = disks((conformal_.certifier().coordinates() * l).real());
   const VectorXd center = VectorXd::Zero(system.unknowns());
   const CertifiedProgram program{
       conformal_.certifier(),
@@ -103,13 +103,13 @@ BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference
       [&](const VectorXd& x) {
         return LogMap{l, basis_->coefficients(complex_of(x)), LogMap::Second::psi};
       },
-      [&](const Points& points, ConeSystem& cut) { append_discs(points, l, cut); }};
+      [&](const Points& points, ConeSystem& cut) { append_disks(points, l, cut); }};
   ConeSolution start;
   start.x = center;
   if (warm && warm->solution.x.size() == center.size())
-    for (double share = 0.98; share > 0.5; share *= 0.9)
-      if (is_feasible(system, share * warm->solution.x)) {
-        start.x = share * warm->solution.x;
+    for (double fraction = 0.98; fraction > 0.5; fraction *= 0.9)
+      if (is_feasible(system, fraction * warm->solution.x)) {
+        start.x = fraction * warm->solution.x;
         break;
       }
   return program.solved(target_of(reference, wanted), settings_for(warm), start,

@@ -45,8 +45,8 @@ class PsiSpace {
  private:
   ConeTarget target_of(const BoundedReference& reference, const VectorXc& wanted) const;
   /// The disks that contain Psi' at samples where Re l = u, one for each bound.
-  std::vector<Cone> discs(const VectorXd& u) const;
-  void append_discs(const Points& points, const VectorXc& l, ConeSystem& system) const;
+  std::vector<Cone> disks(const VectorXd& u) const;
+  void append_disks(const Points& points, const VectorXc& l, ConeSystem& system) const;
 
   std::shared_ptr<const BoundaryBasis> basis_;
   BoundedSettings settings_;
@@ -55,7 +55,7 @@ class PsiSpace {
   HolomorphicDistance distance_;  ///< of Psi'
   MatrixXc pins_;                 ///< rows minus their mean, divided by the size
   double pin_weight_, size_;
-  ConeSystem discs_;                                            ///< without the disks' radii
+  ConeSystem disks_;                                            ///< without the disks' radii
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> dirichlet_;  ///< fits Re l at boundary points
 };
 

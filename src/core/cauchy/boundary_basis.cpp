@@ -12,7 +12,7 @@ namespace holomorph {
 namespace {
 
 /// The corners of a polygon, each moved outwards by its own distance from both of its edges.
-Points mitred(const Points& polygon, const std::vector<double>& distances) {
+Points mitered(const Points& polygon, const std::vector<double>& distances) {
   const size_t n = polygon.size();
   constexpr double kLongest = 12;  // length of a miter, in units of the distance
   Points outer;
@@ -20,16 +20,16 @@ Points mitred(const Points& polygon, const std::vector<double>& distances) {
     const Complex before = polygon[i] - polygon[(i + n - 1) % n],
                   after = polygon[(i + 1) % n] - polygon[i];
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
-    Complex mitre = u + v;
-    const double size = std::norm(mitre);
+    Complex miter = u + v;
+    const double size = std::norm(miter);
     // At a spike the miter would be too long. In a notch it must be long, or the sides meet before
     // its end.
     const bool spike = cross(before, after) >= 0;
     if (spike && size < 4 / (kLongest * kLongest))
-      mitre = kLongest * before / std::abs(before);
+      miter = kLongest * before / std::abs(before);
     else
-      mitre *= 2 / std::max(size, 1e-12);
-    outer.push_back(polygon[i] + distances[i] * mitre);
+      miter *= 2 / std::max(size, 1e-12);
+    outer.push_back(polygon[i] + distances[i] * miter);
   }
   return outer;
 }
@@ -61,7 +61,7 @@ std::vector<double> lengths_of(const Cage& domain) {
 }
 
 /// A piece, divided into parts that are equal in its parameter.
-std::vector<BoundaryPiece> parted(const Cage& domain, const BoundaryPiece& piece, int parts) {
+std::vector<BoundaryPiece> subdivided(const Cage& domain, const BoundaryPiece& piece, int parts) {
   std::vector<BoundaryPiece> pieces;
   const double step = (piece.to - piece.from) / parts;
   for (int k = 0; k < parts; ++k)
@@ -82,10 +82,11 @@ std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
   std::vector<BoundaryPiece> pieces;
   for (Index e = 0; e < domain.size(); ++e)
     for (const BoundaryPiece& piece :
-         parted(domain, piece_of(domain, e, 0, 1), parts[static_cast<size_t>(e)])) {
+         subdivided(domain, piece_of(domain, e, 0, 1), parts[static_cast<size_t>(e)])) {
       constexpr double kMostParts = 6;
       const double more = std::ceil(std::sqrt(sagitta(piece) / flat));
-      const auto finer = parted(domain, piece, static_cast<int>(std::clamp(more, 1.0, kMostParts)));
+      const auto finer =
+          subdivided(domain, piece, static_cast<int>(std::clamp(more, 1.0, kMostParts)));
       pieces.insert(pieces.end(), finer.begin(), finer.end());
     }
   return pieces;
@@ -136,7 +137,7 @@ Surrounding surrounding(const Cage& domain, int wanted, double distance) {
         const BoundaryPiece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
         distances.push_back(off + 1.5 * std::max(sagitta(pieces[i]), sagitta(before)));
       }
-      const Points outer = mitred(inner, distances);
+      const Points outer = mitered(inner, distances);
       if (is_around(outer, fine, 0.3 * off)) return {outer, pieces};
     }
   }
@@ -182,7 +183,7 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   polygon_ = std::move(around_domain.polygon);
   const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));
   for (const BoundaryPiece& piece : around_domain.pieces)
-    for (const BoundaryPiece& part : parted(domain_, piece, each)) pieces_.push_back(part);
+    for (const BoundaryPiece& part : subdivided(domain_, piece, each)) pieces_.push_back(part);
   samples_ = starts_of(pieces_);
   const MatrixXc c = values(samples_);
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
@@ -202,7 +203,7 @@ Points BoundaryBasis::inset(double share) const {
   for (size_t i = 0; i < n; ++i) {
     const Complex in = samples_[(i + n - 1) % n] - samples_[i],
                   out = samples_[(i + 1) % n] - samples_[i];
-    Complex step = share * std::min(std::abs(in), std::abs(out)) * inwards_between(out, in);
+    Complex step = share * std::min(std::abs(in), std::abs(out)) * interior_bisector(out, in);
     // Do not go beyond the middle of a thin part.
     for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
                                            winding_number(fine, samples_[i] + 2.0 * step) != 1);

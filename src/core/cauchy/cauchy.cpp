@@ -187,7 +187,7 @@ bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> root
 /// Whether two roots are so close to each other that they are better handled together, by
 /// quadrature: a double root has only half the digits, and the derivatives of two close roots
 /// cancel.
-bool has_twins(std::span<const Root> roots, int order) {
+bool has_close_roots(std::span<const Root> roots, int order) {
   const double apart = order == 0 ? 1e-3 : 0.05;
   for (size_t i = 0; i < roots.size(); ++i)
     for (size_t j = 0; j < i; ++j)
@@ -244,7 +244,7 @@ VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const
     *on = {own->s, own->q};
   }
   VectorXc sum = VectorXc::Zero(degree + 1);
-  if (!own && has_twins(roots, order) &&
+  if (!own && has_close_roots(roots, order) &&
       add_quadrature(segment, roots, z.plain(), 0, 1, order, sum)) {
     if (order > 0 && without_poles.start) sum[0] -= pole_at(segment.start() - z, order);
     if (order > 0 && without_poles.end) sum[degree] += pole_at(segment.end() - z, order);

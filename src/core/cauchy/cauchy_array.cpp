@@ -151,11 +151,11 @@ class BlockFiller {
 
   /// Whether a root is near the segment or nearly double.
   static bool needs_care(std::span<const Root> roots, double rounding) {
-    constexpr double kTwins = 0.05;
+    constexpr double kCloseRoots = 0.05;
     for (size_t r = 0; r < roots.size(); ++r) {
       if (is_near(roots[r], rounding)) return true;
       for (size_t other = 0; other < r; ++other)
-        if (std::norm(roots[r].s - roots[other].s) < kTwins * kTwins) return true;
+        if (std::norm(roots[r].s - roots[other].s) < kCloseRoots * kCloseRoots) return true;
     }
     return false;
   }
@@ -201,7 +201,8 @@ class BlockFiller {
 
 /// The exact path, for degrees that the kernels do not integrate.
 template <class T>
-void exactly(const Cage& cage, std::span<const Complex> points, int order, PlanarMatrix<T>& out) {
+void fill_exactly(const Cage& cage, std::span<const Complex> points, int order,
+                  PlanarMatrix<T>& out) {
   const CauchyRows rows(cage, order, CauchyRows::AtVertices::from_inside);
   out.resize(static_cast<Index>(points.size()), cage.control_count());
   for (Index i = 0; i < out.rows(); ++i) {
@@ -245,7 +246,7 @@ void planar_coordinates(const Cage& cage, std::span<const Complex> points, int o
     return;
   }
   for (Index e = 0; e < cage.size(); ++e)
-    if (cage.degree(e) > kernel::kMostDegree) return exactly(cage, points, order, out);
+    if (cage.degree(e) > kernel::kMaxDegree) return fill_exactly(cage, points, order, out);
   out.resize(static_cast<Index>(points.size()), cage.control_count());
   double farthest = 0;
   for (const Complex& z : points) farthest = std::max(farthest, std::abs(z));

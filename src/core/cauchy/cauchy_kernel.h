@@ -8,7 +8,7 @@ namespace holomorph::kernel {
 /// Points per call.
 inline constexpr int kBlock = 32;
 /// The highest basis degree that the kernels integrate.
-inline constexpr int kMostDegree = 4;
+inline constexpr int kMaxDegree = 4;
 
 /// An edge from (ax, ay) to (bx, by), with (ux, uy) = 1 / (b - a). A point may be on it if its
 /// offset from the edge is at most `rounding` edge lengths.
@@ -30,10 +30,10 @@ struct alignas(64) Roots {
 
 /// Coordinates of a segment's control points at kBlock points; on_edge is 1 for marked points.
 struct alignas(64) Moments {
-  double re[kMostDegree + 1][kBlock], im[kMostDegree + 1][kBlock], on_edge[kBlock];
+  double re[kMaxDegree + 1][kBlock], im[kMaxDegree + 1][kBlock], on_edge[kBlock];
 };
 
-/// Fills `out` for the points of a block, for a basis of degree 1 to kMostDegree and order 0 or 1.
+/// Fills `out` for the points of a block, for a basis of degree 1 to kMaxDegree and order 0 or 1.
 /// Returns whether some points may be on the edge or next to its ends. If so, on_edge marks them
 /// with 1, and their moments may be meaningless.
 using EdgeMoments = bool (*)(const Edge& edge, const Block& block, int degree, int order,

@@ -59,7 +59,7 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
     const Complex in = -before.curve.derivative({1, 0}), out = own.curve.derivative({0, 1});
     const double shorter = std::min(std::abs(own.curve.end() - own.curve.start()),
                                     std::abs(before.curve.end() - before.curve.start()));
-    own.inwards = 1e-12 * shorter * inwards_between(out, in);
+    own.inwards = 1e-12 * shorter * interior_bisector(out, in);
     own.reach = 0.05 * shorter;
   }
 }
@@ -145,9 +145,9 @@ CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
       // Where a boundary is smooth at a vertex, the extension of the neighboring segment comes
       // equally near. Beyond its ends, a segment is therefore as far away as its end.
       const double beyond = std::max({0.0, -root.s.real(), -root.q.real()});
-      const double beside = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);
-      if (beyond <= 0.1 && beside < nearest) {
-        nearest = beside;
+      const double distance = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);
+      if (beyond <= 0.1 && distance < nearest) {
+        nearest = distance;
         across = &segment;
         crossed = root;
       }

@@ -39,69 +39,70 @@ Index CauchyRows::column(size_t segment, int m) const {
 Complex CauchyRows::inwards(size_t vertex) const {
   const Complex in = -segments_[before(vertex)].derivative({1, 0}),
                 out = segments_[vertex].derivative({0, 1});
-  return kInside * reach_[vertex] * inwards_between(out, in);
+  return kInside * reach_[vertex] * interior_bisector(out, in);
 }
 
-CauchyRows::Stand CauchyRows::stand_on(const Contact& contact) const {
+CauchyRows::EvalPoint CauchyRows::eval_point_on(const Contact& contact) const {
   const size_t segment = static_cast<size_t>(contact.segment);
   if (contact.is_vertex() && order_ > 0 && at_vertices_ == AtVertices::from_inside)
     return {{segments_[segment].start(), inwards(segment)}, {}};
   return {contact.point, contact};
 }
 
-CauchyRows::Stand CauchyRows::stand_at(Complex z) const {
+CauchyRows::EvalPoint CauchyRows::eval_point_at(Complex z) const {
   const auto contact = contact_of(segments_, z, kOutside);
-  return contact ? stand_on(*contact) : Stand{z, {}};
+  return contact ? eval_point_on(*contact) : EvalPoint{z, {}};
 }
 
-bool CauchyRows::is_undefined(const Stand& stand) const {
-  return stand.on && stand.on->is_vertex() && order_ > 0;
+bool CauchyRows::is_undefined(const EvalPoint& eval_point) const {
+  return eval_point.on && eval_point.on->is_vertex() && order_ > 0;
 }
 
 /// The coordinates of one segment's control points.
-VectorXc CauchyRows::coordinates(const Stand& stand, size_t segment) const {
+VectorXc CauchyRows::coordinates(const EvalPoint& eval_point, size_t segment) const {
   const size_t next = (segment + 1) % segments_.size();
   const Index number = static_cast<Index>(segment);
   const int degree = cage_.degree(number);
-  if (stand.on && stand.on->is_vertex()) {
-    const size_t vertex = static_cast<size_t>(stand.on->segment);
+  if (eval_point.on && eval_point.on->is_vertex()) {
+    const size_t vertex = static_cast<size_t>(eval_point.on->segment);
     if (segment == vertex || next == vertex) {
       const size_t last = before(vertex);
       const VertexLimit limit =
           vertex_limit(segments_[last], cage_.degree(static_cast<Index>(last)), segments_[vertex],
-                       cage_.degree(stand.on->segment));
+                       cage_.degree(eval_point.on->segment));
       return segment == vertex ? limit.own : limit.before;
     }
   }
   const auto is_near = [&](size_t vertex) {
-    return order_ > 0 && std::abs(segments_[vertex].start() - stand.point) < kNear * reach_[vertex];
+    return order_ > 0 &&
+           std::abs(segments_[vertex].start() - eval_point.point) < kNear * reach_[vertex];
   };
-  const bool own = stand.on && stand.on->segment == number;
-  return segment_coordinates(segments_[segment], degree, stand.point, order_,
-                             own ? &*stand.on : nullptr, {is_near(segment), is_near(next)});
+  const bool own = eval_point.on && eval_point.on->segment == number;
+  return segment_coordinates(segments_[segment], degree, eval_point.point, order_,
+                             own ? &*eval_point.on : nullptr, {is_near(segment), is_near(next)});
 }
 
-VectorXc CauchyRows::whole_row(const Stand& stand) const {
+VectorXc CauchyRows::whole_row(const EvalPoint& eval_point) const {
   VectorXc row = VectorXc::Zero(cage_.control_count());
-  if (is_undefined(stand)) {
+  if (is_undefined(eval_point)) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     row.setConstant(Complex(kNaN, kNaN));
     return row;
   }
   for (size_t e = 0; e < segments_.size(); ++e) {
-    const VectorXc values = coordinates(stand, e);
+    const VectorXc values = coordinates(eval_point, e);
     for (Index m = 0; m < values.size(); ++m) row[column(e, static_cast<int>(m))] += values[m];
   }
-  if (order_ == 2) set_second_derivatives(row, stand.point);
+  if (order_ == 2) set_second_derivatives(row, eval_point.point);
   return row;
 }
 
 VectorXc CauchyRows::row(Complex z) const {
-  return whole_row(stand_at(z));
+  return whole_row(eval_point_at(z));
 }
 
 VectorXc CauchyRows::row(BoundaryPoint point) const {
-  return whole_row(stand_on(contact_at(segments_, point.segment, point.t)));
+  return whole_row(eval_point_on(contact_at(segments_, point.segment, point.t)));
 }
 
 /// Between two straight edges, the second derivative is rational and does not cancel at all.
@@ -117,7 +118,7 @@ void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const
 
 std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
   const auto contact = contact_of(segments_, z, kOutside);
-  const Stand stand = contact ? stand_on(*contact) : Stand{z, {}};
+  const EvalPoint eval_point = contact ? eval_point_on(*contact) : EvalPoint{z, {}};
   size_t own = contact ? static_cast<size_t>(contact->segment) : segments_.size();
   if (!contact && order_ > 0)
     for (size_t v = 0; v < segments_.size(); ++v)
@@ -126,20 +127,20 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
   // Extends in both directions along the boundary as far as a step by a rounding error matters.
   const size_t n = segments_.size();
   const double far = kRecovers * rounding_of(segments_[own], z, 0.5, 0.5);
-  const auto is_felt = [&](size_t vertex) {
+  const auto is_affected = [&](size_t vertex) {
     return std::abs(segments_[vertex % n].start() - z) < far;
   };
   size_t from = own + n - 1, to = own + n + 1;
-  while (to - from < n && is_felt(from)) --from;
-  while (to - from < n && is_felt(to + 1)) ++to;
-  if (to - from + 3 >= n) return Patch{0, whole_row(stand)};
+  while (to - from < n && is_affected(from)) --from;
+  while (to - from < n && is_affected(to + 1)) ++to;
+  if (to - from + 3 >= n) return Patch{0, whole_row(eval_point)};
   // Fills their columns, to which the next segments on both sides contribute, too.
   Patch patch{column(from % n, 0), {}};
   const Index all = cage_.control_count();
   const Index count = (column((to + 1) % n, 0) - patch.first + all) % all + 1;
   patch.values = VectorXc::Zero(count);
   const auto add = [&](size_t segment, bool first, bool last, bool middle) {
-    const VectorXc values = coordinates(stand, segment % n);
+    const VectorXc values = coordinates(eval_point, segment % n);
     for (Index m = 0; m < values.size(); ++m) {
       if (!(m == 0 ? first : m + 1 == values.size() ? last : middle)) continue;
       patch.values[(column(segment % n, static_cast<int>(m)) - patch.first + all) % all] +=

@@ -32,19 +32,19 @@ class CauchyRows {
 
  private:
   /// The position at which a row is evaluated.
-  struct Stand {
+  struct EvalPoint {
     FinePoint point;
     std::optional<Contact> on;
   };
 
   size_t before(size_t vertex) const { return (vertex + segments_.size() - 1) % segments_.size(); }
   Index column(size_t segment, int m) const;
-  bool is_undefined(const Stand& stand) const;
-  Stand stand_on(const Contact& contact) const;
-  Stand stand_at(Complex z) const;
+  bool is_undefined(const EvalPoint& eval_point) const;
+  EvalPoint eval_point_on(const Contact& contact) const;
+  EvalPoint eval_point_at(Complex z) const;
   Complex inwards(size_t vertex) const;
-  VectorXc coordinates(const Stand& stand, size_t segment) const;
-  VectorXc whole_row(const Stand& stand) const;
+  VectorXc coordinates(const EvalPoint& eval_point, size_t segment) const;
+  VectorXc whole_row(const EvalPoint& eval_point) const;
   void set_second_derivatives(VectorXc& row, const FinePoint& z) const;
 
   Cage cage_;

@@ -25,10 +25,12 @@ Element nearest_bounded(const Element& element, const Bounds& bounds) {
   if (!inside) {
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < corners.size(); ++i) {
-      const Complex from = corners[i], way = corners[(i + 1) % corners.size()] - from;
+      const Complex from = corners[i], difference = corners[(i + 1) % corners.size()] - from;
       const double along =
-          std::norm(way) > 0 ? std::clamp(dot(at - from, way) / std::norm(way), 0.0, 1.0) : 0;
-      const Complex candidate = from + along * way;
+          std::norm(difference) > 0
+              ? std::clamp(dot(at - from, difference) / std::norm(difference), 0.0, 1.0)
+              : 0;
+      const Complex candidate = from + along * difference;
       if (std::abs(candidate - at) < least) least = std::abs(candidate - at), nearest = candidate;
     }
   }
@@ -91,8 +93,8 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
   const double scale = 1 / static_cast<double>(t.elements());
   VectorXd s = (limit - along(t.apply(x))).cwiseMax(0.1),
            z = VectorXd::Constant(count, 0.1 * scale);
-  constexpr int kMost = 40;
-  for (int iteration = 0; iteration < kMost && !stop.stop_requested(); ++iteration) {
+  constexpr int kMaxIterations = 40;
+  for (int iteration = 0; iteration < kMaxIterations && !stop.stop_requested(); ++iteration) {
     const VectorXd y = t.apply(x), off = along(y) + s - limit;
     const double mu = count > 0 ? s.dot(z) / static_cast<double>(count) : 0;
     std::vector<Eigen::Matrix4d> blocks = identity_blocks(t);
@@ -115,8 +117,8 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
     x += length * dx;
     s += length * ds;
     z += length * dz;
-    const double open = count > 0 ? off.cwiseAbs().maxCoeff() : 0;
-    if (mu < 1e-9 * scale && open < 1e-9 && length > 0.9) break;
+    const double residual = count > 0 ? off.cwiseAbs().maxCoeff() : 0;
+    if (mu < 1e-9 * scale && residual < 1e-9 && length > 0.9) break;
     if (count == 0) break;
   }
   return x;
@@ -127,18 +129,19 @@ VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
 Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,
                          const ProjectionSettings& settings) {
   Projected result{start};
-  constexpr int kMost = 50;
-  for (; result.iterations < kMost && !settings.stop.stop_requested(); ++result.iterations) {
+  constexpr int kMaxIterations = 50;
+  for (; result.iterations < kMaxIterations && !settings.stop.stop_requested();
+       ++result.iterations) {
     const VectorXd y = t.apply(result.x), p = projected(y, settings.bounds);
     HalfSpaces spaces{VectorXd::Zero(y.size()), VectorXd::Zero(t.elements())};
     double worst = 0;
     for (Index i = 0; i < t.elements(); ++i) {
-      const Element way = y.segment<4>(4 * i) - p.segment<4>(4 * i);
-      const double length = way.norm();
+      const Element difference = y.segment<4>(4 * i) - p.segment<4>(4 * i);
+      const double length = difference.norm();
       worst = std::max(worst, length);
       if (length == 0) continue;
-      spaces.normals.segment<4>(4 * i) = way / length;
-      spaces.limits[i] = way.dot(p.segment<4>(4 * i)) / length;
+      spaces.normals.segment<4>(4 * i) = difference / length;
+      spaces.limits[i] = difference.dot(p.segment<4>(4 * i)) / length;
     }
     result.settled = worst < kSettled;
     if (result.settled) break;
@@ -151,15 +154,17 @@ Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start,
                             const ProjectionSettings& settings) {
   Projected result{start};
   t.factor(identity_blocks(t));
-  constexpr int kMost = 3000;
-  for (; result.iterations < kMost && !settings.stop.stop_requested(); ++result.iterations) {
-    const VectorXd y = t.apply(result.x), way = y - projected(y, settings.bounds);
+  constexpr int kMaxIterations = 3000;
+  for (; result.iterations < kMaxIterations && !settings.stop.stop_requested();
+       ++result.iterations) {
+    const VectorXd y = t.apply(result.x), difference = y - projected(y, settings.bounds);
     double worst = 0;
-    for (Index i = 0; i < t.elements(); ++i) worst = std::max(worst, way.segment<4>(4 * i).norm());
+    for (Index i = 0; i < t.elements(); ++i)
+      worst = std::max(worst, difference.segment<4>(4 * i).norm());
     result.settled = worst < kSettled;
     if (result.settled) break;
-    const VectorXd pull = t.adjoint(weighted(t, way)), dx = t.solve(pull);
-    const double step = way.dot(weighted(t, way)) / pull.dot(dx);
+    const VectorXd pull = t.adjoint(weighted(t, difference)), dx = t.solve(pull);
+    const double step = difference.dot(weighted(t, difference)) / pull.dot(dx);
     result.x -= step * dx;
   }
   return result;

@@ -43,10 +43,10 @@ class Comparison {
     set_up_reference();
   }
 
-  void run(const std::function<void(const ComparedMap&)>& take) {
-    take(reference());
+  void run(const std::function<void(const ComparedMap&)>& on_row) {
+    on_row(reference());
     if (settings_.stop.stop_requested()) return;
-    take(ours());
+    on_row(ours());
     if (settings_.stop.stop_requested()) return;
     const auto mesh = mesh_operator(mesh_);
     const VectorXd start = stacked(reference_), g = mesh->apply(start);
@@ -66,7 +66,7 @@ class Comparison {
     for (const Rival& rival : rivals) {
       const ComparedMap map = row_of(rival);
       if (settings_.stop.stop_requested()) return;
-      take(map);
+      on_row(map);
     }
   }
 
@@ -200,8 +200,8 @@ class Comparison {
 }  // namespace
 
 void compare(const Rest& rest, const Pose& pose,
-             const std::function<void(const ComparedMap&)>& take, std::stop_token stop) {
-  Comparison(rest, pose, std::move(stop)).run(take);
+             const std::function<void(const ComparedMap&)>& on_row, std::stop_token stop) {
+  Comparison(rest, pose, std::move(stop)).run(on_row);
 }
 
 }  // namespace holomorph

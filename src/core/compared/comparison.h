@@ -26,10 +26,10 @@ struct ComparedMap {
 /// and plain implementations of Lipman 2012, Chen and Weber 2015, Aigerman and Lipman 2013, and
 /// Kovalsky et al. 2015. All use the rest's parameters. Piecewise linear maps are measured on the
 /// mesh's triangles; harmonic maps are measured at the mesh's vertices and densely along the
-/// boundary, including between the samples. `take` receives each row as soon as it is finished;
+/// boundary, including between the samples. `on_row` receives each row as soon as it is finished;
 /// `stop` ends the work early. Throws Error under the same conditions as the methods. Cost: seconds
 /// for a thousand vertices.
 void compare(const Rest& rest, const Pose& pose,
-             const std::function<void(const ComparedMap&)>& take, std::stop_token stop = {});
+             const std::function<void(const ComparedMap&)>& on_row, std::stop_token stop = {});
 
 }  // namespace holomorph

@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kUnseen = 1e-9;  ///< added to the diagonal for the null space of T
+constexpr double kNullSpaceWeight = 1e-9;  ///< added to the diagonal for the null space of T
 
 class MeshOperator final : public DerivativeOperator {
  public:
@@ -37,7 +37,7 @@ class MeshOperator final : public DerivativeOperator {
     blocks.setFromTriplets(entries.begin(), entries.end());
     Eigen::SparseMatrix<double> normal = transposed_ * blocks * t_;
     const double most = normal.diagonal().maxCoeff();
-    normal.diagonal().array() += kUnseen * most;
+    normal.diagonal().array() += kNullSpaceWeight * most;
     if (!analyzed_) cholesky_.analyzePattern(normal);
     analyzed_ = true;
     cholesky_.factorize(normal);
@@ -47,8 +47,8 @@ class MeshOperator final : public DerivativeOperator {
 
   VectorXc map(const VectorXd& x) const override { return complex_of(x); }
   VectorXd similarity(double factor) const override {
-    const VectorXc places = Eigen::Map<const VectorXc>(mesh_.vertices.data(), unknowns() / 2);
-    return stacked(factor * places);
+    const VectorXc positions = Eigen::Map<const VectorXc>(mesh_.vertices.data(), unknowns() / 2);
+    return stacked(factor * positions);
   }
 
  private:
@@ -109,7 +109,7 @@ class HarmonicOperator final : public DerivativeOperator {
     MatrixXd normal = MatrixXd::Zero(t_.cols(), t_.cols());
     add_gram(columns, columns.cols(), 0, normal);
     const double most = normal.diagonal().maxCoeff();
-    normal.diagonal().array() += kUnseen * most;
+    normal.diagonal().array() += kNullSpaceWeight * most;
     check(cholesky_.factor(normal), "harmonic operator: the normal matrix is definite");
   }
   VectorXd solve(const VectorXd& right) const override { return cholesky_.solve(right); }

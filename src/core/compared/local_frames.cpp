@@ -155,16 +155,16 @@ class LocalFrames {
           -(b.gradient[4] + b.hessian.col(4).head<4>().dot(dy.segment<4>(4 * i))) / b.hessian(4, 4);
       slope -= mu * b.gradient[4] * b.gradient[4] / b.hessian(4, 4);
     }
-    const double now = distance(y) + mu * barrier_value(y, r_);
-    if (!std::isfinite(now) || !dx.allFinite()) return false;
+    const double current = distance(y) + mu * barrier_value(y, r_);
+    if (!std::isfinite(current) || !dx.allFinite()) return false;
     double length = 1;
     for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
       const VectorXd r = r_ + length * dr, moved = y + length * dy;
-      if (distance(moved) + mu * barrier_value(moved, r) > now + 0.1 * length * slope) continue;
+      if (distance(moved) + mu * barrier_value(moved, r) > current + 0.1 * length * slope) continue;
       x_ += length * dx;
       r_ = r;
-      constexpr double kCenterd = 1e-2;  // squared Newton decrement, in units of mu
-      return -slope > kCenterd * mu;
+      constexpr double kCentered = 1e-2;  // squared Newton decrement, in units of mu
+      return -slope > kCentered * mu;
     }
     return false;
   }

@@ -17,18 +17,18 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   const double length = perimeter(flat.points) / pieces;
   // Parts of about equal length; every vertex of the polygon is an end of one.
   std::vector<BoundaryPoint> starts;
-  std::vector<double> shares;  // the length of each part in the cage's parameter
+  std::vector<double> lengths;  // the length of each part in the cage's parameter
   Points nodes;
   for (size_t i = 0; i < flat.points.size(); ++i) {
     const Complex a = flat.points[i], b = flat.points[(i + 1) % flat.points.size()];
-    const auto& [segment, from] = flat.places[i];
-    const bool last = i + 1 == flat.points.size() || flat.places[i + 1].segment != segment;
-    const double to = last ? 1 : flat.places[i + 1].t;
+    const auto& [segment, from] = flat.locations[i];
+    const bool last = i + 1 == flat.points.size() || flat.locations[i + 1].segment != segment;
+    const double to = last ? 1 : flat.locations[i + 1].t;
     const int count = std::max(1, static_cast<int>(std::lround(std::abs(b - a) / length)));
     for (int k = 0; k < count; ++k) {
       nodes.push_back(a + (b - a) * (static_cast<double>(k) / count));
       starts.push_back({segment, from + (to - from) * k / count});
-      shares.push_back((to - from) / count);
+      lengths.push_back((to - from) / count);
     }
   }
   for (size_t i = 0; i < nodes.size(); ++i)
@@ -44,35 +44,35 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   }
   nodes_ = polygon_cage(nodes);
 
-  const auto at_shares = [&](const std::vector<double>& within) {
-    std::vector<BoundaryPoint> places;
+  const auto points_at = [&](const std::vector<double>& within) {
+    std::vector<BoundaryPoint> locations;
     Points points;
     std::vector<Index> parts;
     for (size_t i = 0; i < parts_.size(); ++i)
       for (const double t : within) {
-        places.push_back({starts[i].segment, starts[i].t + t * shares[i]});
+        locations.push_back({starts[i].segment, starts[i].t + t * lengths[i]});
         points.push_back(parts_[i].from + t * (parts_[i].to - parts_[i].from));
         parts.push_back(static_cast<Index>(i));
       }
-    return std::tuple(places, points, parts);
+    return std::tuple(locations, points, parts);
   };
-  const auto [places, points, parts] = at_shares({0.1, 0.3, 0.5, 0.7, 0.9});
+  const auto [locations, points, parts] = points_at({0.1, 0.3, 0.5, 0.7, 0.9});
   const MatrixXc basis = functions(points, parts);
   MatrixXd rows(basis.rows(), 2 * basis.cols());
   rows << basis.real(), -basis.imag();
   MatrixXd gram = transposed_matrix_product(rows, rows);
   gram.diagonal().array() += 1e-12 * gram.diagonal().mean();
-  const MatrixXd x = gram.ldlt().solve(transposed_matrix_product(rows, angles.values(places)));
+  const MatrixXd x = gram.ldlt().solve(transposed_matrix_product(rows, angles.values(locations)));
   coefficients_ = x.topRows(basis.cols()) + kI * x.bottomRows(basis.cols());
   const MatrixXc at_anchor = functions({&anchor_, 1}, {Index{-1}}) * coefficients_;
   slopes_ = (basis * coefficients_).rowwise() - kI * at_anchor.imag().row(0).cast<Complex>();
 
-  const auto [other_places, other_points, other_parts] =
-      at_shares({0.001, 0.02, 0.2, 0.4, 0.6, 0.8, 0.98, 0.999});
-  error_ =
-      ((functions(other_points, other_parts) * coefficients_).real() - angles.values(other_places))
-          .cwiseAbs()
-          .maxCoeff();
+  const auto [other_positions, other_points, other_parts] =
+      points_at({0.001, 0.02, 0.2, 0.4, 0.6, 0.8, 0.98, 0.999});
+  error_ = ((functions(other_points, other_parts) * coefficients_).real() -
+            angles.values(other_positions))
+               .cwiseAbs()
+               .maxCoeff();
 
   const MatrixXc derivative = cauchy_coordinates(nodes_, std::span<const Complex>(points), 1);
   MatrixXc normal = derivative.adjoint() * derivative;
@@ -100,17 +100,17 @@ MatrixXc PublishedAngles::functions(std::span<const Complex> points,
 PublishedAngles::Values PublishedAngles::map(const VectorXd& theta, const Points& samples) const {
   const VectorXc slopes = (kI * (slopes_ * theta.cast<Complex>())).array().exp();
   const VectorXc posed = fit_ * slopes;
-  Points all = samples, beside = samples;
+  Points all = samples, off_ends = samples;
   all.push_back(anchor_);
   const VectorXc f = cauchy_coordinates(nodes_, std::span<const Complex>(all)) * posed;
   const Index n = static_cast<Index>(samples.size());
   // f' is not defined where parts meet, so it is evaluated at a point next to them.
   const Points ends = vertices_of(nodes_);
   constexpr double kInside = 1e-3;
-  for (Complex& z : beside)
+  for (Complex& z : off_ends)
     if (std::ranges::find(ends, z) != ends.end()) z += kInside * (anchor_ - z);
   return {f.head(n).array() - f[n],
-          cauchy_coordinates(nodes_, std::span<const Complex>(beside), 1) * posed};
+          cauchy_coordinates(nodes_, std::span<const Complex>(off_ends), 1) * posed};
 }
 
 }  // namespace holomorph

@@ -90,7 +90,7 @@ Cage counter_clockwise(const Cage& cage) {
   return signed_area(outline_of(cage)) < 0 ? reversed(cage) : cage;
 }
 
-Complex beside_vertex(const Cage& cage, Complex z) {
+Complex point_inside_vertex(const Cage& cage, Complex z) {
   for (Index v = 0; v < cage.size(); ++v) {
     if (cage.vertex(v) != z) continue;
     const Points before = cage.controls((v + cage.size() - 1) % cage.size()),
@@ -98,7 +98,7 @@ Complex beside_vertex(const Cage& cage, Complex z) {
     const Complex in = before[before.size() - 2] - z, out = after[1] - z;
     const double shorter = std::min(std::abs(before.front() - z), std::abs(after.back() - z)),
                  rounding = std::numeric_limits<double>::epsilon() * std::abs(z);
-    return z + std::max(1e-9 * shorter, 64 * rounding) * inwards_between(out, in);
+    return z + std::max(1e-9 * shorter, 64 * rounding) * interior_bisector(out, in);
   }
   return z;
 }
@@ -188,7 +188,7 @@ FlatCage flattened(const Cage& cage) {
     for (int k = 0; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       flat.points.push_back(k == 0 ? cage.vertex(i) : bezier_point(controls, t));
-      flat.places.push_back({i, t});
+      flat.locations.push_back({i, t});
     }
   }
   return flat;
@@ -196,9 +196,9 @@ FlatCage flattened(const Cage& cage) {
 
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z) {
   const NearestPoint near = nearest_on_polygon(flat.points, z);
-  const size_t from = static_cast<size_t>(near.edge), to = (from + 1) % flat.places.size();
-  const auto [segment, start] = flat.places[from];
-  const double end = flat.places[to].segment == segment && to > 0 ? flat.places[to].t : 1;
+  const size_t from = static_cast<size_t>(near.edge), to = (from + 1) % flat.locations.size();
+  const auto [segment, start] = flat.locations[from];
+  const double end = flat.locations[to].segment == segment && to > 0 ? flat.locations[to].t : 1;
   double t = start + near.t * (end - start);
   if (!is_straight(cage, segment)) {
     const SegmentPolynomial curve(cage.controls(segment));
@@ -232,7 +232,7 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
   for (Index e = 0; e < n; ++e)
     along[e + 1] = along[e] + std::abs(polygon[(e + 1) % n] - polygon[e]);
   // The distance along the boundary between a vertex and an edge, in the shorter direction.
-  const auto way = [&](Index vertex, Index edge) {
+  const auto boundary_distance = [&](Index vertex, Index edge) {
     const double forward = along[vertex] - along[edge + 1], back = along[edge] - along[vertex];
     return forward >= 0 ? std::min(forward, along[n] - along[vertex] + along[edge])
                         : std::min(back, along[n] - along[edge + 1] + along[vertex]);
@@ -254,11 +254,11 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
     for (; v != by_x.end() && polygon[*v].real() <= right + most; ++v) {
       const Complex z = polygon[*v];
       if (*v == e || *v == (e + 1) % n || z.imag() < low - most || z.imag() > high + most) continue;
-      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * way(*v, e)))
+      if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * boundary_distance(*v, e)))
         return Error(ErrorKind::bad_input,
                      "the rest cage touches itself: point " +
-                         std::to_string(flat.places[*v].segment + 1) + " at " + point_text(z) +
-                         " lies on segment " + std::to_string(flat.places[e].segment + 1) +
+                         std::to_string(flat.locations[*v].segment + 1) + " at " + point_text(z) +
+                         " lies on segment " + std::to_string(flat.locations[e].segment + 1) +
                          "; move them apart",
                      z);
     }
@@ -358,8 +358,8 @@ std::optional<Error> rest_fault(const Cage& cage) {
   if (const auto crossing = self_crossing(flat.points))
     return Error(ErrorKind::bad_input,
                  "the rest cage crosses itself: segments " +
-                     std::to_string(flat.places[crossing->first].segment + 1) + " and " +
-                     std::to_string(flat.places[crossing->second].segment + 1) + " meet near " +
+                     std::to_string(flat.locations[crossing->first].segment + 1) + " and " +
+                     std::to_string(flat.locations[crossing->second].segment + 1) + " meet near " +
                      point_text(crossing->point) + "; move one of their points",
                  crossing->point);
   if (auto fault = gap_fault(flat)) return fault;

@@ -61,7 +61,7 @@ Points outline_of(const Cage& cage, int per_curve = 16);
 /// at most 1024 pieces.
 struct FlatCage {
   Points points;
-  std::vector<BoundaryPoint> places;
+  std::vector<BoundaryPoint> locations;
 };
 FlatCage flattened(const Cage& cage);
 
@@ -78,7 +78,7 @@ Cage counter_clockwise(const Cage& cage);
 /// z itself, unless z is a vertex of the counter-clockwise cage; then an interior point at a
 /// distance of 1e-9 times the shorter edge. Derivatives that are infinite at a vertex are evaluated
 /// at this point instead.
-Complex beside_vertex(const Cage& cage, Complex z);
+Complex point_inside_vertex(const Cage& cage, Complex z);
 
 /// For each control point of the cage, its index among the control points of the reversed cage.
 std::vector<Index> reversed_columns(const Cage& cage);

@@ -84,7 +84,7 @@ double inner_angle(Complex out, Complex in) {
   return angle > 0 ? angle : angle + 2 * kPi;
 }
 
-Complex inwards_between(Complex out, Complex in) {
+Complex interior_bisector(Complex out, Complex in) {
   return std::polar(1.0, std::arg(out) + 0.5 * inner_angle(out, in));
 }
 

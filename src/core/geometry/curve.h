@@ -37,7 +37,7 @@ Points fitted(std::span<const Complex> samples, std::span<const double> paramete
 /// previous one.
 double inner_angle(Complex out, Complex in);
 /// The unit vector that bisects this angle.
-Complex inwards_between(Complex out, Complex in);
+Complex interior_bisector(Complex out, Complex in);
 
 /// Signed area of a closed polygon: positive when counter-clockwise.
 double signed_area(std::span<const Complex> polygon);

@@ -44,39 +44,40 @@ Polyline::Box Polyline::build(Index node, Index first, Index count) {
 
 Polyline::Nearest Polyline::nearest(Complex z, Index hint) const {
   Nearest best{start(0), 0, 0, std::abs(z - start(0))};
-  look_at(z, std::clamp<Index>(hint, 0, segments() - 1), best);
-  look(z, 0, 0, segments(), best);
+  try_segment(z, std::clamp<Index>(hint, 0, segments() - 1), best);
+  search(z, 0, 0, segments(), best);
   return best;
 }
 
-void Polyline::look_at(Complex z, Index segment, Nearest& best) const {
-  const Complex from = start(segment), way = end(segment) - from;
-  const double t = std::clamp(dot(z - from, way) / std::norm(way), 0.0, 1.0);
-  const Complex point = from + t * way;
+void Polyline::try_segment(Complex z, Index segment, Nearest& best) const {
+  const Complex from = start(segment), direction = end(segment) - from;
+  const double t = std::clamp(dot(z - from, direction) / std::norm(direction), 0.0, 1.0);
+  const Complex point = from + t * direction;
   const double distance = std::abs(z - point);
   if (distance < best.distance) best = {point, segment, t, distance};
 }
 
-void Polyline::look(Complex z, Index node, Index first, Index count, Nearest& best) const {
+void Polyline::search(Complex z, Index node, Index first, Index count, Nearest& best) const {
   const Box& box = boxes_[static_cast<size_t>(node)];
   const double dx = std::max({box.left - z.real(), 0.0, z.real() - box.right}),
                dy = std::max({box.bottom - z.imag(), 0.0, z.imag() - box.top});
   if (dx * dx + dy * dy >= best.distance * best.distance) return;
   if (count <= kLeaf) {
-    for (Index i = first; i < first + count; ++i) look_at(z, i, best);
+    for (Index i = first; i < first + count; ++i) try_segment(z, i, best);
     return;
   }
   const Index half = (count + 1) / 2;
-  look(z, 2 * node + 1, first, half, best);
-  look(z, 2 * node + 2, first + half, count - half, best);
+  search(z, 2 * node + 1, first, half, best);
+  search(z, 2 * node + 2, first + half, count - half, best);
 }
 
 Complex Polyline::at(double length) const {
-  const Location place = place_at(length);
-  return start(place.segment) + place.parameter * (end(place.segment) - start(place.segment));
+  const Location location = location_at(length);
+  return start(location.segment) +
+         location.parameter * (end(location.segment) - start(location.segment));
 }
 
-Polyline::Location Polyline::place_at(double length) const {
+Polyline::Location Polyline::location_at(double length) const {
   if (closed_) length -= std::floor(length / this->length()) * this->length();
   length = std::clamp(length, 0.0, this->length());
   const auto after = std::upper_bound(lengths_.begin(), lengths_.end(), length);
@@ -102,10 +103,10 @@ double Polyline::diameter() const {
   constexpr int kDirections = 50;
   double widest = 0;
   for (int k = 0; k < kDirections; ++k) {
-    const Complex way = std::polar(1.0, kPi * k / kDirections);
+    const Complex direction = std::polar(1.0, kPi * k / kDirections);
     const auto [least, most] =
-        std::ranges::minmax(points_, {}, [&](Complex z) { return dot(way, z); });
-    widest = std::max(widest, dot(way, most - least));
+        std::ranges::minmax(points_, {}, [&](Complex z) { return dot(direction, z); });
+    widest = std::max(widest, dot(direction, most - least));
   }
   return widest;
 }
@@ -137,7 +138,7 @@ Points at_equal_lengths(const Polyline& line, Index count) {
 double one_sided_distance(const Polyline& a, const Polyline& b) {
   double worst = 0;
   Index hint = 0;
-  const auto take = [&](Complex z) {
+  const auto measure = [&](Complex z) {
     const Polyline::Nearest nearest = b.nearest(z, hint);
     hint = nearest.segment;
     worst = std::max(worst, nearest.distance);
@@ -146,10 +147,10 @@ double one_sided_distance(const Polyline& a, const Polyline& b) {
   for (Index i = 0; i < a.segments(); ++i) {
     const Complex from = points[static_cast<size_t>(i)],
                   to = points[static_cast<size_t>(i + 1) % points.size()];
-    take(from);
-    take(0.5 * (from + to));
+    measure(from);
+    measure(0.5 * (from + to));
   }
-  if (!a.closed()) take(points.back());
+  if (!a.closed()) measure(points.back());
   return worst;
 }
 

@@ -34,7 +34,7 @@ class Polyline {
     Index segment = 0;
     double parameter = 0;
   };
-  Location place_at(double length) const;
+  Location location_at(double length) const;
   /// The arc length of a point on a segment.
   double length_at(Index segment, double parameter) const;
   /// The diagonal of the bounding box.
@@ -46,8 +46,8 @@ class Polyline {
   struct Box {
     double left, bottom, right, top;
   };
-  void look(Complex z, Index node, Index first, Index count, Nearest& best) const;
-  void look_at(Complex z, Index segment, Nearest& best) const;
+  void search(Complex z, Index node, Index first, Index count, Nearest& best) const;
+  void try_segment(Complex z, Index segment, Nearest& best) const;
   Box build(Index node, Index first, Index count);
   Complex start(Index segment) const { return points_[static_cast<size_t>(segment)]; }
   Complex end(Index segment) const {

@@ -10,7 +10,7 @@ double stiffness_level(std::span<const BrushDab> dabs, Complex z) {
   for (const BrushDab& dab : dabs)
     if (const double rest = 1 - std::norm(z - dab.at) / (dab.radius * dab.radius); rest > 0)
       level += dab.level * rest * rest;
-  return std::clamp(level, kLeastStiffness, kMostStiffness);
+  return std::clamp(level, kMinStiffness, kMaxStiffness);
 }
 
 }  // namespace holomorph

@@ -14,12 +14,12 @@ struct BrushDab {
   double level = 0;   ///< at its center, in powers of ten; falls off to 0 at the radius
   bool operator==(const BrushDab&) const = default;
 };
-inline constexpr double kLeastStiffness = -1, kMostStiffness = 2;  ///< powers of ten
-inline constexpr double kLeastBrush = 1, kMostBrush = 1e5;         ///< radius, pixels
-inline constexpr size_t kMostDabs = 5000;
+inline constexpr double kMinStiffness = -1, kMaxStiffness = 2;       ///< powers of ten
+inline constexpr double kMinBrushRadius = 1, kMaxBrushRadius = 1e5;  ///< radius, pixels
+inline constexpr size_t kMaxDabs = 5000;
 
 /// The level at z: the sum of level (1 - (d / r)^2)^2 over all dabs, where d is the distance of z
-/// from the dab and r is its radius. It is clamped to [kLeastStiffness, kMostStiffness] and is 0
+/// from the dab and r is its radius. It is clamped to [kMinStiffness, kMaxStiffness] and is 0
 /// where nothing is painted. The stiffness is 10 to this power.
 double stiffness_level(std::span<const BrushDab> dabs, Complex z);
 

@@ -22,7 +22,7 @@ double edge_increment(const VectorXc& values, int from, int to) {
 
 }  // namespace
 
-int turns_of(const VectorXc& values) {
+int winding_around_zero(const VectorXc& values) {
   double turn = 0;
   for (Index i = 0; i < values.size(); ++i)
     turn += increment(values[i], values[(i + 1) % values.size()]);
@@ -45,7 +45,7 @@ namespace {
 
 /// The samples at which a zero's jump may be placed: the one nearest to the zero and the nearest
 /// one across the domain, which is more than a twentieth of the boundary away in both directions.
-std::vector<Index> jump_places(std::span<const Complex> samples, Complex zero) {
+std::vector<Index> jump_samples(std::span<const Complex> samples, Complex zero) {
   const Index m = static_cast<Index>(samples.size());
   const auto distance = [&](Index i) { return std::norm(samples[static_cast<size_t>(i)] - zero); };
   Index nearest = 0;
@@ -54,8 +54,8 @@ std::vector<Index> jump_places(std::span<const Complex> samples, Complex zero) {
   Index across = -1;
   const Index apart = m / 20;
   for (Index i = 0; i < m; ++i) {
-    const Index way = std::abs(i - nearest);
-    if (std::min(way, m - way) <= apart) continue;
+    const Index gap = std::abs(i - nearest);
+    if (std::min(gap, m - gap) <= apart) continue;
     if (distance(i) > distance((i + 1) % m) || distance(i) > distance((i + m - 1) % m)) continue;
     if (across < 0 || distance(i) < distance(across)) across = i;
   }
@@ -85,10 +85,10 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
                   samples[static_cast<size_t>(i)]);
     steps[i] = increment(values[i], values[(i + 1) % m]);
   }
-  int turns = turns_of(values);
-  std::vector<std::vector<Index>> places;
+  int turns = winding_around_zero(values);
+  std::vector<std::vector<Index>> candidates;
   for (const Zero& zero : zeros) {
-    places.push_back(jump_places(samples, zero.place));
+    candidates.push_back(jump_samples(samples, zero.position));
     turns -= zero.multiplicity;
   }
   std::vector<Index> order(static_cast<size_t>(m));  // of jumps for unlisted zeros
@@ -110,8 +110,8 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
   for (size_t choice = 0; choice < choices; ++choice) {
     VectorXd jumped = steps;
     for (size_t i = 0; i < zeros.size(); ++i) {
-      const bool across = places[i].size() > 1 && i < kMostChoices && (choice >> i & 1);
-      jumped[places[i][across ? 1 : 0]] -= 2 * kPi * zeros[i].multiplicity;
+      const bool across = candidates[i].size() > 1 && i < kMostChoices && (choice >> i & 1);
+      jumped[candidates[i][across ? 1 : 0]] -= 2 * kPi * zeros[i].multiplicity;
     }
     VectorXd theta = summed(std::arg(values[0]), jumped);
     const double spread = (theta.array() - theta.mean()).square().sum();

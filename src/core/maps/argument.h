@@ -9,7 +9,7 @@ namespace holomorph {
 /// A zero of a function, found by the argument principle: the center of a triangle, and the winding
 /// number around 0 of the values along the triangle's edges.
 struct Zero {
-  Complex place;
+  Complex position;
   int multiplicity = 1;
 };
 
@@ -19,7 +19,7 @@ struct Zero {
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 
 /// The winding number around 0 of the values along a closed loop.
-int turns_of(const VectorXc& values);
+int winding_around_zero(const VectorXc& values);
 
 /// The argument of the values along a closed boundary, summed from the increments between
 /// neighboring samples. For each zero, 2 pi is subtracted at the sample nearest to the zero, or at

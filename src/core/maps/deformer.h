@@ -50,11 +50,11 @@ struct RestPin {
   bool has_frame = false;
   bool operator==(const RestPin&) const = default;
 };
-inline constexpr double kLeastPinScale = 0.01, kMostPinScale = 100;
+inline constexpr double kMinPinScale = 0.01, kMaxPinScale = 100;
 struct PosePin {
   Complex position;
   double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin has a frame
-  double scale = 1.0;  ///< kLeastPinScale to kMostPinScale; used where the rest pin has a frame
+  double scale = 1.0;  ///< kMinPinScale to kMaxPinScale; used where the rest pin has a frame
   bool operator==(const PosePin&) const = default;
 };
 

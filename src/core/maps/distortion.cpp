@@ -74,10 +74,10 @@ VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f) {
   const Index n = f.size();
   VertexDerivatives at{VectorXc::Zero(n), VectorXc::Zero(n)};
   VectorXd areas = VectorXd::Zero(n);
-  const auto place = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
+  const auto position = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
   for (const Triangle& t : mesh.triangles) {
     const LinearDerivatives here = derivatives_in(mesh, t, f);
-    const double area = cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]));
+    const double area = cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
     for (const int v : t) {
       at.fz[v] += area * here.fz;
       at.fzbar[v] += area * here.fzbar;

@@ -23,25 +23,25 @@ bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
 
 }  // namespace
 
-Complex ImageWinding::point(const Arc& arc, double share) const {
-  if (share == 0) return arc.from;
-  if (share == 1) return arc.to;
-  if (arc.segment < 0) return (1 - share) * arc.from + share * arc.to;
-  return position_of(cage_, {arc.segment, (1 - share) * arc.start + share * arc.end});
+Complex ImageWinding::point(const Arc& arc, double fraction) const {
+  if (fraction == 0) return arc.from;
+  if (fraction == 1) return arc.to;
+  if (arc.segment < 0) return (1 - fraction) * arc.from + fraction * arc.to;
+  return position_of(cage_, {arc.segment, (1 - fraction) * arc.start + fraction * arc.end});
 }
 
-std::array<Arc, 2> ImageWinding::cut(const Arc& arc, double share) const {
-  const Complex middle = point(arc, share);
-  const double parameter = (1 - share) * arc.start + share * arc.end;
+std::array<Arc, 2> ImageWinding::cut(const Arc& arc, double fraction) const {
+  const Complex middle = point(arc, fraction);
+  const double parameter = (1 - fraction) * arc.start + fraction * arc.end;
   return {Arc{arc.from, middle, arc.segment, arc.start, parameter},
           Arc{middle, arc.to, arc.segment, parameter, arc.end}};
 }
 
 ImageWinding::Piece ImageWinding::piece_between(const Arc& arc, Complex from, Complex to) const {
   Piece piece{arc, from, to, 0};
-  for (const double share : {0.25, 0.5, 0.75})
-    piece.bulge = std::max(piece.bulge,
-                           2 * nearest_on_segment(from, to, map_.at(point(arc, share)).f).distance);
+  for (const double fraction : {0.25, 0.5, 0.75})
+    piece.bulge = std::max(
+        piece.bulge, 2 * nearest_on_segment(from, to, map_.at(point(arc, fraction)).f).distance);
   return piece;
 }
 

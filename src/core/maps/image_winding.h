@@ -40,10 +40,10 @@ class ImageWinding {
   /// The number of whole turns of f - w along a closed loop; empty as above.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
 
-  /// The point at the fraction `share` of an arc, 0 to 1, and the two arcs into which it cuts the
-  /// arc.
-  Complex point(const Arc& arc, double share) const;
-  std::array<Arc, 2> cut(const Arc& arc, double share) const;
+  /// The point at the fraction `fraction` of an arc, 0 to 1, and the two arcs into which it cuts
+  /// the arc.
+  Complex point(const Arc& arc, double fraction) const;
+  std::array<Arc, 2> cut(const Arc& arc, double fraction) const;
 
  private:
   Piece piece_between(const Arc& arc, Complex from, Complex to) const;

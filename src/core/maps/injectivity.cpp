@@ -48,10 +48,10 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
   std::vector<Region> sorted;
   for (const auto& [v, part] : parts) sorted.push_back(part);
   std::ranges::sort(sorted, std::greater(), &Region::area);
-  Points places;
+  Points positions;
   for (const Region& part : sorted)
-    if (places.empty() || part.area > kSpeck * total) places.push_back(part.at);
-  return places;
+    if (positions.empty() || part.area > kSpeck * total) positions.push_back(part.at);
+  return positions;
 }
 
 /// |f_z| - |f_zbar| of the linear map of a triangle with the edges z1 and z2 at rest and f1 and f2
@@ -98,9 +98,10 @@ Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
 
 /// A closed polygon simplified to within a tolerance (Douglas, Peucker 1973). It keeps the first
 /// vertex and the one farthest from it.
-class Drawn {
+class SimplifiedPolygon {
  public:
-  Drawn(const Points& polygon, double tolerance) : polygon_(polygon), tolerance_(tolerance) {
+  SimplifiedPolygon(const Points& polygon, double tolerance)
+      : polygon_(polygon), tolerance_(tolerance) {
     const auto farthest = std::ranges::max_element(
         polygon, {}, [&](Complex z) { return std::abs(z - polygon.front()); });
     const size_t middle = static_cast<size_t>(farthest - polygon.begin());
@@ -139,7 +140,8 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   for (const int v : mesh.boundary) image.push_back(f[v]);
   if (image.empty()) return found;
   constexpr double kVisible = 3e-4;
-  found.turning_number = turning_number(Drawn(image, kVisible * box_of(image).diagonal()).points());
+  found.turning_number =
+      turning_number(SimplifiedPolygon(image, kVisible * box_of(image).diagonal()).points());
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;
   if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};

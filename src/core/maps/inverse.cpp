@@ -197,7 +197,7 @@ bool InverseMap::is_inside(Complex z) const {
 std::vector<Preimage> InverseMap::at(Complex w) const {
   if (!is_finite(w)) return {};
   const std::optional<int> wanted = winding(w);
-  std::vector<Preimage> found = quickly(w, wanted);
+  std::vector<Preimage> found = newton_from_grid(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
   // Points slightly outside may have been counted. On the boundary itself the count is undefined.
   std::vector<Preimage> inner;
@@ -206,7 +206,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
     if (contains(rest_, preimage.z)) inner.push_back(preimage);
   }
   if (oriented(inner) == *wanted) return inner;
-  std::vector<Preimage> all = thoroughly(w, *wanted);
+  std::vector<Preimage> all = search_triangles(w, *wanted);
   const auto off = [&](const std::vector<Preimage>& some) {
     return std::abs(oriented(some) - *wanted);
   };
@@ -214,7 +214,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
 }
 
 /// Starts from the triangles whose images contain w or are near it.
-std::vector<Preimage> InverseMap::quickly(Complex w, std::optional<int> wanted) const {
+std::vector<Preimage> InverseMap::newton_from_grid(Complex w, std::optional<int> wanted) const {
   std::vector<Preimage> found;
   constexpr double kSlack = 0.3;  // a triangle's image is not exactly a triangle
   constexpr int kAll = std::numeric_limits<int>::max();
@@ -270,7 +270,7 @@ std::optional<int> InverseMap::turns(const Region& region, Complex w) const {
 }
 
 /// Searches triangle by triangle with the argument principle, starting with triangles near w.
-std::vector<Preimage> InverseMap::thoroughly(Complex w, int wanted) const {
+std::vector<Preimage> InverseMap::search_triangles(Complex w, int wanted) const {
   std::vector<Preimage> found;
   std::vector<std::pair<double, int>> order;
   for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -330,10 +330,10 @@ void InverseMap::search_region(const Region& region, int count, Complex w, int d
   const double size = std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
   constexpr int kDeepest = 40;
   // Cut into four parts. If a cut passes through a preimage, cut at another fraction.
-  for (const double share : {0.5, 0.43, 0.59, 0.37}) {
+  for (const double fraction : {0.5, 0.43, 0.59, 0.37}) {
     if (size < kBranch * size_ || depth == kDeepest) break;
     std::array<std::array<Arc, 2>, 3> halves;
-    for (size_t k = 0; k < 3; ++k) halves[k] = winding_.cut(region[k], share);
+    for (size_t k = 0; k < 3; ++k) halves[k] = winding_.cut(region[k], fraction);
     const Complex p = halves[0][0].to, q = halves[1][0].to, r = halves[2][0].to;
     const std::array<Region, 4> parts{Region{halves[0][0], Arc{p, r}, halves[2][1]},
                                       Region{halves[0][1], halves[1][0], Arc{q, p}},

@@ -61,8 +61,8 @@ class InverseMap {
   bool is_in_inner_triangle(const Preimage& preimage) const;
   void add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const;
   Complex pulled_inside(Complex start, int triangle) const;
-  std::vector<Preimage> quickly(Complex w, std::optional<int> wanted) const;
-  std::vector<Preimage> thoroughly(Complex w, int wanted) const;
+  std::vector<Preimage> newton_from_grid(Complex w, std::optional<int> wanted) const;
+  std::vector<Preimage> search_triangles(Complex w, int wanted) const;
   Arc side(int from, int to) const;
   std::optional<int> turns(const Region& region, Complex w) const;
   std::vector<Preimage> inside(const Region& region, Complex w) const;

@@ -9,25 +9,25 @@ namespace holomorph {
 
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths) {
   struct Entry {
-    double way;
+    double distance;
     int vertex, height;
-    bool operator>(const Entry& other) const { return way > other.way; }
+    bool operator>(const Entry& other) const { return distance > other.distance; }
   };
   const size_t n = mesh.vertices.size();
-  std::vector<std::vector<int>> beside(n);
+  std::vector<std::vector<int>> neighbors(n);
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
-      beside[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
-      beside[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
+      neighbors[static_cast<size_t>(t[k])].push_back(t[(k + 1) % 3]);
+      neighbors[static_cast<size_t>(t[(k + 1) % 3])].push_back(t[k]);
     }
-  const auto way = [&](int a, Complex to) {
+  const auto distance = [&](int a, Complex to) {
     return std::abs(mesh.vertices[static_cast<size_t>(a)] - to);
   };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waves;
   for (const Depth& depth : depths)
     if (const auto at = locate(mesh, mesh.vertices, depth.at))
       for (const int v : mesh.triangles[static_cast<size_t>(at->triangle)])
-        waves.push({way(v, depth.at), v, depth.depth});
+        waves.push({distance(v, depth.at), v, depth.depth});
   std::vector<bool> reached(n);
   std::vector<int> heights(n, 0);
   while (!waves.empty()) {
@@ -37,9 +37,9 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
     if (reached[v]) continue;
     reached[v] = true;
     heights[v] = step.height;
-    for (const int next : beside[v])
+    for (const int next : neighbors[v])
       if (!reached[static_cast<size_t>(next)])
-        waves.push({step.way + way(next, mesh.vertices[v]), next, step.height});
+        waves.push({step.distance + distance(next, mesh.vertices[v]), next, step.height});
   }
   std::vector<Triangle> order = mesh.triangles;
   // A triangle between two regions belongs to the higher one.

@@ -38,7 +38,7 @@ Points parameterized(Net& net) {
 
 /// Catches the exceptions that CGAL throws when thin triangles break its invariants.
 template <class Parameterizer>
-Points guarded(Net& net) {
+Points parameterized_or_error(Net& net) {
   static const auto printing =  // the exception says enough
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
   static_cast<void>(printing);
@@ -104,8 +104,8 @@ Points flattened(const Surface& surface, Flattening how) {
     net.add_face(Vertex(static_cast<unsigned>(t[0])), Vertex(static_cast<unsigned>(t[1])),
                  Vertex(static_cast<unsigned>(t[2])));
   Points flat = how == Flattening::lscm
-                    ? guarded<SMP::LSCM_parameterizer_3<Net>>(net)
-                    : guarded<SMP::Discrete_conformal_map_parameterizer_3<
+                    ? parameterized_or_error<SMP::LSCM_parameterizer_3<Net>>(net)
+                    : parameterized_or_error<SMP::Discrete_conformal_map_parameterizer_3<
                           Net, SMP::Circular_border_arc_length_parameterizer_3<Net>>>(net);
   double area = 0, flat_area = 0;
   for (const auto& t : surface.triangles) {

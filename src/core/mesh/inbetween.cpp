@@ -36,10 +36,11 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
   for (size_t at = 0; at < order_.size(); ++at) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(order_[at].triangle)];
     for (int a = 0; a < 3; ++a) {
-      const auto beside = triangle_left_of.find({t[(a + 1) % 3], t[a]});
-      if (beside == triangle_left_of.end() || seen[static_cast<size_t>(beside->second)]) continue;
-      seen[static_cast<size_t>(beside->second)] = 1;
-      order_.push_back({beside->second, order_[at].triangle});
+      const auto neighbor = triangle_left_of.find({t[(a + 1) % 3], t[a]});
+      if (neighbor == triangle_left_of.end() || seen[static_cast<size_t>(neighbor->second)])
+        continue;
+      seen[static_cast<size_t>(neighbor->second)] = 1;
+      order_.push_back({neighbor->second, order_[at].triangle});
     }
   }
 }
@@ -116,14 +117,14 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
     return;
   }
   const bool cubic = slopes_a && slopes_b;
-  const double share = cubic ? u * u * (3 - 2 * u) : u;
+  const double weight = cubic ? u * u * (3 - 2 * u) : u;
   const double from_a = duration * u * (1 - u) * (1 - u), from_b = -duration * u * u * (1 - u);
   VectorXc right = VectorXc::Zero(a.f.size());
   for (Index i = 0; i < areas_.size(); ++i) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
-    Complex logarithm = (1 - share) * a.logarithm[i] + share * b.logarithm[i];
+    Complex logarithm = (1 - weight) * a.logarithm[i] + weight * b.logarithm[i];
     if (cubic) logarithm += from_a * (*slopes_a)[i] + from_b * (*slopes_b)[i];
-    const Complex nu = (1 - share) * a.nu[i] + share * b.nu[i];
+    const Complex nu = (1 - weight) * a.nu[i] + weight * b.nu[i];
     const Complex fz = 0.25 * std::polar(std::exp(logarithm.real()), logarithm.imag()),
                   fzbar = std::conj(times(nu, fz));
     for (int c = 0; c < 3; ++c) {
@@ -134,27 +135,29 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.resize(right.size());
   f.real() = laplacian_->solve(right.real().eval());
   f.imag() = laplacian_->solve(right.imag().eval());
-  const Location still = stillest(a.f, b.f);
+  const Location still = least_moving_point(a.f, b.f);
   const auto at = [&](const VectorXc& map) { return still.in(*mesh_, as_span(map)); };
-  f.array() += (1 - share) * at(a.f) + share * at(b.f) - at(f);
+  f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
 }
 
 /// The point at which the two maps agree or, if there is none, the vertex whose images are closest.
-Location Inbetween::stillest(const VectorXc& a, const VectorXc& b) const {
+Location Inbetween::least_moving_point(const VectorXc& a, const VectorXc& b) const {
   Location best;
   double least = INFINITY;
   for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
     const Triangle& t = mesh_->triangles[i];
-    const std::array<Complex, 3> way{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]], b[t[2]] - a[t[2]]};
-    const Complex u = way[1] - way[0], v = way[2] - way[0];
+    const std::array<Complex, 3> displacement{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]],
+                                              b[t[2]] - a[t[2]]};
+    const Complex u = displacement[1] - displacement[0], v = displacement[2] - displacement[0];
     if (const double area = cross(u, v); area != 0) {
-      const double second = cross(-way[0], v) / area, third = cross(u, -way[0]) / area;
+      const double second = cross(-displacement[0], v) / area,
+                   third = cross(u, -displacement[0]) / area;
       if (second >= 0 && third >= 0 && second + third <= 1)
         return {static_cast<int>(i), {1 - second - third, second, third}};
     }
     for (size_t k = 0; k < 3; ++k)
-      if (std::abs(way[k]) < least) {
-        least = std::abs(way[k]);
+      if (std::abs(displacement[k]) < least) {
+        least = std::abs(displacement[k]);
         best = {static_cast<int>(i), {}};
         best.weights[k] = 1;
       }

@@ -68,7 +68,7 @@ class Inbetween {
            mesh_->vertices[static_cast<size_t>(t[(corner + 1) % 3])];
   }
 
-  Location stillest(const VectorXc& a, const VectorXc& b) const;
+  Location least_moving_point(const VectorXc& a, const VectorXc& b) const;
 
   std::shared_ptr<const Mesh> mesh_;
   /// Triangles in an order in which each one except the first has an earlier neighbor.

@@ -277,12 +277,13 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
     const bool forward = off(next).distance <= off(before).distance;
     const size_t from = forward ? static_cast<size_t>(last) : before;
     const size_t to = (from + 1) % n;
-    const Index segment = flat.places[from].segment;
+    const Index segment = flat.locations[from].segment;
     if (is_straight(cage, segment)) continue;
-    const double t0 = flat.places[from].t,
-                 t1 = flat.places[to].segment == segment ? flat.places[to].t : 1.0;
-    const double share = nearest_on_segment(flat.points[from], flat.points[to], mesh.vertices[v]).t;
-    mesh.vertices[v] = position_of(cage, {segment, t0 + share * (t1 - t0)});
+    const double t0 = flat.locations[from].t,
+                 t1 = flat.locations[to].segment == segment ? flat.locations[to].t : 1.0;
+    const double fraction =
+        nearest_on_segment(flat.points[from], flat.points[to], mesh.vertices[v]).t;
+    mesh.vertices[v] = position_of(cage, {segment, t0 + fraction * (t1 - t0)});
   }
 }
 
@@ -375,7 +376,7 @@ Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
   untangle(mesh);
   std::vector<int> vertices;
   for (size_t i = 0; i < flat.points.size(); ++i)
-    if (flat.places[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
+    if (flat.locations[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
   mesh.cage_vertices = std::move(vertices);
   return mesh;
 }

@@ -5,10 +5,10 @@
 
 namespace holomorph {
 
-ActingPins acting_pins(const Rest& rest) {
+UsablePins usable_pins(const Rest& rest) {
   constexpr double kSpread = 1e-9;  // pins nearer than this, in units of L, count as one
   const double least = kSpread * perimeter(outline_of(rest.cage)) / (2 * kPi);
-  ActingPins acting;
+  UsablePins acting;
   std::string outside, doubled;
   for (size_t i = 0; i < rest.pins.size(); ++i) {
     const Complex z = rest.pins[i].position;

@@ -5,10 +5,10 @@
 
 namespace holomorph {
 
-struct ActingPins {
+struct UsablePins {
   std::vector<size_t> used;
   std::string note;  ///< names the pins outside the cage or at the position of an earlier one
 };
-ActingPins acting_pins(const Rest& rest);
+UsablePins usable_pins(const Rest& rest);
 
 }  // namespace holomorph

@@ -63,7 +63,7 @@ class AnglePoints final : public PointMap {
               VectorXc at_vertices)
       : mesh_(std::move(mesh)),
         map_(std::move(map)),
-        ways_(*mesh_, cage(), Precision::full),
+        paths_(*mesh_, cage(), Precision::full),
         flat_(flattened(cage())),
         placed_(std::move(placed)),
         at_vertices_(std::move(at_vertices)) {}
@@ -81,15 +81,15 @@ class AnglePoints final : public PointMap {
   const Cage& cage() const { return map_.coordinates().cage(); }
 
   Value inside(Complex z) const {
-    IntegrationPaths ways = ways_;
-    const int from = ways.vertex_near(z), node = ways.add_node(z);
-    const VectorXc slopes = slopes_at(ways.places());
-    VectorXc nodes = VectorXc::Zero(ways.nodes());
+    IntegrationPaths paths = paths_;
+    const int from = paths.vertex_near(z), node = paths.add_node(z);
+    const VectorXc slopes = slopes_at(paths.quadrature_points());
+    VectorXc nodes = VectorXc::Zero(paths.nodes());
     nodes[from] = at_vertices_[from];
-    ways.integrate(slopes, map_.exponents(placed_.theta), nodes);
-    const Complex beside = beside_vertex(cage(), z);
-    return {placed_.scale * nodes[node] + placed_.move, placed_.scale * slopes_at({&beside, 1})[0],
-            0};
+    paths.integrate(slopes, map_.exponents(placed_.theta), nodes);
+    const Complex next_to_vertex = point_inside_vertex(cage(), z);
+    return {placed_.scale * nodes[node] + placed_.move,
+            placed_.scale * slopes_at({&next_to_vertex, 1})[0], 0};
   }
 
   VectorXc slopes_at(std::span<const Complex> points) const {
@@ -99,7 +99,7 @@ class AnglePoints final : public PointMap {
 
   std::shared_ptr<const Mesh> mesh_;
   AngleMap map_;
-  IntegrationPaths ways_;
+  IntegrationPaths paths_;
   FlatCage flat_;
   PlacedAngles placed_;
   VectorXc at_vertices_;
@@ -114,7 +114,7 @@ class AnglesDeformer final : public Deformer {
             boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
         map_(*rest_.mesh, coordinates_, rest_.samples, rest_.precision),
         frame_(*rest_.mesh, coordinates_, rest_.precision),
-        acting_(acting_pins(rest_)) {
+        acting_(usable_pins(rest_)) {
     if (parameter(method_named("angles"), rest_.parameters, "published") != 0)
       published_.emplace(boundary_.cage, boundary_.corners, map_.anchor());
     if (acting_.used.empty() || published_) return;
@@ -211,7 +211,7 @@ class AnglesDeformer final : public Deformer {
       out.iterations = answer.iterations;
       if (!answer.settled) out.status = SampledMap::Status::iterating;
       constexpr double kFar = 1e-3;  // of the size
-      if (!draft && answer.missed > kFar * box_of(rest_.mesh->vertices).diagonal())
+      if (!draft && answer.largest_miss > kFar * box_of(rest_.mesh->vertices).diagonal())
         say(out, "Pins are missed: no map without folds was found that meets them");
     }
     for (const Index corner : limited) out.limited_corners.push_back(boundary_.vertex(corner));
@@ -232,7 +232,7 @@ class AnglesDeformer final : public Deformer {
   /// H at the derivative samples.
   PlanarMatrix<double> slopes() const {
     Points places = rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
-    for (Complex& z : places) z = beside_vertex(boundary_.cage, z);
+    for (Complex& z : places) z = point_inside_vertex(boundary_.cage, z);
     const MatrixXc rows = map_.rows(places);
     PlanarMatrix<double> slopes(rows.rows(), rows.cols());
     slopes.re = rows.real();
@@ -245,7 +245,7 @@ class AnglesDeformer final : public Deformer {
   std::shared_ptr<const HilbertCoordinates> coordinates_;
   AngleMap map_;
   AngleFrame frame_;
-  ActingPins acting_;
+  UsablePins acting_;
   std::optional<AnglePins> pins_;
   std::optional<PublishedAngles> published_;  ///< for comparison
   PlanarMatrix<double> slopes_;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kMostIterations = 120, kDraftIterations = 6;
 constexpr double kSettled = 1e-5;  ///< largest move in an iteration, relative to the size
-constexpr double kHold = 1e3;      ///< weight of handles, relative to the energy's mean diagonal
+constexpr double kHandleWeight =
+    1e3;  ///< weight of handles, relative to the energy's mean diagonal
 
 class ArapDeformer final : public Deformer {
  public:
@@ -40,17 +41,17 @@ class ArapDeformer final : public Deformer {
           if (a == b) diagonal += weight / stiffness_.back();
           // The product of conj(f_zbar's weight of a) and the weight of b. A small part of the
           // rigid energy makes the matrix definite.
-          constexpr double kLittle = 1e-3;
-          angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kLittle * weight});
+          constexpr double kRigidPart = 1e-3;
+          angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kRigidPart * weight});
         }
     }
-    hold_ = kHold * stiffest * diagonal / static_cast<double>(n);
+    handle_weight_ = kHandleWeight * stiffest * diagonal / static_cast<double>(n);
     for (const Location& at : handles_.locations())
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
           const Triangle& t = mesh_.triangles[static_cast<size_t>(at.triangle)];
-          const double weight =
-              hold_ * at.weights[static_cast<size_t>(a)] * at.weights[static_cast<size_t>(b)];
+          const double weight = handle_weight_ * at.weights[static_cast<size_t>(a)] *
+                                at.weights[static_cast<size_t>(b)];
           rigid.push_back({t[a], t[b], weight});
           angles.push_back({t[a], t[b], weight});
         }
@@ -112,7 +113,7 @@ class ArapDeformer final : public Deformer {
       const Location& at = handles_.locations()[h];
       for (int a = 0; a < 3; ++a)
         right[mesh_.triangles[static_cast<size_t>(at.triangle)][a]] +=
-            hold_ * at.weights[static_cast<size_t>(a)] * targets[h];
+            handle_weight_ * at.weights[static_cast<size_t>(a)] * targets[h];
     }
   }
 
@@ -198,7 +199,7 @@ class ArapDeformer final : public Deformer {
   const Mesh& mesh_;
   HandlePoints handles_;
   std::vector<double> stiffness_;  ///< of each triangle
-  double size_ = 1, hold_ = 1;
+  double size_ = 1, handle_weight_ = 1;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
   VectorXc f_;

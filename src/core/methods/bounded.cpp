@@ -56,8 +56,9 @@ class BoundedDeformer final : public Deformer {
     warm_ = true;
     integrate(pose, options.draft);
     answer(out, options);
-    out.status = solution_.certificate.holds && turned_ == 0 ? SampledMap::Status::certified
-                                                             : SampledMap::Status::infeasible;
+    out.status = solution_.certificate.holds && flipped_triangles_ == 0
+                     ? SampledMap::Status::certified
+                     : SampledMap::Status::infeasible;
     out.iterations = conformal_.iterations + solution_.iterations;
     out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose);
@@ -80,7 +81,7 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// Locations in the mesh of the pins that the solve takes into account.
-  std::vector<Location> met_pins() const {
+  std::vector<Location> pin_locations() const {
     std::vector<Location> places;
     if (space_ == "psi" && reference_->uses_pins())
       for (const auto& pin : pins_)
@@ -96,7 +97,7 @@ class BoundedDeformer final : public Deformer {
     PinRows rows;
     rows.weight = parameter(method_, rest_.parameters, "pin_weight");
     rows.size = box_of(rest_.mesh->vertices).diagonal();
-    if (const std::vector<Location> places = met_pins(); !places.empty())
+    if (const std::vector<Location> places = pin_locations(); !places.empty())
       rows.psi = on_mesh_->psi_rows(places, basis_->coefficients());
     psi_ = std::make_unique<PsiSpace>(basis_, reference_->points(), BoundedSettings{bounds_},
                                       std::move(rows));
@@ -114,7 +115,7 @@ class BoundedDeformer final : public Deformer {
 
   /// The values of Psi at the pins that would take them to their targets.
   VectorXc psi_at_pins(const Pose& pose) const {
-    if (met_pins().empty()) return {};
+    if (pin_locations().empty()) return {};
     const VectorXc phi = on_mesh_->phi(conformal_.map.l);
     const std::span<const Complex> places(phi.data(), static_cast<size_t>(phi.size()));
     std::vector<Complex> left;
@@ -143,7 +144,7 @@ class BoundedDeformer final : public Deformer {
     conformal_ = BoundedMap{};
     warm_ = false;
     posed_ = pose;
-    turned_ = 0;
+    flipped_triangles_ = 0;
     out.note = note(pose);
     return out;
   }
@@ -157,7 +158,7 @@ class BoundedDeformer final : public Deformer {
     if (!draft) f_ = on_mesh_->integrated(solution_.map);
     align(pose);
     posed_ = pose;
-    turned_ = flipped_triangles(*rest_.mesh, f_);
+    flipped_triangles_ = flipped_triangles(*rest_.mesh, f_);
   }
 
   /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
@@ -175,7 +176,7 @@ class BoundedDeformer final : public Deformer {
     if (from.size() < 2) {
       from.clear();
       for (const int v : reference_->anchors()) from.push_back(f_[v]);
-      to.assign(reference_->anchor_places().begin(), reference_->anchor_places().end());
+      to.assign(reference_->anchor_images().begin(), reference_->anchor_images().end());
     }
     const Similarity nearest = similarity_between(from, to);
     Complex factor = nearest.factor;
@@ -223,9 +224,9 @@ class BoundedDeformer final : public Deformer {
     if (!reference_->note().empty()) text += ". " + reference_->note();
     if (solution_.solution.status != ConeSolution::Status::solved)
       text += ". Not quite the nearest such map";
-    if (turned_ > 0)
-      return "No folds, but the mesh is too coarse for this map: " + std::to_string(turned_) +
-             " inverted triangles";
+    if (flipped_triangles_ > 0)
+      return "No folds, but the mesh is too coarse for this map: " +
+             std::to_string(flipped_triangles_) + " inverted triangles";
     return text;
   }
 
@@ -262,8 +263,8 @@ class BoundedDeformer final : public Deformer {
   std::unique_ptr<BoundedDeformer> draft_;
 
   BoundedMap solution_, conformal_;
-  bool warm_ = false;  ///< whether a drag can start from the solution
-  int turned_ = 0;     ///< inverted triangles, where the mesh is too coarse for the map
+  bool warm_ = false;          ///< whether a drag can start from the solution
+  int flipped_triangles_ = 0;  ///< inverted triangles, where the mesh is too coarse for the map
   std::optional<Pose> posed_;
   VectorXc f_;
   Derivatives first_;

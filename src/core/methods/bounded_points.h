@@ -32,7 +32,7 @@ class BoundedPointMap final : public PointMap {
       lines.push_back({mesh_->vertices[static_cast<size_t>(from)], points[i]});
       map.f[static_cast<Index>(i)] = f_[from];
     }
-    map.f += growth_along(*basis_, map_, lines);
+    map.f += increments_along(*basis_, map_, lines);
     Slopes slopes = slopes_at(*basis_, map_, points);
     map.fz = std::move(slopes.fz);
     map.fzbar = std::move(slopes.fzbar);

@@ -16,9 +16,9 @@ constexpr int kSamplesPerVertex = 3;
 constexpr size_t kInnerSamples = 400;
 constexpr int kMostIterations = 400, kDraftIterations = 30;
 constexpr double kSettled = 1e-9;
-constexpr double kHold = 1e3;       ///< weight of a handle, relative to the mean energy
-constexpr double kLittle = 1e-3;    ///< weight of rigidity in the otherwise conformal start
-constexpr double kDefinite = 1e-9;  ///< fixes the constant that Phi and Psi can exchange
+constexpr double kHandleWeight = 1e3;  ///< weight of a handle, relative to the mean energy
+constexpr double kRigidPart = 1e-3;    ///< weight of rigidity in the otherwise conformal start
+constexpr double kDefinite = 1e-9;     ///< fixes the constant that Phi and Psi can exchange
 
 class HarArapDeformer final : public Deformer {
  public:
@@ -69,13 +69,13 @@ class HarArapDeformer final : public Deformer {
     const size_t step = std::max<size_t>(1, mesh.vertices.size() / kInnerSamples);
     Points points;
     std::vector<double> weights;
-    double share = 0;
+    double weight = 0;
     for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-      share += areas[v] / total;
+      weight += areas[v] / total;
       if (v % step != step - 1 && v + 1 < mesh.vertices.size()) continue;
       points.push_back(mesh.vertices[v]);
-      weights.push_back(std::sqrt(share));
-      share = 0;
+      weights.push_back(std::sqrt(weight));
+      weight = 0;
     }
     gradient_ = basis_.values(points, 1);
     for (size_t i = 0; i < points.size(); ++i) gradient_.row(static_cast<Index>(i)) *= weights[i];
@@ -87,7 +87,7 @@ class HarArapDeformer final : public Deformer {
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
-    hold_ = kHold / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
+    handle_weight_ = kHandleWeight / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
     MatrixXd rows(4 * n, 2 * h);  // columns: Re f, Im f of each handle
     rows.topLeftCorner(n, h) = held_.real().transpose();
     rows.block(n, 0, n, h) = -held_.imag().transpose();
@@ -99,7 +99,7 @@ class HarArapDeformer final : public Deformer {
     rows.block(3 * n, h, n, h) = -held_.real().transpose();
     held_rows_ = rows;
     MatrixXd shared = kDefinite / (size_ * size_) * MatrixXd::Identity(4 * n, 4 * n);
-    add_gram(std::sqrt(hold_) * rows, 2 * h, 0, shared);
+    add_gram(std::sqrt(handle_weight_) * rows, 2 * h, 0, shared);
     const MatrixXc gram = gradient_.adjoint() * gradient_;
     MatrixXd real(2 * n, 2 * n);
     real << gram.real(), -gram.imag(), gram.imag(), gram.real();
@@ -110,20 +110,20 @@ class HarArapDeformer final : public Deformer {
       check(out.factor(normal), "har_arap: the energy is definite");
     };
     factored(1, rigid_);
-    factored(kLittle, conformal_);
+    factored(kRigidPart, conformal_);
   }
 
   VectorXd handle_right(const Points& targets) const {
     const Index h = held_.rows();
-    VectorXd options(2 * h);
+    VectorXd stacked(2 * h);
     for (Index i = 0; i < h; ++i) {
-      options[i] = targets[static_cast<size_t>(i)].real();
-      options[h + i] = targets[static_cast<size_t>(i)].imag();
+      stacked[i] = targets[static_cast<size_t>(i)].real();
+      stacked[h + i] = targets[static_cast<size_t>(i)].imag();
     }
-    return hold_ * (held_rows_ * options);
+    return handle_weight_ * (held_rows_ * stacked);
   }
 
-  void take(const VectorXd& x) {
+  void set_unknowns(const VectorXd& x) {
     const Index n = basis_.size();
     phi_.resize(n);
     psi_.resize(n);
@@ -135,7 +135,7 @@ class HarArapDeformer final : public Deformer {
 
   int minimize(const Points& targets, bool draft) {
     const VectorXd handles = handle_right(targets);
-    if (!draft || phi_.size() == 0) take(conformal_.solve(handles));
+    if (!draft || phi_.size() == 0) set_unknowns(conformal_.solve(handles));
     const Index n = basis_.size();
     const int most = draft ? kDraftIterations : kMostIterations;
     int iteration = 0;
@@ -150,7 +150,7 @@ class HarArapDeformer final : public Deformer {
       right.segment(0, n) += pull.real();
       right.segment(n, n) += pull.imag();
       const VectorXc before = phi_;
-      take(rigid_.solve(right));
+      set_unknowns(rigid_.solve(right));
       moved = (phi_ - before).cwiseAbs().maxCoeff() / size_;
     }
     return iteration;
@@ -171,7 +171,7 @@ class HarArapDeformer final : public Deformer {
   Rest rest_;
   HandlePoints handles_;
   BoundaryBasis basis_;
-  double size_ = 1, hold_ = 1;
+  double size_ = 1, handle_weight_ = 1;
   MatrixXc gradient_, held_;  ///< C' at the energy's samples, weighted; C at the handles
   MatrixXd held_rows_;
   VectorXd weights_;

@@ -39,7 +39,7 @@ class HarmonicCoordinates final : public RealCoordinates {
     std::vector<Index> outside;
     for (const Complex& z : points) {
       if (is_inside(z)) {
-        places.push_back(order == 0 ? z : beside_vertex(cage_, z));
+        places.push_back(order == 0 ? z : point_inside_vertex(cage_, z));
         continue;
       }
       outside.push_back(static_cast<Index>(places.size()));
@@ -70,9 +70,9 @@ class HarmonicCoordinates final : public RealCoordinates {
 
   BoundaryPoint nearest(Complex z) const {
     const Polyline::Nearest near = edge_.nearest(z);
-    const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.places.size();
-    const auto& [segment, from] = flat_.places[i];
-    const double to = flat_.places[next].segment == segment && next > 0 ? flat_.places[next].t : 1;
+    const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.locations.size();
+    const auto& [segment, from] = flat_.locations[i];
+    const double to = flat_.locations[next].segment == segment && next > 0 ? flat_.locations[next].t : 1;
     return {segment, from + near.parameter * (to - from)};
   }
 

@@ -76,8 +76,8 @@ void check_pose(const Rest& rest, const Pose& pose) {
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
   for (const PosePin& pin : pose.pins)
-    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !(pin.scale >= kLeastPinScale) ||
-        !(pin.scale <= kMostPinScale))
+    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !(pin.scale >= kMinPinScale) ||
+        !(pin.scale <= kMaxPinScale))
       throw Error(ErrorKind::bad_input,
                   "a posed pin is not finite, or its scale is below 0.01 or above 100");
 }
@@ -87,7 +87,7 @@ VectorXc cage_displacement(const Rest& rest, const Pose& pose) {
 }
 
 template <class T>
-PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right) {
+PlanarMatrix<T> side_by_side(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right) {
   PlanarMatrix<T> both(left.rows(), left.cols() + right.cols());
   both.re << left.re, right.re;
   both.im << left.im, right.im;
@@ -96,7 +96,8 @@ PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right
 
 template class LinearDeformer<float>;
 template class LinearDeformer<double>;
-template PlanarMatrix<float> beside(const PlanarMatrix<float>&, const PlanarMatrix<float>&);
-template PlanarMatrix<double> beside(const PlanarMatrix<double>&, const PlanarMatrix<double>&);
+template PlanarMatrix<float> side_by_side(const PlanarMatrix<float>&, const PlanarMatrix<float>&);
+template PlanarMatrix<double> side_by_side(const PlanarMatrix<double>&,
+                                           const PlanarMatrix<double>&);
 
 }  // namespace holomorph

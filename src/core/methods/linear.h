@@ -53,6 +53,6 @@ VectorXc cage_displacement(const Rest& rest, const Pose& pose);
 
 /// Two operators side by side.
 template <class T>
-PlanarMatrix<T> beside(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right);
+PlanarMatrix<T> side_by_side(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right);
 
 }  // namespace holomorph

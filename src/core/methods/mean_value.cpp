@@ -96,7 +96,7 @@ class MeanValueCoordinates final : public RealCoordinates {
   explicit MeanValueCoordinates(const Cage& cage)
       : flat_(flattened(cage)),
         polygon_(polygon_cage(flat_.points)),
-        controls_(weights_at(cage, flat_.places)) {}
+        controls_(weights_at(cage, flat_.locations)) {}
 
   MatrixXc at(std::span<const Complex> points, int order) const override {
     MatrixXc of_vertices(static_cast<Index>(points.size()), controls_.rows());
@@ -114,7 +114,7 @@ class MeanValueCoordinates final : public RealCoordinates {
         row[vertex - flat_.points.begin()] = 1;
         return row;
       }
-      z = beside_vertex(polygon_, z);
+      z = point_inside_vertex(polygon_, z);
     }
     const std::vector<Dual> weights = mean_value_coordinates(flat_.points, z);
     for (Index c = 0; c < row.size(); ++c) {

@@ -18,11 +18,11 @@ template <class T>
 class OutlineDeformer final : public Deformer {
  public:
   explicit OutlineDeformer(const Rest& rest)
-      : rest_(rest), method_(method_named("outline")), pins_(acting_pins(rest)) {
+      : rest_(rest), method_(method_named("outline")), pins_(usable_pins(rest)) {
     if (rest.outline.empty()) {
       Rest free = rest;
       free.parameters.clear();
-      free_ = usual_method(MethodUse::pins).prepare(free, nullptr);
+      fallback_ = usual_method(MethodUse::pins).prepare(free, nullptr);
       return;
     }
     fit_ = new_fit();
@@ -33,14 +33,14 @@ class OutlineDeformer final : public Deformer {
 
   SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
-    if (free_) {
-      SampledMap out = free_->deform(pose, options);
+    if (fallback_) {
+      SampledMap out = fallback_->deform(pose, options);
       out.note =
           "Draw an outline for the picture to fill" + (out.note.empty() ? "" : ". " + out.note);
       return out;
     }
     SampledMap out;
-    solve(pinned(pose), options.draft);
+    solve(pin_targets(pose), options.draft);
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(options.iteration.value_or(last), last));
     // An earlier iteration, which the user may look at, can have another basis.
@@ -71,11 +71,11 @@ class OutlineDeformer final : public Deformer {
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
-    if (free_) return free_->point_map(pose);
+    if (fallback_) return fallback_->point_map(pose);
     std::unique_ptr<OutlineFit> other;
-    if (pinned(pose) != solved_ || draft_) {
+    if (pin_targets(pose) != solved_ || draft_) {
       other = new_fit();
-      other->solve(pinned(pose));
+      other->solve(pin_targets(pose));
     }
     const OutlineFit& fit = other ? *other : *fit_;
     const OutlineMatch match = fit.after(fit.iterations());
@@ -106,20 +106,20 @@ class OutlineDeformer final : public Deformer {
     return std::make_unique<OutlineFit>(rest_.cage, rest_.outline, pins, settings());
   }
 
-  Points pinned(const Pose& pose) const {
-    Points pinned;
-    for (const size_t i : pins_.used) pinned.push_back(pose.pins[i].position);
-    return pinned;
+  Points pin_targets(const Pose& pose) const {
+    Points pin_targets;
+    for (const size_t i : pins_.used) pin_targets.push_back(pose.pins[i].position);
+    return pin_targets;
   }
 
-  void solve(Points options, bool draft) {
-    if (options == solved_ && (draft || !draft_)) return;
+  void solve(Points targets, bool draft) {
+    if (targets == solved_ && (draft || !draft_)) return;
     if (draft)
-      fit_->follow(options);
+      fit_->follow(targets);
     else
-      fit_->solve(options);
+      fit_->solve(targets);
     if (fit_->builds() != built_) set_up_values();
-    solved_ = std::move(options);
+    solved_ = std::move(targets);
     draft_ = draft;
   }
 
@@ -151,8 +151,8 @@ class OutlineDeformer final : public Deformer {
       note += ", after " + std::to_string(match.iterations) +
               (match.iterations == 1 ? " step" : " steps");
     if (match.zeros > 0) note += ". The picture folds";
-    const bool reached = match.hausdorff <= kOutlineMet * size,
-               met = match.pins_missed <= kOutlineMet * size;
+    const bool reached = match.hausdorff <= kOutlineMatched * size,
+               met = match.pins_missed <= kOutlineMatched * size;
     if (match.pins_held > 0)
       note += match.pins_held == 1 ? ". A pin outside the outline is held inside"
                                    : ". Pins outside the outline are held inside";
@@ -167,8 +167,8 @@ class OutlineDeformer final : public Deformer {
 
   Rest rest_;
   const Method& method_;
-  ActingPins pins_;
-  std::unique_ptr<Deformer> free_;  ///< method `pins`, used while there is no outline
+  UsablePins pins_;
+  std::unique_ptr<Deformer> fallback_;  ///< method `pins`, used while there is no outline
   std::unique_ptr<OutlineFit> fit_;
   int built_ = 0;
   PlanarMatrix<T> value_, slope_;  ///< C and C' of the fit's basis at the samples

@@ -52,7 +52,7 @@ Cage basis_cage(const Cage& cage) {
 
 /// The points where smoothness is measured: as many on each segment as its degree, away from its
 /// ends, where f'' has poles.
-std::vector<BoundaryPoint> smoothness_places(const Cage& basis) {
+std::vector<BoundaryPoint> smoothness_points(const Cage& basis) {
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < basis.size(); ++e)
     for (int k = 0; k < basis.degree(e); ++k) places.push_back({e, (k + 0.5) / basis.degree(e)});
@@ -80,7 +80,7 @@ struct PinBasis {
     value = planar_coordinates<T>(basis, samples, 0);
     const Index n = basis.control_count();
     MatrixXc rows(n + 2, n);
-    rows.topRows(n) = cauchy_coordinates(basis, smoothness_places(basis), 2) *
+    rows.topRows(n) = cauchy_coordinates(basis, smoothness_points(basis), 2) *
                       (length * length / std::sqrt(static_cast<double>(n)));
     // The energy of affine maps is zero; two rows at an inner point make R invertible. They do not
     // change the minimizer, because the affine part is solved for separately.
@@ -120,7 +120,7 @@ class PinsDeformer final : public LinearDeformer<T> {
       basis_ = previous->basis_;
     else
       basis_ = std::make_shared<const PinBasis<T>>(rest, own);
-    ActingPins acting = acting_pins(rest);
+    UsablePins acting = usable_pins(rest);
     used_ = std::move(acting.used);
     this->note_ = std::move(acting.note);
     cage_at_pins_.resize(0, rest.cage.control_count());
@@ -135,7 +135,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     PlanarMatrix<T> correction(basis_->value.rows(), coefficients_.re.cols());
     multiply(basis_->value, coefficients_, correction);
     add_affine(correction, rest.samples, 0);
-    this->value_ = beside(basis_->cage_value, correction);
+    this->value_ = side_by_side(basis_->cage_value, correction);
   }
 
   VectorXc controls(const Pose& pose) const override {
@@ -192,7 +192,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     PlanarMatrix<T> correction(static_cast<Index>(points.size()), coefficients_.re.cols());
     multiply(planar_coordinates<T>(basis_->basis, points, 1), coefficients_, correction);
     add_affine(correction, points, 1);
-    return beside(cage, correction);
+    return side_by_side(cage, correction);
   }
 
  private:

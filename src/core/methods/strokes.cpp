@@ -23,28 +23,28 @@ constexpr int kSamplesPerVertex = 2;
 constexpr double kInset = 1;  ///< of rigidity's and smoothness's samples, in units of their spacing
 constexpr double kPerLength = 20;  ///< samples per length L of a stroke
 constexpr double kLittle = 1e-3;   ///< factor of the weight of rigidity in the start
-constexpr int kFewest = 8, kMost = 40;
+constexpr int kFewestSamples = 8, kMostSamples = 40;
 constexpr int kDraftSteps = 20, kSteps = 300;
 constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
 
 /// The samples of a stroke at rest, and the fraction of its length at which each lies.
 struct Samples {
-  Points places;
-  std::vector<double> shares;
+  Points points;
+  std::vector<double> fractions;
   size_t stroke = 0;     ///< its number in the rest
   bool clipped = false;  ///< whether a part of the stroke lies outside the cage
 };
 
 Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
   const Polyline line(without_repeats(stroke), false);
-  const Index count = static_cast<Index>(
-      std::clamp<double>(std::round(kPerLength * line.length() / unit), kFewest, kMost));
+  const Index count = static_cast<Index>(std::clamp<double>(
+      std::round(kPerLength * line.length() / unit), kFewestSamples, kMostSamples));
   Samples samples;
   for (Index i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    const Complex z = line.at(share * line.length());
+    const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
+    const Complex z = line.at(fraction * line.length());
     if (contains(cage, z))
-      samples.places.push_back(z), samples.shares.push_back(share);
+      samples.points.push_back(z), samples.fractions.push_back(fraction);
     else
       samples.clipped = true;
   }
@@ -61,23 +61,23 @@ class StrokeTargets {
       : slopes_(std::move(slopes)), unit_(unit) {
     for (const Samples& stroke : strokes) {
       const Polyline& curve = curves_.emplace_back(without_repeats(posed[stroke.stroke]), false);
-      for (size_t i = 0; i < stroke.places.size(); ++i) {
+      for (size_t i = 0; i < stroke.points.size(); ++i) {
         const Index row = static_cast<Index>(samples_.size());
-        samples_.push_back({curves_.size() - 1, stroke.places[i] + on[row]});
-        shares_.push_back(stroke.shares[i]);
+        samples_.push_back({curves_.size() - 1, stroke.points[i] + on[row]});
+        shares_.push_back(stroke.fractions[i]);
       }
       lengths_.push_back(curve.length());
     }
     hints_.assign(samples_.size(), 0);
   }
 
-  const std::vector<double>& shares() const { return shares_; }
+  const std::vector<double>& fractions() const { return shares_; }
   /// The displacements that take the samples to these fractions of the posed strokes' lengths.
-  VectorXc at(const std::vector<double>& shares) const {
+  VectorXc at(const std::vector<double>& fractions) const {
     VectorXc targets(static_cast<Index>(samples_.size()));
     for (size_t i = 0; i < samples_.size(); ++i)
       targets[static_cast<Index>(i)] =
-          curves_[samples_[i].curve].at(shares[i] * lengths_[samples_[i].curve]) -
+          curves_[samples_[i].curve].at(fractions[i] * lengths_[samples_[i].curve]) -
           samples_[i].place;
     return targets;
   }
@@ -119,19 +119,19 @@ template <class T>
 class StrokesDeformer final : public Deformer {
  public:
   explicit StrokesDeformer(const Rest& rest)
-      : rest_(rest), method_(method_named("strokes")), pins_(acting_pins(rest)) {
+      : rest_(rest), method_(method_named("strokes")), pins_(usable_pins(rest)) {
     for (const Points& stroke : rest.strokes) check_stroke(stroke);
     const double unit = perimeter(outline_of(rest.cage)) / (2 * kPi);
     for (size_t i = 0; i < rest.strokes.size(); ++i) {
       Samples samples = samples_of(rest.strokes[i], rest.cage, unit);
       if (samples.clipped)
         note_ += (note_.empty() ? "" : ". ") + ("Stroke " + std::to_string(i + 1)) +
-                 (samples.places.empty() ? " is outside the cage and has no effect"
+                 (samples.points.empty() ? " is outside the cage and has no effect"
                                          : " leaves the cage; only the part inside has an effect");
       samples.stroke = i;
-      if (!samples.places.empty()) strokes_.push_back(std::move(samples));
+      if (!samples.points.empty()) strokes_.push_back(std::move(samples));
     }
-    prepare_followed();
+    prepare_base();
     if (strokes_.empty()) return;
     if (!pins_.note.empty()) note_ += (note_.empty() ? "" : ". ") + pins_.note;
     prepare(unit);
@@ -140,14 +140,14 @@ class StrokesDeformer final : public Deformer {
   SampledMap deform(const Pose& pose, EvalOptions options) override {
     check_pose(rest_, pose);
     if (strokes_.empty()) {
-      SampledMap out = free_->deform(without_strokes(pose), options);
+      SampledMap out = fallback_->deform(without_strokes(pose), options);
       if (!note_.empty()) out.note = note_ + (out.note.empty() ? "" : ". ") + out.note;
       return out;
     }
     SampledMap out = cage_->deform(without_handles(pose), options);
     out.note = note_;
     if (is_at_rest(pose)) {
-      moved_ = Moved{};
+      correction_ = Correction{};
       posed_.reset();
       return out;
     }
@@ -156,38 +156,39 @@ class StrokesDeformer final : public Deformer {
       posed_ = pose;
       draft_ = options.draft;
     }
-    out.iterations = moved_.iterations;
-    if (!moved_.settled) out.status = SampledMap::Status::iterating;
+    out.iterations = correction_.iterations;
+    if (!correction_.settled) out.status = SampledMap::Status::iterating;
     char text[80];
     constexpr double kMet = 0.005;  // px
-    if (moved_.miss < kMet)
+    if (correction_.miss < kMet)
       std::snprintf(text, sizeof text, "Strokes are met");
     else
-      std::snprintf(text, sizeof text, "Strokes are missed by %.1f px on average", moved_.miss);
+      std::snprintf(text, sizeof text, "Strokes are missed by %.1f px on average",
+                    correction_.miss);
     out.note = text + (note_.empty() ? "" : ". " + note_);
-    out.f += product(value_, moved_.phi);
-    if (soft_) out.f += product(value_, moved_.psi).conjugate();
+    out.f += product(value_, correction_.phi);
+    if (soft_) out.f += product(value_, correction_.psi).conjugate();
     if (!options.derivatives || rest_.samples.empty()) return out;
     if (slope_.rows() == 0)
       slope_ = planar_coordinates<T>(
           polygon_cage(basis_->polygon()),
           rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
-    out.fz += product(slope_, moved_.phi);
-    if (soft_) out.fzbar += product(slope_, moved_.psi).conjugate();
+    out.fz += product(slope_, correction_.phi);
+    if (soft_) out.fzbar += product(slope_, correction_.psi).conjugate();
     return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
-    if (strokes_.empty()) return free_->point_map(without_strokes(pose));
+    if (strokes_.empty()) return fallback_->point_map(without_strokes(pose));
     auto map = std::make_unique<SumMap>();
     map->terms.emplace_back(rest_.cage, cage_displacement(rest_, pose));
     if (is_at_rest(pose)) return map;
-    Moved moved = moved_;
+    Correction moved = correction_;
     if (pose != posed_ || draft_) {
       StrokesDeformer other(*this);
       other.solve(pose, false);
-      moved = std::move(other.moved_);
+      moved = std::move(other.correction_);
     }
     const Cage polygon = polygon_cage(basis_->polygon());
     map->terms.emplace_back(polygon, moved.phi);
@@ -197,12 +198,12 @@ class StrokesDeformer final : public Deformer {
 
  private:
   /// The correction h = C phi + conj(C psi) over the polygon of the basis.
-  struct Moved {
+  struct Correction {
     VectorXc phi, psi;
     int iterations = 0;
     bool settled = true;
-    double miss = 0;             ///< root mean square distance from the posed strokes
-    std::vector<double> shares;  ///< each sample's fraction of its posed stroke's length
+    double miss = 0;                ///< root mean square distance from the posed strokes
+    std::vector<double> fractions;  ///< each sample's fraction of its posed stroke's length
   };
   enum Term : size_t { on_strokes, rigid, on_pins };
 
@@ -214,12 +215,12 @@ class StrokesDeformer final : public Deformer {
   static Pose without_strokes(const Pose& pose) { return {pose.cage, pose.pins}; }
 
   /// Prepares the cage's map, which the strokes correct, or method `pins` if there are no strokes.
-  void prepare_followed() {
+  void prepare_base() {
     Rest rest = rest_;
     rest.parameters.clear();
     rest.strokes.clear();
     if (strokes_.empty()) {
-      free_ = usual_method(MethodUse::pins).prepare(rest, nullptr);
+      fallback_ = usual_method(MethodUse::pins).prepare(rest, nullptr);
       return;
     }
     rest.pins.clear();
@@ -234,7 +235,7 @@ class StrokesDeformer final : public Deformer {
     value_ = planar_coordinates<T>(polygon_cage(basis_->polygon()), rest_.samples, 0);
     Points on, held, turning;
     for (const Samples& stroke : strokes_)
-      on.insert(on.end(), stroke.places.begin(), stroke.places.end());
+      on.insert(on.end(), stroke.points.begin(), stroke.points.end());
     for (const size_t i : pins_.used) {
       held.push_back(rest_.pins[i].position);
       if (rest_.pins[i].has_frame) turning.push_back(rest_.pins[i].position);
@@ -306,33 +307,33 @@ class StrokesDeformer final : public Deformer {
         std::make_shared<StrokeTargets>(strokes_, pose.strokes, cage_on_ * cage,
                                         VectorXc((cage_inner_ * cage).array() + unit_), unit_);
     AlternatingFit& fit = *fit_;
-    fit.project_by(on_strokes, [targets](const VectorXc& values, VectorXc& options) {
-      targets->project(values, options);
+    fit.set_projection(on_strokes, [targets](const VectorXc& values, VectorXc& projected) {
+      targets->project(values, projected);
     });
-    fit.project_by(rigid, [targets](const VectorXc& values, VectorXc& options) {
-      targets->make_rigid(values, options);
+    fit.set_projection(rigid, [targets](const VectorXc& values, VectorXc& projected) {
+      targets->make_rigid(values, projected);
     });
-    const bool warm = draft && !moved_.shares.empty();
-    const VectorXc first = targets->at(warm ? moved_.shares : targets->shares());
-    if (!pins_.used.empty()) fit.give(on_pins, pin_targets(pose, cage));
+    const bool warm = draft && !correction_.fractions.empty();
+    const VectorXc first = targets->at(warm ? correction_.fractions : targets->fractions());
+    if (!pins_.used.empty()) fit.set_targets(on_pins, pin_targets(pose, cage));
     if (!warm) {
       // The first solve has almost no rigidity, which would keep parts that rotate far near their
       // original directions.
-      if (!pins_.used.empty()) loose_->give(on_pins, pin_targets(pose, cage));
+      if (!pins_.used.empty()) loose_->set_targets(on_pins, pin_targets(pose, cage));
       loose_->start(first);
       fit.reset(loose_->unknowns());
     }
     fit.start(first);
     const int most = draft ? kDraftSteps : kSteps;
-    moved_.iterations =
+    correction_.iterations =
         fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled, most);
-    moved_.settled = moved_.iterations < most;
-    moved_.shares = targets->shares();
-    moved_.miss = fit.distance(on_strokes);
+    correction_.settled = correction_.iterations < most;
+    correction_.fractions = targets->fractions();
+    correction_.miss = fit.distance(on_strokes);
     const VectorXc x = fit.unknowns();
     const Index n = basis_->size();
-    moved_.phi = basis_->coefficients(x.head(n));
-    if (soft_) moved_.psi = basis_->coefficients(x.tail(n).conjugate());
+    correction_.phi = basis_->coefficients(x.head(n));
+    if (soft_) correction_.psi = basis_->coefficients(x.tail(n).conjugate());
   }
 
   VectorXc pin_targets(const Pose& pose, const VectorXc& cage) const {
@@ -348,8 +349,8 @@ class StrokesDeformer final : public Deformer {
 
   Rest rest_;
   const Method& method_;
-  ActingPins pins_;
-  std::shared_ptr<Deformer> free_, cage_;
+  UsablePins pins_;
+  std::shared_ptr<Deformer> fallback_, cage_;
   std::string note_;
   std::vector<Samples> strokes_;
   std::shared_ptr<const BoundaryBasis> basis_;
@@ -358,7 +359,7 @@ class StrokesDeformer final : public Deformer {
   MatrixXc cage_on_, cage_inner_, cage_at_pins_;  ///< cage coordinates at strokes, inside, at pins
   PlanarMatrix<T> value_, slope_;
   std::optional<AlternatingFit> fit_, loose_;  ///< loose_ has almost no rigidity
-  Moved moved_;
+  Correction correction_;
   std::optional<Pose> posed_;
   bool draft_ = false;
 };

@@ -21,7 +21,7 @@ class Cutter {
     const double middle = 0.5 * (from + to);
     const Complex image_middle = image_(middle);
     if (to - from < rules_.least * rules_.length || cuts.size() > rules_.most ||
-        serves(from, image_from, image_middle, to, image_to))
+        is_fine_enough(from, image_from, image_middle, to, image_to))
       return;
     halve(from, image_from, middle, image_middle, cuts);
     cuts.push_back(middle);
@@ -29,11 +29,12 @@ class Cutter {
   }
 
  private:
-  bool serves(double from, Complex image_from, Complex middle, double to, Complex image_to) const {
+  bool is_fine_enough(double from, Complex image_from, Complex middle, double to,
+                      Complex image_to) const {
     const double length = (to - from) / rules_.length, chord = std::abs(image_to - image_from),
-                 way = std::abs(middle - image_from) + std::abs(image_to - middle);
+                 path_length = std::abs(middle - image_from) + std::abs(image_to - middle);
     if (to - from > longest_(0.5 * (from + to)) && length > rules_.shortest) return false;
-    if (length > rules_.longest || way > rules_.longest * rules_.size) return false;
+    if (length > rules_.longest || path_length > rules_.longest * rules_.size) return false;
     const double quarter =
         std::abs(image_(0.75 * from + 0.25 * to) - 0.75 * image_from - 0.25 * image_to);
     const double off = std::max(std::abs(middle - 0.5 * (image_from + image_to)), quarter);

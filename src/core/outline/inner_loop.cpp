@@ -34,9 +34,9 @@ Points offset_inwards(const Points& polygon, double distance) {
 Points in_steps(const Points& loop, double longest) {
   Points points;
   for (size_t i = 0; i < loop.size(); ++i) {
-    const Complex from = loop[i], way = loop[(i + 1) % loop.size()] - from;
-    const int parts = 1 + static_cast<int>(std::abs(way) / longest);
-    for (int k = 0; k < parts; ++k) points.push_back(from + way * (1.0 * k / parts));
+    const Complex from = loop[i], edge = loop[(i + 1) % loop.size()] - from;
+    const int parts = 1 + static_cast<int>(std::abs(edge) / longest);
+    for (int k = 0; k < parts; ++k) points.push_back(from + edge * (1.0 * k / parts));
   }
   return points;
 }

@@ -13,16 +13,16 @@ Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
   Cuts cuts(static_cast<size_t>(cage.size()));
   std::ranges::sort(lengths);
   for (const double length : lengths) {
-    const Polyline::Location at = line.place_at(length);
-    const size_t i = static_cast<size_t>(at.segment), next = (i + 1) % flat.places.size();
-    const Index segment = flat.places[i].segment;
-    const double from = flat.places[i].t,
-                 to = flat.places[next].segment == segment && flat.places[next].t > from
-                          ? flat.places[next].t
+    const Polyline::Location at = line.location_at(length);
+    const size_t i = static_cast<size_t>(at.segment), next = (i + 1) % flat.locations.size();
+    const Index segment = flat.locations[i].segment;
+    const double from = flat.locations[i].t,
+                 to = flat.locations[next].segment == segment && flat.locations[next].t > from
+                          ? flat.locations[next].t
                           : 1;
     cuts[static_cast<size_t>(segment)].push_back(from + at.parameter * (to - from));
   }
-  for (std::vector<double>& places : cuts) std::ranges::sort(places);
+  for (std::vector<double>& locations : cuts) std::ranges::sort(locations);
   return cuts;
 }
 

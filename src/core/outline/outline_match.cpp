@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/cauchy/cauchy.h"
-#include "core/outline/equal_shares.h"
+#include "core/outline/arc_length_start.h"
 #include "core/outline/inner_loop.h"
 #include "core/outline/outline_basis.h"
 #include "core/outline/outline_samples.h"
@@ -26,8 +26,9 @@ constexpr double kFar = 0.02;
 /// The shape's own frame: its first vertex is at 0, its first chord is along the real axis, and its
 /// perimeter is 1. Results computed in this frame do not depend on the drawing's position.
 Similarity frame_of(const Cage& cage) {
-  const Complex way = cage.vertex(1) - cage.vertex(0);
-  return {1.0 / (way / std::abs(way) * perimeter(flattened(cage).points)), cage.vertex(0), 0};
+  const Complex direction = cage.vertex(1) - cage.vertex(0);
+  return {1.0 / (direction / std::abs(direction) * perimeter(flattened(cage).points)),
+          cage.vertex(0), 0};
 }
 
 Points in(const Similarity& frame, Points points) {
@@ -111,7 +112,7 @@ void OutlineFit::solve(const Points& pinned) {
   begin(built_, wanted);
   run(settings_.published ? AlternatingFit::Mode::zeroth : AlternatingFit::Mode::first_order,
       kSettled, settings_.most_iterations);
-  if (may_refine() && !is_met()) refine();
+  if (may_refine() && !is_matched()) refine();
 }
 
 void OutlineFit::follow(const Points& pinned) {
@@ -126,16 +127,16 @@ void OutlineFit::follow(const Points& pinned) {
     begin(start, wanted);
     run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
     // A single pin selects a conformal map. Several pins may ask for what no conformal map does.
-    if (pins_.size() == 1 && may_refine() && !is_met()) follow_start(start);
+    if (pins_.size() == 1 && may_refine() && !is_matched()) follow_start(start);
     return;
   }
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  if (!pins_.empty()) fit_->set_targets(kPinTerm, pin_targets(wanted));
   fit_->resume();
   run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
 }
 
 void OutlineFit::begin(const Correspondence& start, const Points& wanted) {
-  if (!pins_.empty()) fit_->give(kPinTerm, pin_targets(wanted));
+  if (!pins_.empty()) fit_->set_targets(kPinTerm, pin_targets(wanted));
   std::ranges::fill(hints_, 0);
   fit_->start(start_targets(start));
 }
@@ -196,16 +197,16 @@ OutlineMatch OutlineFit::after(int iteration) const {
 // points.
 void OutlineFit::set_up_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
-  const auto share = [&](double s) {
+  const auto vertex_parameter = [&](double s) {
     return own * s / start.source_length() +
            (1 - own) * (start(s) - start(0)) / start.target_length();
   };
   std::vector<double> ends, cuts;
-  for (size_t i = 0; i < flat_.places.size(); ++i)
-    if (flat_.places[i].t == 0) ends.push_back(source_.length_at(static_cast<Index>(i), 0));
+  for (size_t i = 0; i < flat_.locations.size(); ++i)
+    if (flat_.locations[i].t == 0) ends.push_back(source_.length_at(static_cast<Index>(i), 0));
   ends.push_back(source_.length());
   for (size_t e = 0; e + 1 < ends.size(); ++e) {
-    const double from = share(ends[e]), to = share(ends[e + 1]);
+    const double from = vertex_parameter(ends[e]), to = vertex_parameter(ends[e + 1]);
     const int parts =
         std::max(1, static_cast<int>(std::lround((to - from) * settings_.vertices /
                                                  cage_.degree(static_cast<Index>(e)))));
@@ -214,7 +215,7 @@ void OutlineFit::set_up_basis(const Correspondence& start) {
       double low = ends[e], high = ends[e + 1];
       for (int halving = 0; halving < 50; ++halving) {
         const double middle = 0.5 * (low + high);
-        (share(middle) < wanted ? low : high) = middle;
+        (vertex_parameter(middle) < wanted ? low : high) = middle;
       }
       cuts.push_back(0.5 * (low + high));
     }
@@ -238,13 +239,13 @@ void OutlineFit::set_up_samples() {
   middles_.clear();
   sizes_.clear();
   for (Index e = 0; e < now_.basis.size(); ++e) {
-    const Complex way = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
+    const Complex direction = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
     // A curve has as many unknowns as its degree, and a proportional number of samples.
     const int degree = now_.basis.degree(e), count = kSamplesPerUnknown * degree;
     for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});
     for (int k = 0; k < degree; ++k) {
       middles_.push_back({e, (k + 0.5) / degree});
-      sizes_.push_back(std::abs(way) / degree);
+      sizes_.push_back(std::abs(direction) / degree);
     }
   }
   hints_.assign(samples_.size(), 0);
@@ -305,7 +306,7 @@ void OutlineFit::set_up_normals(const VectorXc& values, const VectorXc& targets,
 }
 
 Points OutlineFit::held(const Points& pinned) const {
-  constexpr int kWays = 16, kMostHalvings = 40;
+  constexpr int kDirections = 16, kMostHalvings = 40;
   if (settings_.published) return pinned;
   Points inside = pinned;
   for (Complex& z : inside) {
@@ -316,12 +317,12 @@ Points OutlineFit::held(const Points& pinned) const {
     // between them is found.
     double depth = 0, step = 0.05 * target_.diagonal();
     for (int ring = 0; ring < kMostHalvings && depth == 0; ++ring, step /= 2)
-      for (int k = 0; k < kWays; ++k) {
-        const double way = k + 0.38 * ring;
-        const Complex place = nearest + std::polar(step, 2 * kPi * way / kWays);
-        if (winding_number(target_.points(), place) == 0) continue;
-        if (const double here = target_.nearest(place).distance; here > depth)
-          depth = here, z = place;
+      for (int k = 0; k < kDirections; ++k) {
+        const double direction = k + 0.38 * ring;
+        const Complex candidate = nearest + std::polar(step, 2 * kPi * direction / kDirections);
+        if (winding_number(target_.points(), candidate) == 0) continue;
+        if (const double here = target_.nearest(candidate).distance; here > depth)
+          depth = here, z = candidate;
       }
     if (depth == 0) z = deepest_point(target_);
   }

@@ -15,7 +15,7 @@ namespace holomorph {
 
 /// An outline counts as matched when the two-sided Hausdorff distance is below this fraction of its
 /// diameter.
-inline constexpr double kOutlineMet = 0.01;
+inline constexpr double kOutlineMatched = 0.01;
 
 struct OutlineSettings {
   /// The published method: vertices at equal arc lengths, no smoothing, and zeroth-order steps from
@@ -97,7 +97,7 @@ class OutlineFit {
   std::vector<double> vertex_lengths() const;
   VectorXc graded_targets() const;
   bool may_refine() const;
-  bool is_met() const;
+  bool is_matched() const;
   /// The defects of the last map: zeros, and distances relative to the accepted ones.
   struct Misses {
     int zeros = 0;

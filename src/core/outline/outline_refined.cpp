@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kAccepted = 0.8 * kOutlineMet;  ///< with a margin for sampling
+constexpr double kAccepted = 0.8 * kOutlineMatched;  ///< with a margin for sampling
 constexpr double kFinest = 0.01;  ///< with more smoothness, corners are meant to be rounded
 
 }  // namespace
@@ -20,7 +20,7 @@ bool OutlineFit::may_refine() const {
   return start_ && settings_.stiffness == 0 && settings_.smoothness <= kFinest;
 }
 
-bool OutlineFit::is_met() const {
+bool OutlineFit::is_matched() const {
   return misses().total() <= 1;
 }
 
@@ -57,8 +57,8 @@ void OutlineFit::refine() {
 
 std::vector<double> OutlineFit::vertex_lengths() const {
   std::vector<double> lengths;
-  for (size_t i = 0; i < flat_.places.size(); ++i)
-    if (flat_.places[i].t == 0) lengths.push_back(source_.length_at(static_cast<Index>(i), 0));
+  for (size_t i = 0; i < flat_.locations.size(); ++i)
+    if (flat_.locations[i].t == 0) lengths.push_back(source_.length_at(static_cast<Index>(i), 0));
   return lengths;
 }
 
@@ -142,9 +142,9 @@ void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
   for (Index e = 0; e < now_.basis.size(); ++e)
     for (int m = 0; m < now_.basis.degree(e); ++m) {
       const Index c = now_.basis.control_offset(e) + m, row = rows + c;
-      const double share = static_cast<double>(m) / now_.basis.degree(e);
+      const double fraction = static_cast<double>(m) / now_.basis.degree(e);
       const size_t i = static_cast<size_t>(e);
-      const double length = (1 - share) * cut_lengths_[i] + share * cut_lengths_[i + 1];
+      const double length = (1 - fraction) * cut_lengths_[i] + fraction * cut_lengths_[i + 1];
       left(row, c) = kWeak / sizes[e];
       right[row] = left(row, c) * (target_.at(built_(length)) - center_);
     }

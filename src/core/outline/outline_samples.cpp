@@ -8,17 +8,18 @@ namespace holomorph {
 namespace {
 
 constexpr Index kThicknessPoints = 600;
-constexpr double kThicknessShare = 0.5;  ///< spacing over the radius of the largest touching disk
+constexpr double kThicknessFraction =
+    0.5;  ///< spacing over the radius of the largest touching disk
 
-struct CornerPlace {
+struct CornerSample {
   double length = 0, sharpness = 0;  ///< |pi / interior angle - 1|
   /// Within this fraction of the length from a convex corner, its power is lost to rounding.
   double least = 0;
 };
 
-std::vector<CornerPlace> corners_from(const Polyline& outline, double start) {
+std::vector<CornerSample> corners_from(const Polyline& outline, double start) {
   constexpr double kLeastTurn = kPi / 9, kSeen = 1e-13;
-  std::vector<CornerPlace> corners;
+  std::vector<CornerSample> corners;
   for (Index i = 0; i < outline.segments(); ++i) {
     const double turn = turn_at(outline, i);
     if (std::abs(turn) < kLeastTurn) continue;
@@ -27,7 +28,7 @@ std::vector<CornerPlace> corners_from(const Polyline& outline, double start) {
     const double sharpness = std::abs(turn) / std::max(kPi - turn, 0.05);
     corners.push_back({length, sharpness, turn > 0 ? std::pow(kSeen, 1 / (1 + sharpness)) : 0});
   }
-  std::ranges::sort(corners, {}, &CornerPlace::length);
+  std::ranges::sort(corners, {}, &CornerSample::length);
   return corners;
 }
 
@@ -41,10 +42,10 @@ class Spacing {
         least_(least * length_) {}
 
   /// At an arc length between two corners.
-  double operator()(double length, const CornerPlace& before, const CornerPlace& after) const {
-    double spacing = std::min(most_, kThicknessShare * thickness_(length));
-    spacing = std::min(spacing, share(before) * (length - before.length));
-    spacing = std::min(spacing, share(after) * (after.length - length));
+  double operator()(double length, const CornerSample& before, const CornerSample& after) const {
+    double spacing = std::min(most_, kThicknessFraction * thickness_(length));
+    spacing = std::min(spacing, spacing_ratio(before) * (length - before.length));
+    spacing = std::min(spacing, spacing_ratio(after) * (after.length - length));
     constexpr double kEverywhere = 1e-5;  // the map to the disk is always followed to this spacing
     const double lost = std::min(std::max(before.least, after.least), kEverywhere) * length_;
     return std::max({spacing, least_, lost});
@@ -52,7 +53,7 @@ class Spacing {
 
  private:
   /// The spacing as a fraction of the distance from a corner.
-  static double share(const CornerPlace& corner) {
+  static double spacing_ratio(const CornerSample& corner) {
     constexpr double kOfRightAngle = 0.3, kFinest = 0.12;
     if (corner.sharpness <= 0) return INFINITY;
     return std::max(kOfRightAngle / corner.sharpness, kFinest);
@@ -63,7 +64,7 @@ class Spacing {
 };
 
 /// Appends the lengths from one corner, or from the start, to the next corner, which is excluded.
-void append(const Spacing& spacing, const CornerPlace& from, const CornerPlace& to,
+void append(const Spacing& spacing, const CornerSample& from, const CornerSample& to,
             std::vector<double>& lengths) {
   constexpr double kStep = 0.25;  // step of the integration, as a fraction of the spacing
   std::vector<double> at{from.length}, sum{0};
@@ -95,8 +96,8 @@ Thickness::Thickness(const Polyline& outline) : length_(outline.length()) {
   const size_t n = kThicknessPoints;
   const Points points = at_equal_lengths(outline, kThicknessPoints);
   for (size_t i = 0; i < n; ++i) {
-    const Complex way = points[(i + 1) % n] - points[(i + n - 1) % n];
-    const Complex normal = kI * way / std::max(std::abs(way), 1e-300);
+    const Complex chord = points[(i + 1) % n] - points[(i + n - 1) % n];
+    const Complex normal = kI * chord / std::max(std::abs(chord), 1e-300);
     double least = INFINITY;
     for (const Complex& point : points) {
       const double across = std::abs(dot(normal, point - points[i])),
@@ -122,9 +123,9 @@ double turn_at(const Polyline& outline, Index vertex) {
 std::vector<double> graded_lengths(const Polyline& outline, double start, Index count,
                                    double least) {
   const Spacing spacing(outline, count, least);
-  std::vector<CornerPlace> ends{{start, 0}};
+  std::vector<CornerSample> ends{{start, 0}};
   const double tiny = 0.1 * least * outline.length();
-  for (const CornerPlace& corner : corners_from(outline, start)) {
+  for (const CornerSample& corner : corners_from(outline, start)) {
     if (corner.length - ends.back().length > tiny)
       ends.push_back(corner);
     else

@@ -29,7 +29,7 @@ constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
 /// An outline and its Riemann map: the angle on the circle for each arc length, and the inverse.
-struct Seen {
+struct MappedOutline {
   const Polyline* line;
   RiemannMap map;
   PeriodicCurve angle_at, length_at;
@@ -119,7 +119,7 @@ std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& 
   return lengths;
 }
 
-Seen seen(const Polyline& outline, Sampling sampling) {
+MappedOutline mapped_outline(const Polyline& outline, Sampling sampling) {
   const Complex center = middle_point(outline);
   std::vector<double> lengths = from_long_step(
       graded_lengths(outline, nearest_length(outline, center), sampling.points, sampling.least),
@@ -129,7 +129,7 @@ Seen seen(const Polyline& outline, Sampling sampling) {
   RiemannMap map(points, center);
   std::vector<double> angles(map.angles().begin(), map.angles().end());
   const PeriodicCurve angle_at{std::move(lengths), std::move(angles), outline.length(), 2 * kPi};
-  Seen result{&outline, std::move(map), angle_at, angle_at.through_inverse(), {}};
+  MappedOutline result{&outline, std::move(map), angle_at, angle_at.through_inverse(), {}};
   for (Index i = 0; i < kSearched; ++i) {
     const double length = angle_at.x[0] + outline.length() * static_cast<double>(i) / kSearched;
     result.lengths.push_back(length);
@@ -186,7 +186,7 @@ double hyperbolic_square(Complex z, Complex w) {
 }  // namespace
 
 struct ConformalStart::Search {
-  Seen source, target;
+  MappedOutline source, target;
   double upright = 0;                 ///< weight of the squared rotation
   Points given_pins;                  ///< in the plane
   std::vector<Complex> pins, pinned;  ///< in the disks of source and target
@@ -207,13 +207,13 @@ struct ConformalStart::Search {
   }
 
   /// The arc lengths, on the other outline, of the images of points of one circle, in order.
-  static std::vector<double> lengths_on(const Seen& to, const DiskMap& map,
+  static std::vector<double> lengths_on(const MappedOutline& to, const DiskMap& map,
                                         const Points& on_circle) {
     std::vector<double> lengths;
-    for (const Complex& place : on_circle) {
-      const double length = to.length_at(map.angle(place));
+    for (const Complex& point : on_circle) {
+      const double length = to.length_at(map.angle(point));
       lengths.push_back(lengths.empty() ? length - std::floor(length / to.length()) * to.length()
-                                        : next_in_turn(lengths.back(), length, to.length()));
+                                        : next_modulo(lengths.back(), length, to.length()));
     }
     return lengths;
   }
@@ -315,7 +315,7 @@ struct ConformalStart::Search {
   }
 
   /// The automorphisms of the disk that take a pin to its target, with different rotations.
-  std::vector<Pairs> through_pin(Complex pin, Complex place) const {
+  std::vector<Pairs> through_pin(Complex pin, Complex point) const {
     std::vector<Pairs> starts;
     for (int shift = 0; shift < kShifts; ++shift) {
       Pairs& pairs = starts.emplace_back();
@@ -324,7 +324,7 @@ struct ConformalStart::Search {
         const Complex z = std::polar(1.0, source.angle_at(pairs.from[k]));
         const Complex turned =
             std::polar(1.0, 2 * kPi * shift / kShifts) * (z - pin) / (1.0 - std::conj(pin) * z);
-        const Complex image = (turned + place) / (1.0 + std::conj(place) * turned);
+        const Complex image = (turned + point) / (1.0 + std::conj(point) * turned);
         pairs.to[k] = target.length_at(std::arg(image));
         if (k > 0)
           pairs.to[k] +=
@@ -351,12 +351,12 @@ struct ConformalStart::Search {
     return best.second;
   }
 
-  void see_pins() {
+  void map_pins() {
     pins.clear();
     for (const Complex& z : given_pins) pins.push_back(source.in_disk(z));
   }
 
-  void want(const Points& places) {
+  void set_targets(const Points& places) {
     check(places.empty() || places.size() == pins.size(), "outline start: one target for each pin");
     pinned.clear();
     for (const Complex& z : places) pinned.push_back(target.in_disk(z));
@@ -387,53 +387,59 @@ struct ConformalStart::Search {
 
 ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
                                const Points& pins)
-    : search_(new Search{seen(source, kUsual), seen(target, kUsual), upright, pins, {}, {}}) {
-  search_->see_pins();
+    : search_(new Search{
+          mapped_outline(source, kUsual), mapped_outline(target, kUsual), upright, pins, {}, {}}) {
+  search_->map_pins();
 }
 
 ConformalStart::~ConformalStart() = default;
 
 bool ConformalStart::is_crowded() const {
   constexpr double kApart = 1e-12, kMost = 0.2;
-  const auto crowded = [&](const Seen& seen) {
+  const auto crowded = [&](const MappedOutline& mapped_outline) {
     Index close = 0;
-    for (size_t i = 1; i < seen.lengths.size(); ++i)
-      close += seen.angle_at(seen.lengths[i]) - seen.angle_at(seen.lengths[i - 1]) < kApart;
-    return static_cast<double>(close) > kMost * static_cast<double>(seen.lengths.size());
+    for (size_t i = 1; i < mapped_outline.lengths.size(); ++i)
+      close += mapped_outline.angle_at(mapped_outline.lengths[i]) -
+                   mapped_outline.angle_at(mapped_outline.lengths[i - 1]) <
+               kApart;
+    return static_cast<double>(close) > kMost * static_cast<double>(mapped_outline.lengths.size());
   };
   return crowded(search_->source) || crowded(search_->target);
 }
 
 bool ConformalStart::is_near_crowded() const {
   constexpr double kLeast = 5e-13 * 2 * kPi, kPart = 0.01;
-  const auto crowded = [&](const Seen& seen) {
-    return std::ranges::any_of(seen.lengths, [&](double length) {
-      return seen.angle_at(length + kPart * seen.length()) - seen.angle_at(length) < kLeast;
+  const auto crowded = [&](const MappedOutline& mapped_outline) {
+    return std::ranges::any_of(mapped_outline.lengths, [&](double length) {
+      return mapped_outline.angle_at(length + kPart * mapped_outline.length()) -
+                 mapped_outline.angle_at(length) <
+             kLeast;
     });
   };
   return crowded(search_->source) || crowded(search_->target);
 }
 
 Correspondence ConformalStart::best(const Points& pinned) {
-  search_->want(pinned);
+  search_->set_targets(pinned);
   search_->chosen = search_->best();
   return search_->correspondence();
 }
 
 bool ConformalStart::sharpen() {
   try {
-    Seen source = seen(*search_->source.line, kSharp), target = seen(*search_->target.line, kSharp);
+    MappedOutline source = mapped_outline(*search_->source.line, kSharp),
+                  target = mapped_outline(*search_->target.line, kSharp);
     search_->source = std::move(source);
     search_->target = std::move(target);
   } catch (const Error&) {
     return false;  // the finer vertices coincide in the zipper; the coarser ones did not
   }
-  search_->see_pins();
+  search_->map_pins();
   return true;
 }
 
 Correspondence ConformalStart::last(const Points& pinned) {
-  search_->want(pinned);
+  search_->set_targets(pinned);
   return search_->correspondence();
 }
 
@@ -445,7 +451,7 @@ Correspondence ConformalStart::least_stretched() {
 }
 
 Correspondence ConformalStart::follow(const Points& pinned) {
-  search_->want(pinned);
+  search_->set_targets(pinned);
   std::vector<Search::Pairs> starts{search_->chosen};
   if (!pinned.empty()) {
     const auto more = search_->through_pin(search_->pins[0], search_->pinned[0]);

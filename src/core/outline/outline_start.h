@@ -23,14 +23,14 @@ Complex middle_point(const Polyline& outline);
 /// source goes to one turn of the target.
 struct Correspondence {
   PeriodicCurve lengths;  ///< the target's arc lengths as a function of the source's
-  double badness = 0;     ///< square root of the minimized cost
+  double residual = 0;    ///< square root of the minimized cost
 
   double source_length() const { return lengths.x_period; }
   double target_length() const { return lengths.y_period; }
   /// The target's arc length for one of the source's.
   double operator()(double length) const { return lengths(length); }
   /// From the target's arc lengths to the source's.
-  Correspondence inverse() const { return {lengths.through_inverse(), badness}; }
+  Correspondence inverse() const { return {lengths.through_inverse(), residual}; }
 };
 
 /// A conformal map from the interior of one outline to that of another: the Riemann maps of both,

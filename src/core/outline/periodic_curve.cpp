@@ -16,10 +16,10 @@ double slope_between(double before, double rise_before, double after, double ris
 
 }  // namespace
 
-double PeriodicCurve::Piece::operator()(double share) const {
-  const double bump = share * (1 - share);
-  return value + rise * share * share * (3 - 2 * share) +
-         bump * ((1 - share) * left - share * right);
+double PeriodicCurve::Piece::operator()(double fraction) const {
+  const double bump = fraction * (1 - fraction);
+  return value + rise * fraction * fraction * (3 - 2 * fraction) +
+         bump * ((1 - fraction) * left - fraction * right);
 }
 
 PeriodicCurve::Piece PeriodicCurve::piece(Index i) const {

@@ -24,7 +24,7 @@ struct PeriodicCurve {
   /// One piece; it is evaluated at a fraction of its width.
   struct Piece {
     double from = 0, width = 0, value = 0, rise = 0, left = 0, right = 0;
-    double operator()(double share) const;
+    double operator()(double fraction) const;
   };
   Piece piece(Index i) const;
 };

@@ -46,7 +46,7 @@ AlternatingFit::AlternatingFit(std::vector<FitTerm> terms) {
   reset();
 }
 
-void AlternatingFit::give(size_t term, const VectorXc& targets) {
+void AlternatingFit::set_targets(size_t term, const VectorXc& targets) {
   check(!terms_[term].project, "alternating fit: given targets do not move");
   terms_[term].targets = targets;
   given_.setZero();
@@ -120,10 +120,11 @@ VectorXc AlternatingFit::anderson() {
   for (Index i = 0; i < m; ++i)
     differences.col(i) = stacked(memory_.change[static_cast<size_t>(i + 1)] -
                                  memory_.change[static_cast<size_t>(i)]);
-  const VectorXd share = differences.colPivHouseholderQr().solve(stacked(change));
+  const VectorXd weights = differences.colPivHouseholderQr().solve(stacked(change));
   VectorXc mixed = next;
   for (Index i = 0; i < m; ++i)
-    mixed -= share[i] * (memory_.g[static_cast<size_t>(i + 1)] - memory_.g[static_cast<size_t>(i)]);
+    mixed -=
+        weights[i] * (memory_.g[static_cast<size_t>(i + 1)] - memory_.g[static_cast<size_t>(i)]);
   return mixed;
 }
 

@@ -35,11 +35,11 @@ class AlternatingFit {
   explicit AlternatingFit(std::vector<FitTerm> terms);
 
   /// Replaces the `project` function of a term that was constructed with one.
-  void project_by(size_t term, decltype(FitTerm::project) project) {
+  void set_projection(size_t term, decltype(FitTerm::project) project) {
     terms_[term].project = std::move(project);
   }
   /// Sets the targets of a term. Call `start` or `resume` before the next step.
-  void give(size_t term, const VectorXc& targets);
+  void set_targets(size_t term, const VectorXc& targets);
   /// Starts from the map that is best for these targets of the first term. The other moving targets
   /// are those of the last map, or of `unknowns` = 0 if there is none.
   void start(const VectorXc& first_targets);

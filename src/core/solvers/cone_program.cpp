@@ -41,9 +41,9 @@ class Solver {
 
   ConeSolution run() {
     for (at_.iterations = 0;; ++at_.iterations) {
-      take_gradient();
+      update_gradient();
       measure();
-      if (at_.gap <= std::max(settings_.gap, settings_.share * at_.energy) &&
+      if (at_.gap <= std::max(settings_.gap, settings_.relative_gap * at_.energy) &&
           at_.residual <= settings_.residual) {
         at_.status = ConeSolution::Status::solved;
         break;
@@ -136,7 +136,7 @@ class Solver {
                   : VectorXd();
   }
 
-  void take_gradient() { gradient_ = system_.quadratic * at_.x + target_.linear; }
+  void update_gradient() { gradient_ = system_.quadratic * at_.x + target_.linear; }
 
   /// Adds the fit's part of the right-hand side. `up` and `down` are (the right-hand side of the
   /// complementarity) / s - z.
@@ -290,8 +290,8 @@ class Solver {
     }
   }
 
-  double longest(const std::vector<Eigen::Matrix3Xd>& ds,
-                 const std::vector<Eigen::Matrix3Xd>& dz) const {
+  double longest_step(const std::vector<Eigen::Matrix3Xd>& ds,
+                      const std::vector<Eigen::Matrix3Xd>& dz) const {
     double step = 1 / 0.98;
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i)
@@ -320,7 +320,7 @@ class Solver {
     push_slacks(dx);
     push_fit(dx, up, down);
     dual_step(ds_, nullptr, dz_);
-    const double reach = std::min(1.0, longest(ds_, dz_));
+    const double reach = std::min(1.0, longest_step(ds_, dz_));
     double later = 0;
     for (size_t c = 0; c < s_.size(); ++c)
       later += (s_[c] + reach * ds_[c]).cwiseProduct(at_.z[c] + reach * dz_[c]).sum();
@@ -347,7 +347,7 @@ class Solver {
     push_slacks(dx);
     push_fit(dx, up, down);
     dual_step(ds_, &t, dz_);
-    return move(dx, 0.98 * longest(ds_, dz_));
+    return move(dx, 0.98 * longest_step(ds_, dz_));
   }
 
   /// Moves along dx as far as the exact slacks allow.

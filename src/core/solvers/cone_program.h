@@ -48,10 +48,10 @@ struct ConeTarget {
 };
 
 struct ConeSettings {
-  double gap = 1e-4;       ///< tolerance for the sum of all slacks times their multipliers
-  double share = 0;        ///< the same as a fraction of the energy; the larger one counts
-  double residual = 3e-3;  ///< tolerance for the norm of the Lagrangian's gradient
-  double neglected = 0;    ///< samples with less barrier curvature are left out of the Hessian
+  double gap = 1e-4;        ///< tolerance for the sum of all slacks times their multipliers
+  double relative_gap = 0;  ///< the same as a fraction of the energy; the larger one counts
+  double residual = 3e-3;   ///< tolerance for the norm of the Lagrangian's gradient
+  double neglected = 0;     ///< samples with less barrier curvature are left out of the Hessian
   int iterations = 60;
 };
 

@@ -26,7 +26,8 @@ void nudge(Workspace& w) {
 template <int up, int down>
 void reach(Workspace& w) {
   if (w.tools.active == ToolId::brush) {
-    w.tools.brush_radius = std::clamp(w.tools.brush_radius * up / down, kLeastBrush, kMostBrush);
+    w.tools.brush_radius =
+        std::clamp(w.tools.brush_radius * up / down, kMinBrushRadius, kMaxBrushRadius);
     return;
   }
   w.tools.drag.soft = true;
@@ -122,7 +123,7 @@ void change_depth(Workspace& w) {
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::pin && exists(deformation, handle, w.mode)) {
       int& depth = deformation.pins[static_cast<size_t>(handle.index)].depth;
-      depth = std::clamp(depth + by, -kMostDepth, kMostDepth);
+      depth = std::clamp(depth + by, -kMaxDepth, kMaxDepth);
     }
   w.commit_or_amend(by > 0 ? "Pin up" : "Pin down", std::move(deformation));
 }

@@ -52,7 +52,8 @@ std::vector<Action> file_actions() {
           .label = "Find a missing picture...",
           .icon = kSearch,
           .menu = "File",
-          .enabled = [](const Workspace& w) { return !w.document.without_picture().empty(); },
+          .enabled =
+              [](const Workspace& w) { return !w.document.layers_without_picture().empty(); },
           .run = ask<Request::find_picture>,
       },
       {

@@ -82,7 +82,7 @@ std::vector<Action> layer_actions() {
           .enabled = has_content,
           .run =
               [](Workspace& w) {
-                w.commit_layers("Duplicate layer", with_layer_doubled(w.document.scene()));
+                w.commit_layers("Duplicate layer", with_layer_duplicated(w.document.scene()));
               },
       },
       {

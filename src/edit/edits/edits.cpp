@@ -240,7 +240,7 @@ Deformation turned(Deformation deformation, Index pin, double angle) {
 Deformation scaled(Deformation deformation, Index pin, double factor) {
   Pin& p = deformation.pins[pin];
   p.angle = p.angle.value_or(0);
-  p.scale = std::clamp(p.scale * factor, kLeastPinScale, kMostPinScale);
+  p.scale = std::clamp(p.scale * factor, kMinPinScale, kMaxPinScale);
   return deformation;
 }
 

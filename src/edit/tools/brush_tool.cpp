@@ -57,7 +57,7 @@ class BrushTool final : public Tool {
     last_ = at;
     if (erases_)
       std::erase_if(dabs_, [&](const BrushDab& dab) { return std::abs(dab.at - *at) < radius_; });
-    else if (dabs_.size() < kMostDabs)
+    else if (dabs_.size() < kMaxDabs)
       dabs_.push_back({*at, radius_, level_});
     else
       full_ = true;

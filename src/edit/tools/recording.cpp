@@ -57,7 +57,7 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
            (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
   });
   start_time_ = workspace.shown.timeline.time;
-  if (what_.empty() || start_time_ >= kLongestTime) {
+  if (what_.empty() || start_time_ >= kMaxTime) {
     workspace.messages.say(what_.empty()
                                ? "These tangents are none in other keys: they are not recorded."
                                : "There is no time left to record.");
@@ -96,7 +96,7 @@ Deformation Recording::dragged(Deformation deformation, Complex by) const {
 }
 
 Deformation Recording::follow(Workspace& workspace, Complex by, double now_ms) {
-  const double time = std::min(kLongestTime, start_time_ + (now_ms - start_ms_) / 1000);
+  const double time = std::min(kMaxTime, start_time_ + (now_ms - start_ms_) / 1000);
   Deformation deformation = dragged(base_at(workspace, time), by);
   workspace.shown.timeline.time = time;
   const Pose pose = whole_pose_of(deformation);
@@ -157,7 +157,7 @@ void Recording::finish(Workspace& workspace) {
   if (at_frame(end) <= start_time_) return cancel(workspace);
   double tolerance = kTolerancePx / workspace.display.viewport.zoom;
   std::vector<double> times = needed(tolerance);
-  while (times.size() + before.keyframes.size() > kMostKeyframes && times.size() > 2)
+  while (times.size() + before.keyframes.size() > kMaxKeyframes && times.size() > 2)
     times = needed(tolerance *= 2);
   Deformation deformation = before;
   const auto set = [&](double time, const Pose& pose) {
@@ -181,7 +181,7 @@ void Recording::finish(Workspace& workspace) {
   for (Keyframe& key : deformation.keyframes)
     if (key.time >= start_time_ && key.time <= last_time && fits(deformation, key.pose))
       key.ease = key.time < last_time ? Ease::linear : last;
-  keep_turns(deformation, before, workspace.map().motion());
+  preserve_turns(deformation, before, workspace.map().motion());
   samples_.clear();
   workspace.shown.timeline.recording = false;
   if (!workspace.commit("Record motion", posed_as(std::move(deformation), whole_pose_of(before)),

@@ -69,7 +69,7 @@ Deformation transformed(Deformation deformation, const Selection& selection, con
     Pin& pin = deformation.pins[static_cast<size_t>(handle.index)];
     if (!pin.angle) continue;
     *pin.angle += turn;
-    pin.scale = std::clamp(size * pin.scale, kLeastPinScale, kMostPinScale);
+    pin.scale = std::clamp(size * pin.scale, kMinPinScale, kMaxPinScale);
   }
   return deformation;
 }

@@ -14,8 +14,6 @@ namespace holomorph {
 
 using Json = nlohmann::ordered_json;
 
-inline constexpr double kLargestCoordinate = 1e8;  ///< larger than the coordinates of any picture
-
 /// A JSON value and its position, with the errors that refer to it.
 class Reader {
  public:
@@ -77,7 +75,7 @@ class Reader {
     array();
     if (size() != 2) fail("expected a point [x, y]");
     const Complex z{(*this)[size_t{0}].number(), (*this)[1].number()};
-    if (std::abs(z.real()) > kLargestCoordinate || std::abs(z.imag()) > kLargestCoordinate)
+    if (std::abs(z.real()) > kMaxCoordinate || std::abs(z.imag()) > kMaxCoordinate)
       fail("the coordinates are larger than 1e8");
     return z;
   }

@@ -3,8 +3,8 @@
 
 #include "core/outline/outline_match.h"
 #include "scene/auto_cage.h"
+#include "scene/flattened_surface.h"
 #include "scene/formats/svg_path.h"
-#include "scene/laid_surface.h"
 
 namespace holomorph {
 namespace {
@@ -29,7 +29,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
     if (kind == ".svg") {
       outline = flattened(cage_of_svg(bytes, name, height, PathUse::outline)).points;
     } else if (kind == ".obj") {
-      outline = laid_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
+      outline = flattened_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);

@@ -9,14 +9,12 @@
 namespace holomorph {
 namespace {
 
-constexpr double kMostTurn = 1e3;  ///< radians: 159 whole turns
-constexpr size_t kMostSegments = 5000, kMostPins = 2000, kMostStrokes = 200;
 constexpr std::array<const char*, 3> kEases{"smooth", "linear", "hold"};
 
 PoseCorner read_corner_pose(const Reader& reader) {
   PoseCorner pose;
-  if (reader.has("before")) pose.before = reader["before"].within(-kMostTurn, kMostTurn);
-  if (reader.has("after")) pose.after = reader["after"].within(-kMostTurn, kMostTurn);
+  if (reader.has("before")) pose.before = reader["before"].within(-kMaxCornerTurn, kMaxCornerTurn);
+  if (reader.has("after")) pose.after = reader["after"].within(-kMaxCornerTurn, kMaxCornerTurn);
   if (reader.has("tension")) pose.tension = reader["tension"].within(0, 1);
   return pose;
 }
@@ -33,8 +31,8 @@ PosePin read_pose_pin(const Reader& reader) {
   reader.object();
   PosePin pin;
   pin.position = reader["pose"].point();
-  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMostPinTurn, kMostPinTurn);
-  if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
+  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMaxPinTurn, kMaxPinTurn);
+  if (reader.has("scale")) pin.scale = reader["scale"].within(kMinPinScale, kMaxPinScale);
   return pin;
 }
 
@@ -52,12 +50,12 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Pose pose = whole_pose_of(at_rest(deformation));
   if (reader.has("cage")) pose.cage = read_loop(reader["cage"]);
-  if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMostPins, read_pose_pin);
+  if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMaxPins, read_pose_pin);
   if (reader.has("strokes"))
-    pose.strokes = read_list(reader["strokes"], kMostStrokes,
+    pose.strokes = read_list(reader["strokes"], kMaxStrokes,
                              [](const Reader& stroke) { return read_curve(stroke, check_stroke); });
   if (reader.has("corners"))
-    pose.corners = read_list(reader["corners"], kMostSegments, [](const Reader& corner) {
+    pose.corners = read_list(reader["corners"], kMaxSegments, [](const Reader& corner) {
       return read_corner_pose(corner.object());
     });
   return pose;
@@ -87,8 +85,8 @@ Json pose_json(const Pose& pose, const Deformation& deformation) {
 
 Cage read_loop(const Reader& list) {
   list.array();
-  if (list.size() > kMostSegments)
-    list.fail("more than " + std::to_string(kMostSegments) + " segments");
+  if (list.size() > kMaxSegments)
+    list.fail("more than " + std::to_string(kMaxSegments) + " segments");
   Cage cage;
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader segment = list[i].array();
@@ -104,8 +102,7 @@ Cage read_loop(const Reader& list) {
 
 Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>)) {
   reader.array();
-  constexpr size_t kMostPoints = 20000;
-  if (reader.size() > kMostPoints) reader.fail("more than 20000 points");
+  if (reader.size() > kMaxCurvePoints) reader.fail("more than 20000 points");
   Points curve;
   for (size_t i = 0; i < reader.size(); ++i) curve.push_back(reader[i].point());
   try {
@@ -132,7 +129,7 @@ Corner read_corner(const Reader& reader, const Deformation& deformation) {
 Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Keyframe key;
-  key.time = reader["time"].within(0, kLongestTime);
+  key.time = reader["time"].within(0, kMaxTime);
   if (!deformation.keyframes.empty() && deformation.keyframes.back().time >= key.time)
     reader["time"].fail("keyframes must be sorted by time, without duplicates");
   key.pose = reader.has("pose") ? read_pose(reader["pose"], deformation)
@@ -146,7 +143,7 @@ Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
       reader["ease"].fail("'" + ease + "' is not an ease; use smooth, linear or hold");
     key.ease = static_cast<Ease>(found - kEases.begin());
   }
-  if (reader.has("turns")) key.turns = reader["turns"].whole(-kMostTurns, kMostTurns);
+  if (reader.has("turns")) key.turns = reader["turns"].whole(-kMaxTurns, kMaxTurns);
   key.extra = reader.others({"time", "pose", "ease", "turns"});
   return key;
 }
@@ -155,7 +152,7 @@ AnimationSettings read_animation(const Reader& reader) {
   reader.object();
   AnimationSettings settings;
   if (reader.has("frames_per_second"))
-    settings.frames_per_second = reader["frames_per_second"].within(kFewestFrames, kMostFrames);
+    settings.frames_per_second = reader["frames_per_second"].within(kMinFrameRate, kMaxFrameRate);
   if (reader.has("in_betweens")) {
     const std::string what = reader["in_betweens"].text();
     if (what != "shapes" && what != "places")

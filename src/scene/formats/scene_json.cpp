@@ -38,9 +38,9 @@ Pin read_pin(const Reader& reader) {
   Pin pin;
   pin.rest = reader["rest"].point();
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
-  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMostPinTurn, kMostPinTurn);
-  if (reader.has("scale")) pin.scale = reader["scale"].within(kLeastPinScale, kMostPinScale);
-  if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMostDepth, kMostDepth);
+  if (reader.has("angle")) pin.angle = reader["angle"].within(-kMaxPinTurn, kMaxPinTurn);
+  if (reader.has("scale")) pin.scale = reader["scale"].within(kMinPinScale, kMaxPinScale);
+  if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMaxDepth, kMaxDepth);
   pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth"});
   return pin;
 }
@@ -196,9 +196,11 @@ void write_value(const Json& value, int depth, std::string& out) {
 /// [x, y, radius, level].
 BrushDab read_dab(const Reader& reader) {
   if (reader.array().size() != 4) reader.fail("expected [x, y, radius, level]");
-  const double x = reader[size_t{0}].within(-kLargestCoordinate, kLargestCoordinate),
-               y = reader[1].within(-kLargestCoordinate, kLargestCoordinate);
-  return {{x, y}, reader[2].within(kLeastBrush, kMostBrush), reader[3].within(-10, 10)};
+  const double x = reader[size_t{0}].within(-kMaxCoordinate, kMaxCoordinate),
+               y = reader[1].within(-kMaxCoordinate, kMaxCoordinate);
+  return {{x, y},
+          reader[2].within(kMinBrushRadius, kMaxBrushRadius),
+          reader[3].within(-kMaxDabLevel, kMaxDabLevel)};
 }
 
 /// Reads what belongs to one layer, in both layouts of the file.
@@ -207,12 +209,12 @@ Deformation read_deformation(const Reader& reader) {
   read_cage(reader["cage"], deformation);
   if (reader.has("pins")) {
     const Reader pins = reader["pins"].array();
-    if (pins.size() > 2000) pins.fail("more than 2000 pins");
+    if (pins.size() > kMaxPins) pins.fail("more than 2000 pins");
     for (size_t i = 0; i < pins.size(); ++i) deformation.pins.push_back(read_pin(pins[i]));
   }
   if (reader.has("strokes")) {
     const Reader strokes = reader["strokes"].array();
-    if (strokes.size() > 200) strokes.fail("more than 200 strokes");
+    if (strokes.size() > kMaxStrokes) strokes.fail("more than 200 strokes");
     for (size_t i = 0; i < strokes.size(); ++i)
       deformation.strokes.push_back(read_stroke(strokes[i]));
   }
@@ -225,7 +227,7 @@ Deformation read_deformation(const Reader& reader) {
   }
   if (reader.has("stiffness")) {
     const Reader dabs = reader["stiffness"].array();
-    if (dabs.size() > kMostDabs) dabs.fail("more than 5000 brush dabs");
+    if (dabs.size() > kMaxDabs) dabs.fail("more than 5000 brush dabs");
     for (size_t i = 0; i < dabs.size(); ++i) deformation.stiffness.push_back(read_dab(dabs[i]));
   }
   if (reader.has("outline")) deformation.outline = read_curve(reader["outline"], check_outline);
@@ -237,7 +239,7 @@ Deformation read_deformation(const Reader& reader) {
   if (reader.has("method")) read_method(reader["method"], deformation);
   if (reader.has("keyframes")) {
     const Reader keys = reader["keyframes"].array();
-    if (keys.size() > kMostKeyframes) keys.fail("more than 2000 keyframes");
+    if (keys.size() > kMaxKeyframes) keys.fail("more than 2000 keyframes");
     for (size_t i = 0; i < keys.size(); ++i)
       deformation.keyframes.push_back(read_keyframe(keys[i], deformation));
   }
@@ -274,7 +276,7 @@ void read_single(const Reader& reader, Scene& scene) {
 void read_layers(const Reader& reader, Scene& scene) {
   scene.extra = reader.others({"format", "version", "layers", "edited", "animation", "background"});
   const Reader list = reader["layers"].array();
-  if (list.size() < 1 || list.size() > kMostLayers) list.fail("expected 1 to 100 layers");
+  if (list.size() < 1 || list.size() > kMaxLayers) list.fail("expected 1 to 100 layers");
   scene.layers.clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader item = list[i].object();
@@ -431,7 +433,26 @@ Json layers_json(const Scene& scene) {
   return layers;
 }
 
+Error not_utf8() {
+  return {ErrorKind::bad_input,
+          "a file name is not UTF-8 and cannot be written to a scene; rename the file"};
+}
+
 }  // namespace
+
+void check_texts(const Layer& layer) {
+  std::vector<std::string> texts{layer.name};
+  if (layer.image) texts.insert(texts.end(), {layer.image->file, layer.image->entry});
+  if (const auto& surface = layer.deformation.surface) texts.push_back(surface->file);
+  if ((layer.image && layer.image->file.empty()) ||
+      (layer.deformation.surface && layer.deformation.surface->file.empty()))
+    throw Error(ErrorKind::bad_input, "a file has no name");
+  try {
+    for (const std::string& text : texts) Json(text).dump();
+  } catch (const Json::exception&) {
+    throw not_utf8();
+  }
+}
 
 std::string json_of(const Scene& scene) {
   // A scene with a single plain layer is written without a list of layers.
@@ -452,8 +473,7 @@ std::string json_of(const Scene& scene) {
   try {
     write_value(document, 0, text);
   } catch (const Json::exception&) {
-    throw Error(ErrorKind::bad_input,
-                "a file name is not UTF-8 and cannot be written to a scene; rename the file");
+    throw not_utf8();
   }
   return text + "\n";
 }

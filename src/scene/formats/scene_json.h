@@ -10,6 +10,9 @@ namespace holomorph {
 /// beyond 1e8, a newer version, an unknown method, an invalid rest cage. Unknown keys are kept.
 Scene scene_from_json(const std::string& text, const std::string& name);
 
+/// Throws Error{bad_input} for names that a file cannot hold: not UTF-8, or empty.
+void check_texts(const Layer& layer);
+
 /// Writes a scene, including its unknown keys. Reading it back gives the same scene, bit for bit.
 std::string json_of(const Scene& scene);
 

@@ -203,7 +203,7 @@ bool is_transformed(const pugi::xml_node& node) {
 }
 
 /// Moves handles that coincide with their points a little along the curve.
-void free_handles(Cage& cage) {
+void separate_handles(Cage& cage) {
   constexpr double kPull = 1e-3;
   for (Index e = 0; e < cage.size(); ++e) {
     Points& c = cage.segments[e];
@@ -245,14 +245,13 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
       PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {z.real(), height - z.imag()};
-  constexpr Index kMostSegments = 5000;  // as in scenes
-  if (cage.size() > kMostSegments)
+  if (cage.size() > static_cast<Index>(kMaxSegments))
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; at most 5000 are allowed");
   if (cage.size() < 3 && use != PathUse::outline)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; a cage needs at least three");
-  if (use == PathUse::rest) free_handles(cage);
+  if (use == PathUse::rest) separate_handles(cage);
   return cage;
 }
 
@@ -277,7 +276,7 @@ Points cubic_of(const Points& c) {
 
 /// A bound on the distance of a curve from its cubic: their difference lies within its control
 /// points.
-double off_cubic(const Points& c) {
+double distance_from_cubic(const Points& c) {
   const Points cubic = elevated(cubic_of(c), static_cast<int>(c.size()) - 1);
   double off = 0;
   for (size_t m = 0; m < c.size(); ++m) off = std::max(off, std::abs(c[m] - cubic[m]));
@@ -297,13 +296,14 @@ std::vector<Points> pieces_of(Points c, int count) {
 }
 
 /// The number of cubics that follow a curve to kOffCubic of its size; one up to degree 3.
-int cubics_for(const Points& c) {
+int cubic_count(const Points& c) {
   constexpr double kOffCubic = 1e-4;
   const double allowed = kOffCubic * box_of(c).diagonal();
   int count = 1;
   if (c.size() > 4)
-    while (std::ranges::any_of(pieces_of(c, count),
-                               [&](const Points& piece) { return off_cubic(piece) > allowed; }))
+    while (std::ranges::any_of(pieces_of(c, count), [&](const Points& piece) {
+      return distance_from_cubic(piece) > allowed;
+    }))
       count *= 2;
   return count;
 }
@@ -337,8 +337,8 @@ std::string svg_of(const Deformation& deformation, const std::optional<ImageRefe
                     number(box.height()) + "\">\n";
   std::vector<int> counts;  // the same for both, so that their segments still correspond
   for (Index i = 0; i < deformation.rest.size(); ++i)
-    counts.push_back(std::max(cubics_for(deformation.rest.controls(i)),
-                              cubics_for(deformation.pose.controls(i))));
+    counts.push_back(std::max(cubic_count(deformation.rest.controls(i)),
+                              cubic_count(deformation.pose.controls(i))));
   const auto add_path = [&](const Cage& cage, const std::string& look) {
     svg += "  <path d=\"" + path_data(cage, counts, height) + "\" fill=\"none\" " + look + "/>\n";
   };

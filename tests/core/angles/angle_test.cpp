@@ -61,7 +61,7 @@ Points at(const Points& polygon, const std::vector<BoundaryPoint>& places) {
   return points;
 }
 
-int flips(const Mesh& mesh, const VectorXc& f) {
+int flipped_triangle_count(const Mesh& mesh, const VectorXc& f) {
   int count = 0;
   for (const auto& [a, b, c] : mesh.triangles) count += !(cross(f[b] - f[a], f[c] - f[a]) > 0);
   return count;
@@ -190,7 +190,7 @@ TEST_CASE("Angle maps: angles that grow linearly along a bar give an exponential
           off, std::abs(f[i] - (exact(mesh.vertices[static_cast<size_t>(i)]) - exact(anchor))));
     INFO(degrees << " degrees: " << off / size_of(f));
     CHECK(off <= tolerance * size_of(f));
-    CHECK(flips(mesh, f) == 0);
+    CHECK(flipped_triangle_count(mesh, f) == 0);
   }
 }
 
@@ -218,7 +218,8 @@ TEST_CASE(
                 .distance < 1e-12)
           REQUIRE(std::abs(cross(b - a, f[v] - a)) <= 2e-6 * std::norm(b - a));
     }
-    CHECK(flips(mesh, f) <= 1);  // a triangle with three vertices on a straight edge
+    CHECK(flipped_triangle_count(mesh, f) <=
+          1);  // a triangle with three vertices on a straight edge
   }
 }
 
@@ -241,7 +242,7 @@ TEST_CASE("Angle maps: random corner angles up to 60 degrees cause no folds") {
       VectorXc f;
       map.map(theta, f);
       INFO(polygon.size() << " vertices, run " << run);
-      CHECK(flips(mesh, f) == 0);
+      CHECK(flipped_triangle_count(mesh, f) == 0);
     }
   }
 }

@@ -12,14 +12,14 @@
 using namespace holomorph;
 using Norm = BoundedSettings::Norm;
 
-using known_maps::Known;
+using known_maps::KnownMap;
 using known_maps::Projection;
 
 TEST_CASE("Bounded: the energies of the specification's maps") {
   // The specification measures nu on the boundary. Its sampling differs, and so does the last
   // percent.
   struct Row {
-    Known known;
+    KnownMap known;
     double l2, l2_digit, l1, l1_digit;  ///< energies, each with half a unit of its last digit
   };
   constexpr double kSampling = 0.01;
@@ -40,7 +40,7 @@ TEST_CASE("Bounded: the energies of the specification's maps") {
 TEST_CASE(
     "Bounded: certified bounds hold at ten times denser samples, on the boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
-    for (const Known& known : known_maps::all()) {
+    for (const KnownMap& known : known_maps::all()) {
       const Projection projection(known, bounds, Norm::l1);
       BoundedMap map = projection.space->nearest(projection.reference);
       INFO(known.name << ", k = " << bounds.k);
@@ -58,8 +58,8 @@ TEST_CASE(
 TEST_CASE("Bounded: a map that keeps the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
   for (const double shear : {0.0, 0.3}) {
-    const Known known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
-                      [=](Complex) { return shear * std::conj(slope); }};
+    const KnownMap known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
+                         [=](Complex) { return shear * std::conj(slope); }};
     for (const Norm norm : {Norm::l1, Norm::l2}) {
       const Projection projection(known, {}, norm);
       const BoundedMap map = projection.space->nearest(projection.reference);
@@ -156,7 +156,7 @@ TEST_CASE("Bounded: a certificate of Psi' accounts for |f_z| lying below its cho
 
 TEST_CASE("Bounded: a warm start from another frame's map ends as near as a cold start") {
   constexpr double kShare = 1e-2, kGap = 1e-3;  // the settings of drafts
-  for (const known_maps::Known& known : known_maps::all()) {
+  for (const known_maps::KnownMap& known : known_maps::all()) {
     Projection from(known, {}, known_maps::Norm::l1), to(known, {}, known_maps::Norm::l1);
     to.reference.log_fz.array() += Complex(0.3, 0.8);
     to.reference.nu *= 0.8;
@@ -212,7 +212,7 @@ TEST_CASE("Boundary argument: it is continuous and closes, with listed zeros and
   int multiplicity = 0;
   for (const Zero& zero : zeros) {
     multiplicity += zero.multiplicity;
-    CHECK(std::abs(two(zero.place)) < 0.02);
+    CHECK(std::abs(two(zero.position)) < 0.02);
   }
   CHECK(multiplicity == 3);
   const VectorXc f = known_maps::values(two, samples);

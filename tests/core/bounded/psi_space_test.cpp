@@ -8,7 +8,7 @@
 #include "support/shapes.h"
 
 using namespace holomorph;
-using known_maps::Known;
+using known_maps::KnownMap;
 using known_maps::Projection;
 
 namespace {
@@ -34,7 +34,7 @@ double distance_in_h(const Projection& projection, const BoundedReference& refer
 TEST_CASE(
     "L_psi and H: certified bounds hold at ten times denser samples, on the boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
-    for (const Known& known : known_maps::all()) {
+    for (const KnownMap& known : known_maps::all()) {
       const Projection projection(known, bounds, known_maps::Norm::l1);
       const PsiSpace space(projection.basis, projection.points, {bounds});
       const Points points = known_maps::dense_points(*projection.basis, projection.mesh);
@@ -50,8 +50,8 @@ TEST_CASE(
 
 TEST_CASE("L_psi and H: a map that keeps the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
-  const Known known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
-                    [=](Complex) { return 0.3 * std::conj(slope); }};
+  const KnownMap known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
+                       [=](Complex) { return 0.3 * std::conj(slope); }};
   const Projection projection(known, {}, known_maps::Norm::l1);
   const PsiSpace space(projection.basis, projection.points, {});
   for (const bool convex : {false, true}) {
@@ -67,7 +67,7 @@ TEST_CASE("L_psi and H: a map that keeps the bounds is its own projection") {
 
 TEST_CASE("H: its convex distance is at most that of every map within the bounds") {
   bool nearer = false;
-  for (const Known& known : known_maps::all()) {
+  for (const KnownMap& known : known_maps::all()) {
     const Bounds bounds{0.5, 0.5, 1.5};
     const Projection projection(known, bounds, known_maps::Norm::l1, false);
     const PsiSpace space(projection.basis, projection.points, {bounds});
@@ -100,22 +100,22 @@ TEST_CASE("H: its convex distance is at most that of every map within the bounds
 
 TEST_CASE("L_psi: pins reach their targets where the bounds allow it, closer with more weight") {
   // f = z + conj(0.3 z + 0.1 z^2) takes the pins to their targets. The reference is z.
-  const Known identity{"z", shapes::l_shape(), [](Complex) { return Complex(1); },
-                       [](Complex) { return Complex(0); }};
+  const KnownMap identity{"z", shapes::l_shape(), [](Complex) { return Complex(1); },
+                          [](Complex) { return Complex(0); }};
   const double size = box_of(identity.domain).diagonal();
   const Projection projection(identity, {}, known_maps::Norm::l1);
   const auto psi = [&](Complex z) { return 0.3 * z + 0.1 * z * z / size; };
   const MapOnMesh on_mesh(*projection.basis, projection.mesh);
   const MatrixXc coefficients = projection.basis->coefficients(),
                  c = projection.basis->values(projection.mesh.vertices);
-  std::vector<Location> places;
+  std::vector<Location> locations;
   VectorXc wanted(4);
   for (Index i = 0; i < 4; ++i) {
     const Triangle& t = projection.mesh.triangles[static_cast<size_t>(37 * i + 5)];
-    places.push_back({static_cast<int>(37 * i + 5), {1, 0, 0}});
+    locations.push_back({static_cast<int>(37 * i + 5), {1, 0, 0}});
     wanted[i] = psi(projection.mesh.vertices[static_cast<size_t>(t[0])]);
   }
-  const MatrixXc rows = on_mesh.psi_rows(places, coefficients);
+  const MatrixXc rows = on_mesh.psi_rows(locations, coefficients);
   double before = size;
   for (const double weight : {1.0, 1e3, 1e6}) {
     const PsiSpace space(projection.basis, projection.points, {}, PinRows{rows, weight, size});

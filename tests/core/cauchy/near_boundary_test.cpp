@@ -84,11 +84,11 @@ Points near_points(const Points& polygon, std::mt19937& random) {
     around(v, 12);
     around(v + 0.5 * out, 4);
     for (int k = 1; k < 16; ++k) {
-      const double share = std::pow(10.0, -k);
-      around(v + share * out, 2);
-      around(v + share * in, 2);
-      points.push_back(v + share * out * std::polar(1.0, 0.5 * angle));
-      points.push_back(v + share * out * std::polar(1.0, 0.99 * angle));
+      const double fraction = std::pow(10.0, -k);
+      around(v + fraction * out, 2);
+      around(v + fraction * in, 2);
+      points.push_back(v + fraction * out * std::polar(1.0, 0.5 * angle));
+      points.push_back(v + fraction * out * std::polar(1.0, 0.99 * angle));
     }
   }
   std::ranges::shuffle(points, random);
@@ -130,12 +130,12 @@ TEST_CASE("Maps next to the boundary agree with 50-digit values, by every path")
         const bool at_vertex = std::ranges::any_of(
             made.polygon, [&](Complex v) { return std::abs(z - v) <= 32 * ulp; });
         if (off > 1e-9 * made.size || slope_off > 1e-9) {
-          constexpr int kWays = 16;
-          for (int way = 0; way < kWays; ++way)
+          constexpr int kDirections = 16;
+          for (int way = 0; way < kDirections; ++way)
             for (const double ulps : {1, 4, 16}) {
               const exact::Image there =
                   exact::image_of(made.polygon, made.displaced,
-                                  z + std::polar(1.4142 * ulps * ulp, 2 * kPi * way / kWays));
+                                  z + std::polar(1.4142 * ulps * ulp, 2 * kPi * way / kDirections));
               change = std::max(change, std::abs(there.f - at.f));
               slope_change = std::max(slope_change, std::abs(there.df - at.df));
             }
@@ -168,9 +168,9 @@ TEST_CASE(
       polygon.insert(at(polygon), z);
       // The displacement that is linear along the edge, at the rounded vertex.
       const Complex step = plain.polygon[next] - plain.polygon[edge],
-                    share = (z - plain.polygon[edge]) / step;
-      displaced.insert(at(displaced), plain.displaced[edge] +
-                                          share * (plain.displaced[next] - plain.displaced[edge]));
+                    fraction = (z - plain.polygon[edge]) / step;
+      displaced.insert(at(displaced), plain.displaced[edge] + fraction * (plain.displaced[next] -
+                                                                          plain.displaced[edge]));
       Points points{z};
       for (int k = 0; k < 20; ++k) {
         const int x = ulps(random);
@@ -224,16 +224,16 @@ TEST_CASE("Curved boundaries: single points agree with rows at and next to verti
 namespace {
 
 /// A slanted pentagon with handles of all kinds, posed at random, of any size and at any position.
-struct Handled {
+struct PosedHandles {
   Rest rest;
   Pose pose;
   double size = 100;
 };
-Handled random_handles(const Method& method, std::mt19937& random, bool outline) {
+PosedHandles random_handles(const Method& method, std::mt19937& random, bool outline) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  Handled made;
+  PosedHandles made;
   made.size = std::pow(10.0, uniform(-3, 6));
   // Not so far away that too few digits are left for the map.
   const Complex offset =
@@ -274,7 +274,7 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point makes th
       for (const bool outline : {false, true}) {
         if (outline && !method.uses_outline) continue;
         std::mt19937 random(seed);
-        Handled made = random_handles(method, random, outline);
+        PosedHandles made = random_handles(method, random, outline);
         const Points corners = vertices_of(made.rest.cage);
         std::uniform_int_distribution<int> ulps(-3, 3);
         std::uniform_real_distribution<double> part(0.02, 0.98);

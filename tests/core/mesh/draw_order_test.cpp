@@ -16,10 +16,10 @@ Complex middle(const Mesh& mesh, const Triangle& t) {
 }
 
 /// The position of each triangle in the order.
-std::map<Triangle, size_t> turns_of(const std::vector<Triangle>& order) {
-  std::map<Triangle, size_t> turns;
-  for (size_t i = 0; i < order.size(); ++i) turns[order[i]] = i;
-  return turns;
+std::map<Triangle, size_t> positions_of(const std::vector<Triangle>& order) {
+  std::map<Triangle, size_t> positions;
+  for (size_t i = 0; i < order.size(); ++i) positions[order[i]] = i;
+  return positions;
 }
 
 }  // namespace
@@ -41,15 +41,15 @@ TEST_CASE("Triangles nearest to the higher point are drawn later") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
   for (const int height : {1, -1}) {
     const std::vector<Depth> depths{{{50, 50}, 0}, {{250, 50}, height}};
-    const auto turns = turns_of(draw_order(mesh, depths));
-    size_t last_lower = 0, first_higher = turns.size();
+    const auto positions = positions_of(draw_order(mesh, depths));
+    size_t last_lower = 0, first_higher = positions.size();
     for (const Triangle& t : mesh.triangles) {
       const double x = middle(mesh, t).real();
       if (std::abs(x - 150) < 30) continue;  // between the two
       if ((x > 150) == (height > 0))
-        first_higher = std::min(first_higher, turns.at(t));
+        first_higher = std::min(first_higher, positions.at(t));
       else
-        last_lower = std::max(last_lower, turns.at(t));
+        last_lower = std::max(last_lower, positions.at(t));
     }
     INFO(height);
     CHECK(last_lower < first_higher);
@@ -61,15 +61,15 @@ TEST_CASE("Nearest is measured through the mesh, not across a gap") {
   const Points u{{0, 0}, {110, 0}, {110, 300}, {60, 300}, {60, 50}, {50, 50}, {50, 300}, {0, 300}};
   const Mesh mesh = domain_mesh(u, {900});
   const std::vector<Depth> depths{{{85, 290}, 1}, {{25, 100}, 0}};
-  const auto turns = turns_of(draw_order(mesh, depths));
-  size_t lowest_high = turns.size(), highest_low = 0;
+  const auto positions = positions_of(draw_order(mesh, depths));
+  size_t lowest_high = positions.size(), highest_low = 0;
   for (const Triangle& t : mesh.triangles) {
     const Complex z = middle(mesh, t);
     if (z.imag() < 250) continue;
     if (z.real() > 60)
-      lowest_high = std::min(lowest_high, turns.at(t));
+      lowest_high = std::min(lowest_high, positions.at(t));
     else
-      highest_low = std::max(highest_low, turns.at(t));
+      highest_low = std::max(highest_low, positions.at(t));
   }
   CHECK(highest_low < lowest_high);
 }

@@ -34,7 +34,7 @@ SampledMap run(const Rest& rest, const Pose& pose) {
   return map;
 }
 
-int flips(const Mesh& mesh, const VectorXc& f) {
+int flipped_triangle_count(const Mesh& mesh, const VectorXc& f) {
   int count = 0;
   for (const auto& [a, b, c] : mesh.triangles) count += !(cross(f[b] - f[a], f[c] - f[a]) > 0);
   return count;
@@ -57,7 +57,7 @@ TEST_CASE("Angles: corners rotated by 900 degrees roll a bar up into an exact sp
   for (Index i = 0; i < exact.size(); ++i)
     exact[i] = std::exp(kI * a * rest.samples[static_cast<size_t>(i)]) / (kI * a);
   CHECK(difference_in_shape(map.f, exact) <= 1e-3);  // relative to 600, in single precision
-  CHECK(flips(*rest.mesh, map.f) == 0);
+  CHECK(flipped_triangle_count(*rest.mesh, map.f) == 0);
   CHECK(map.limited_corners.empty());
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("Angles: edges have the directions of the posed cage, regardless of it
   Complex middle = 0;
   for (size_t j = 0; j < 4; ++j) middle += 0.25 * (map.f[corner[j]] - to[j]);
   CHECK(std::abs(middle) <= 0.01);
-  CHECK(flips(*rest.mesh, map.f) == 0);
+  CHECK(flipped_triangle_count(*rest.mesh, map.f) == 0);
 }
 
 TEST_CASE("Angles: without tension, edges bend and corners keep their angles") {
@@ -114,7 +114,7 @@ TEST_CASE("Angles: corners are held at the smallest angle and named in the note"
   const SampledMap map = run(rest, pose);
   CHECK(map.limited_corners == std::vector<Index>{1});
   CHECK_THAT(map.note, Catch::Contains("Corner 2 held at 5 degrees"));
-  CHECK(flips(*rest.mesh, map.f) == 0);
+  CHECK(flipped_triangle_count(*rest.mesh, map.f) == 0);
   const VectorXd theta = boundary_angles(rest.cage, rest.cage, rest.corners, pose.corners).theta;
   CHECK(kPi / 2 - (theta[3] - theta[2]) == Approx(kLeastCornerAngle));
 }
@@ -153,7 +153,7 @@ TEST_CASE("Angles: five pins are met without a fold") {
     SampledMap map = deformer->deform(pose, {});
     most = std::max(most, map.iterations);
     CHECK(map.status == SampledMap::Status::exact);
-    CHECK(flips(*rest.mesh, map.f) == 0);
+    CHECK(flipped_triangle_count(*rest.mesh, map.f) == 0);
     const auto at = deformer->point_map(pose);
     for (size_t i = 0; i < 5; ++i)
       CHECK(std::abs(at->at(rest.pins[i].position).f - pose.pins[i].position) <= 1e-6 * size);
@@ -228,7 +228,8 @@ TEST_CASE("Angles: a wavy bar of 200 vertices is mapped onto a triangle (WG10, f
   Rest rest = rest_of(polygon_cage(bar), 1500);
   rest.precision = Precision::full;
   const SampledMap map = run(rest, {polygon_cage(to), {}});
-  CHECK(flips(*rest.mesh, map.f) <= 1);  // a triangle with three vertices on a straight edge
+  CHECK(flipped_triangle_count(*rest.mesh, map.f) <=
+        1);  // a triangle with three vertices on a straight edge
   const auto corner = [&](size_t k) {
     return map.f[rest.mesh->cage_vertices[std::array<size_t, 3>{0, 90, 145}[k % 3]]];
   };

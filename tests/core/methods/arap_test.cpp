@@ -81,8 +81,9 @@ TEST_CASE("As rigid as possible: no small change of the map is more rigid") {
     const Complex center(120 + 360 * std::abs(unit(random)), 50), by{unit(random), unit(random)};
     VectorXc moved = map.f;
     for (Index i = 0; i < moved.size(); ++i) {
-      const double far = std::abs(bar.rest.mesh->vertices[static_cast<size_t>(i)] - center) / 60;
-      moved[i] += by * std::exp(-far * far);
+      const double distance =
+          std::abs(bar.rest.mesh->vertices[static_cast<size_t>(i)] - center) / 60;
+      moved[i] += by * std::exp(-distance * distance);
     }
     CHECK(energy(*bar.rest.mesh, moved) > least - 1e-7);
   }

@@ -34,7 +34,7 @@ struct Setting {
 
   SampledMap map(EvalOptions options = {true, false}) { return deformer->deform(pose, options); }
 
-  int flips(const SampledMap& map) const {
+  int flipped_triangle_count(const SampledMap& map) const {
     int count = 0;
     for (const auto& [i, j, k] : rest.mesh->triangles)
       count += cross(map.f[j] - map.f[i], map.f[k] - map.f[i]) <= 0;
@@ -71,7 +71,7 @@ TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle f
       const SampledMap map = bar.map({true, draft});
       INFO(reference << ", " << space << ", frame " << frame << ": " << map.note);
       CHECK(map.status == SampledMap::Status::certified);
-      CHECK(bar.flips(map) == 0);
+      CHECK(bar.flipped_triangle_count(map) == 0);
       for (Index i = 0; i < map.f.size(); ++i) {
         const double fz = std::abs(map.fz[i]), fzbar = std::abs(map.fzbar[i]);
         REQUIRE(fz - fzbar >= 0.2);
@@ -129,7 +129,7 @@ TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and
       const SampledMap map = setting.map();
       INFO(options[reference].id << ", " << cage.size() << " segments: " << map.note);
       CHECK(map.status == SampledMap::Status::certified);
-      CHECK(setting.flips(map) == 0);
+      CHECK(setting.flipped_triangle_count(map) == 0);
     }
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("Bounded method: a bar bent by 270 degrees with arap has zeros and is 
     INFO(map.note);
     CHECK_FALSE(map.zeros.empty());
     CHECK(map.status == SampledMap::Status::certified);
-    CHECK(bar.flips(map) == 0);
+    CHECK(bar.flipped_triangle_count(map) == 0);
     check_bounds_inside(bar, bounds);
   }
 }
@@ -237,7 +237,7 @@ TEST_CASE("Bounded method: a cage with two zeros of f' inside is certified") {
     for (const Complex zero : map.zeros)
       CHECK(std::min(std::abs(zero - a), std::abs(zero - b)) <= 0.1);
     CHECK(map.status == SampledMap::Status::certified);
-    CHECK(setting.flips(map) == 0);
+    CHECK(setting.flipped_triangle_count(map) == 0);
     check_bounds_inside(setting, bounds);
   }
 }
@@ -320,7 +320,8 @@ TEST_CASE("Bounded method: degenerate input gives an error or a map") {
       const SampledMap map = setting.map();
       CHECK(map.f.allFinite());
       // A map that the mesh is too coarse for must not have the status certified.
-      CHECK((setting.flips(map) == 0) == (map.status == SampledMap::Status::certified));
+      CHECK((setting.flipped_triangle_count(map) == 0) ==
+            (map.status == SampledMap::Status::certified));
     } catch (const Error& error) {
       CHECK(std::string(error.what()).size() > 10);
     }

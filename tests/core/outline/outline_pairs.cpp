@@ -66,16 +66,16 @@ Points along(const OutlineMatch& match, Points places, int order, const Far& far
     constexpr size_t kMost = 200000;
     if (middles.empty() || f.size() > kMost) break;
     const Points more = values(middles);
-    Points all_places, all;
+    Points all_points, all;
     size_t k = 0;
     for (size_t i = 0; i < f.size(); ++i) {
-      all_places.push_back(places[i]), all.push_back(f[i]);
+      all_points.push_back(places[i]), all.push_back(f[i]);
       if (k < after.size() && after[k] == i) {
-        all_places.push_back(middles[k]), all.push_back(more[k]);
+        all_points.push_back(middles[k]), all.push_back(more[k]);
         ++k;
       }
     }
-    places = std::move(all_places), f = std::move(all);
+    places = std::move(all_points), f = std::move(all);
   }
   return f;
 }
@@ -99,7 +99,7 @@ Points inset(const Points& polygon, double distance) {
   return inner;
 }
 
-double far_from(const Points& a, const Polyline& b) {
+double farthest_distance(const Points& a, const Polyline& b) {
   double worst = 0;
   Index hint = 0;
   for (const Complex z : a) {
@@ -128,8 +128,8 @@ Judged judge(const OutlineMatch& match, const Points& source, const Points& targ
   for (const Complex z : image)
     if (!is_finite(z) || std::abs(z - target[0]) > 10 * size) return {99, 0};
   const Polyline wanted(target, true), got(without_repeats(image), true);
-  result.missed = std::max(far_from(outlines::with_steps(got, 5e-4 * size), wanted),
-                           far_from(outlines::with_steps(wanted, 5e-4 * size), got)) /
+  result.missed = std::max(farthest_distance(outlines::with_steps(got, 5e-4 * size), wanted),
+                           farthest_distance(outlines::with_steps(wanted, 5e-4 * size), got)) /
                   size;
   const double own = diameter(source);
   double distance = 1e-3 * own;  // closer to the boundary if the loop crosses itself
@@ -166,10 +166,10 @@ double least_measure(const Points& polygon) {
   return least;
 }
 
-constexpr double kExcepted = 1e-12;
+constexpr double kExempt = 1e-12;
 
 struct Row {
-  bool excepted = false, met = false, whole = false;
+  bool exempt = false, met = false, whole = false;
   double ms = 0;
 
   bool good() const { return met && whole; }
@@ -178,7 +178,7 @@ struct Row {
 Row report(const std::string& name, const Points& source, const Points& target, double measure) {
   using Clock = std::chrono::steady_clock;
   Row row;
-  row.excepted = measure < kExcepted;
+  row.exempt = measure < kExempt;
   OutlineMatch match;
   try {
     const auto start = Clock::now();
@@ -192,7 +192,7 @@ Row report(const std::string& name, const Points& source, const Points& target, 
   row.met = judged.missed < 0.01;
   row.whole = judged.zeros == 0;
   std::printf("%-28s %-8s %7.3f %% zeros %3d vertices %4d steps %2d %6.0f ms", name.c_str(),
-              row.excepted ? "exempt"
+              row.exempt   ? "exempt"
               : row.good() ? "ok"
                            : "MISS",
               100 * judged.missed, judged.zeros, static_cast<int>(match.basis.size()),
@@ -205,7 +205,7 @@ Row report(const std::string& name, const Points& source, const Points& target, 
 
 /// Prints a summary. Returns whether 99 of 100 pairs are good.
 bool summary(const char* what, std::vector<Row> rows) {
-  std::erase_if(rows, [](const Row& row) { return row.excepted; });
+  std::erase_if(rows, [](const Row& row) { return row.exempt; });
   if (rows.empty()) return true;
   const auto count = [&](auto is) { return static_cast<int>(std::ranges::count_if(rows, is)); };
   const int all = static_cast<int>(rows.size()), good = count(&Row::good);

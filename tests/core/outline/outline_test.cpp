@@ -127,7 +127,7 @@ TEST_CASE("Correspondence: an outline goes to a moved copy of itself") {
     const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
     const Polyline source(outline, true), target(moved(outline, factor, shift), true);
     const Correspondence pairs = ConformalStart(source, target, 0).best();
-    CHECK(pairs.badness <= 0.02);
+    CHECK(pairs.residual <= 0.02);
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
             0.01 * target.diagonal());
@@ -154,17 +154,17 @@ TEST_CASE(
     "Alternating fit: fixed targets give the least squares solution, moving ones decreasing "
     "energies") {
   const Cage cage = polygon_cage(outlines::random(4, false, 40));
-  std::vector<BoundaryPoint> places;
+  std::vector<BoundaryPoint> boundary_points;
   for (Index e = 0; e < cage.size(); ++e)
-    for (const double t : {0.0, 0.3, 0.6}) places.push_back({e, t});
-  const MatrixXc rows = cauchy_coordinates(cage, places, 0);
+    for (const double t : {0.0, 0.3, 0.6}) boundary_points.push_back({e, t});
+  const MatrixXc rows = cauchy_coordinates(cage, boundary_points, 0);
   VectorXc wanted(rows.rows());
   for (Index i = 0; i < wanted.size(); ++i) wanted[i] = 30.0 * std::polar(1.0, 0.7 * i);
   const MatrixXc half = rows.topRows(rows.rows() / 2), rest = rows.bottomRows(rows.rows() / 2);
   AlternatingFit fixed(
       {{half, 2, [&](const VectorXc&, VectorXc& targets) { targets = wanted.head(half.rows()); }},
        {rest, 2}});
-  fixed.give(1, wanted.tail(rest.rows()));
+  fixed.set_targets(1, wanted.tail(rest.rows()));
   fixed.start(wanted.head(half.rows()));
   const VectorXc best = rows.householderQr().solve(wanted);
   CHECK((fixed.unknowns() - best).norm() <= 1e-9 * best.norm());
@@ -178,8 +178,8 @@ TEST_CASE(
   };
   const auto normals = [&](const VectorXc& values, const VectorXc& targets, VectorXc& result) {
     for (Index i = 0; i < values.size(); ++i) {
-      const Complex way = values[i] - targets[i];
-      result[i] = std::abs(way) > 0 ? way / std::abs(way) : Complex(1);
+      const Complex direction = values[i] - targets[i];
+      result[i] = std::abs(direction) > 0 ? direction / std::abs(direction) : Complex(1);
     }
   };
   double after[3];
@@ -209,10 +209,10 @@ TEST_CASE("Outline: random shapes are mapped onto random outlines without folds"
     const OutlineMatch match = matched({cage, outline, {}, {}}, {});
     CHECK(match.zeros == 0);
     CHECK(match.psi.size() == 0);
-    std::vector<BoundaryPoint> places;
+    std::vector<BoundaryPoint> boundary_points;
     for (Index e = 0; e < match.basis.size(); ++e)
-      for (int k = 0; k < 15; ++k) places.push_back({e, (k + 0.37) / 15});
-    const VectorXc f = cauchy_coordinates(match.basis, places, 0) * match.phi;
+      for (int k = 0; k < 15; ++k) boundary_points.push_back({e, (k + 0.37) / 15});
+    const VectorXc f = cauchy_coordinates(match.basis, boundary_points, 0) * match.phi;
     const Polyline target(outline, true), boundary(Points(f.begin(), f.end()), true);
     CHECK(one_sided_distance(boundary, target) < 0.01 * target.diagonal());
     CHECK(one_sided_distance(target, boundary) < 0.01 * target.diagonal());
@@ -443,9 +443,9 @@ TEST_CASE("Outline: between shapes with corners, pins reach their targets and no
   // A target beyond a tip that is narrower than the gaps between the directions tried around it.
   const Points tip{{0, 0}, {300, -50}, {300, 50}};
   for (const double turn : {0.1, 0.3, 0.9, 2.0}) {
-    const Complex way = std::polar(1.0, turn);
-    OutlineFit at_tip(polygon_cage(tip), moved(tip, way, 0), {{250, 0}}, {});
-    at_tip.solve({-50.0 * way});
+    const Complex direction = std::polar(1.0, turn);
+    OutlineFit at_tip(polygon_cage(tip), moved(tip, direction, 0), {{250, 0}}, {});
+    at_tip.solve({-50.0 * direction});
     const OutlineMatch match = at_tip.after(at_tip.iterations());
     INFO("turn " << turn);
     CHECK(match.pins_held == 1);

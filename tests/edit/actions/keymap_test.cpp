@@ -31,7 +31,7 @@ TEST_CASE("Every key of the table has a name that is that key") {
 }
 
 TEST_CASE("A key that is given to an action is its own, and no other's") {
-  Desk desk(shapes::rectangle(100, 100));
+  TestWorkspace desk(shapes::rectangle(100, 100));
   ActionTable& actions = desk.workspace.actions;
   desk.workspace.commit("Move", with_cage(Deformation{}, shapes::rectangle(200, 100)));
   CHECK(actions.set_keys("edit.undo", {'J'}).empty());

@@ -79,7 +79,7 @@ TEST_CASE("Raising a degree keeps the curve, lowering it again gives it back") {
 }
 
 TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle") {
-  Desk desk(shapes::rectangle(200, 200));
+  TestWorkspace desk(shapes::rectangle(200, 200));
   desk.click({200, 0}, {true, false, false});
   REQUIRE(is_smooth(desk.deformation(), 1, EditMode::pose));
   const size_t steps = desk.steps();
@@ -101,7 +101,7 @@ TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle"
 }
 
 TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curved at rest") {
-  Desk desk;
+  TestWorkspace desk;
   desk.workspace.tools.active = ToolId::pen;
   desk.click({0, 0});
   desk.press({200, 0});
@@ -125,7 +125,7 @@ TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curv
 }
 
 TEST_CASE("Pins become a posed cage that shows the same picture and can be edited on") {
-  Desk desk(shapes::rectangle(200, 200));
+  TestWorkspace desk(shapes::rectangle(200, 200));
   run("cage.raise", desk.workspace);
   run("cage.raise", desk.workspace);
   desk.workspace.tools.active = ToolId::pin;
@@ -148,7 +148,7 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
 }
 
 TEST_CASE("Rest curves are edited like posed ones, and the pose stays") {
-  Desk desk(shapes::rectangle(200, 200));
+  TestWorkspace desk(shapes::rectangle(200, 200));
   run("cage.rest", desk.workspace);
   desk.click({200, 0}, {true, false, false});
   CHECK(is_smooth(desk.deformation(), 1, EditMode::rest));

@@ -18,7 +18,7 @@ Handle vertex(Index i) {
 }  // namespace
 
 TEST_CASE("Soft drags take less along the farther it is, and nothing beyond their reach") {
-  Desk desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
+  TestWorkspace desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
   run("edit.soft", desk.workspace);
   desk.workspace.tools.drag.reach = 200;
   desk.drag({0, 0}, {0, -60});
@@ -40,7 +40,7 @@ TEST_CASE("Soft drags take less along the farther it is, and nothing beyond thei
 }
 
 TEST_CASE("With symmetry the other side goes the mirrored way, what is on the line stays on it") {
-  Desk desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
+  TestWorkspace desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
   deformation.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};
@@ -68,7 +68,7 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
 }
 
 TEST_CASE("A drag without symmetry at rest moves one side") {
-  Desk desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
+  TestWorkspace desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
   run("edit.symmetry", desk.workspace);
   desk.drag({230, 170}, {260, 200});
   CHECK(desk.deformation().pose.vertex(2) == Complex(260, 200));
@@ -76,7 +76,7 @@ TEST_CASE("A drag without symmetry at rest moves one side") {
 }
 
 TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
-  Desk desk({{0, 0}, {100, 0}, {203, 7}, {200, 200}, {0, 200}});
+  TestWorkspace desk({{0, 0}, {100, 0}, {203, 7}, {200, 200}, {0, 200}});
   run("edit.snap", desk.workspace);
   desk.press({100, 0});
   desk.move({197, -40});
@@ -103,7 +103,7 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
 }
 
 TEST_CASE("The box scales about the other side, by its corners evenly") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   desk.workspace.selection = {vertex(1), vertex(2), vertex(3), vertex(0)};
   desk.hover({100, 100});
   const auto mark = desk.tool().overlay().box;
@@ -141,7 +141,7 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
 }
 
 TEST_CASE("A drag inside the box moves what is selected, and a click there lets go of it") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   const Selection all{vertex(0), vertex(1), vertex(2), vertex(3)};
   desk.workspace.selection = all;
   desk.drag({60, 70}, {90, 110});
@@ -163,7 +163,7 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
 }
 
 TEST_CASE("The box' knob turns, pins that turn included, as far around as it is dragged") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
   deformation.pins = {{{50, 100}, {50, 100}, 0.25, {}}, {{150, 100}, {150, 100}, {}, {}}};
@@ -194,7 +194,7 @@ TEST_CASE("The box' knob turns, pins that turn included, as far around as it is 
 }
 
 TEST_CASE("Tangents and strokes go with the box") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
   const Affine twice = Affine::scaling(2, 2, 0);
@@ -214,7 +214,7 @@ TEST_CASE("Tangents and strokes go with the box") {
 }
 
 TEST_CASE("The brush paints what is under it at rest, as one step, in the method that knows it") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   Workspace& w = desk.workspace;
   desk.drag({200, 200}, {260, 200});
   desk.settle();
@@ -252,7 +252,7 @@ TEST_CASE("The brush paints what is under it at rest, as one step, in the method
 }
 
 TEST_CASE("Pins go up and down together") {
-  Desk desk(kSquare);
+  TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
   deformation.pins = {{{40, 100}, {40, 100}, {}, {}}, {{160, 100}, {160, 100}, {}, {}}};

@@ -15,7 +15,7 @@ namespace {
 
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
-void take_tool(Desk& desk) {
+void take_tool(TestWorkspace& desk) {
   desk.workspace.tools.active = ToolId::angle;
 }
 
@@ -26,7 +26,7 @@ Index listed(const Deformation& deformation) {
 }  // namespace
 
 TEST_CASE("Tool A: a ring turns its corner as far around as it is dragged") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   take_tool(desk);
   desk.click({300, 0});
   REQUIRE(desk.workspace.selection.size() == 1);
@@ -44,7 +44,7 @@ TEST_CASE("Tool A: a ring turns its corner as far around as it is dragged") {
 }
 
 TEST_CASE("Tool A: selected corners turn together, and an arm opens them both ways") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   take_tool(desk);
   desk.drag({250, -40}, {340, 140});
   REQUIRE(desk.workspace.selection.size() == 2);
@@ -66,7 +66,7 @@ TEST_CASE("Tool A: selected corners turn together, and an arm opens them both wa
 }
 
 TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   take_tool(desk);
   desk.press({150, 0});
   desk.move({150, -40});
@@ -81,7 +81,7 @@ TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
 }
 
 TEST_CASE("Tool A: points are made corners and none, but three stay") {
-  Desk desk(kBar);
+  TestWorkspace desk(kBar);
   take_tool(desk);
   desk.click({300, 0}, {false, false, true});
   CHECK(listed(desk.deformation()) == 3);

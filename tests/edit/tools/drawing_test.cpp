@@ -14,7 +14,7 @@ constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 }  // namespace
 
 TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   size_t steps = desk.steps();
   const Points line{{20, 75}, {60, 76}, {100, 74}, {140, 75}, {180, 75}};
@@ -61,7 +61,7 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
 }
 
 TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   desk.draw({{20, 75}, {180, 75}});
   desk.settle();
@@ -86,7 +86,7 @@ TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
 }
 
 TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape leave nothing") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   const size_t steps = desk.steps();
   desk.press({20, 75});
@@ -112,7 +112,7 @@ TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape le
 }
 
 TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like other handles") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.commit("Stroke", with_stroke(desk.deformation(), {{40, 75}, {160, 75}},
                                               {{40, 75}, {100, 75}, {160, 75}}));
   desk.settle();
@@ -129,7 +129,7 @@ TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like o
 }
 
 TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's target, as one step") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const size_t before = desk.steps();
   const auto around = [](int i) {
@@ -154,7 +154,7 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
 }
 
 TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   // With softness several steps are needed.
   Deformation soft = desk.deformation();
   soft.other_parameters["outline"] = {{"softness", 0.8}, {"smoothness", 1e-4}};
@@ -213,7 +213,7 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
 }
 
 TEST_CASE("What folds is told with its places, and made fold-free by the method that is asked") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   CHECK_FALSE(desk.workspace.map().injectivity().folds());
   CHECK_FALSE(desk.workspace.map().injectivity().crossing);
   // Two corners change places.
@@ -234,7 +234,7 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
 }
 
 TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it moves") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   Points round;
   for (int i = 0; i < 90; ++i)
     round.push_back(Complex(300, 300) + std::polar(100.0, 2 * kPi * i / 90));
@@ -262,14 +262,14 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
 }
 
 TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") {
-  const auto followed = [](Desk& desk) {
+  const auto followed = [](TestWorkspace& desk) {
     const VectorXc before = desk.workspace.map().map().f;
     run("map.fold_free", desk.workspace);
     desk.settle();
     REQUIRE(desk.workspace.map().map().status == SampledMap::Status::certified);
     return (desk.workspace.map().map().f - before).cwiseAbs().maxCoeff();
   };
-  Desk strokes(shapes::rectangle(200, 150));
+  TestWorkspace strokes(shapes::rectangle(200, 150));
   Points bent;
   for (int i = 0; i <= 20; ++i) bent.push_back({20.0 + 8 * i, 75 + 30 * std::sin(0.15 * i)});
   Deformation deformation = with_stroke(strokes.deformation(), {{20, 75}, {180, 75}}, bent);
@@ -282,7 +282,7 @@ TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") 
   CHECK(with_stroke(strokes.deformation(), {{20, 20}, {80, 20}}, {{20, 20}, {80, 20}}).method ==
         "bounded");
 
-  Desk outline(shapes::rectangle(200, 150));
+  TestWorkspace outline(shapes::rectangle(200, 150));
   Points oval;
   for (int i = 0; i < 80; ++i)
     oval.push_back(Complex(100 + 130 * std::cos(kPi * i / 40), 75 + 90 * std::sin(kPi * i / 40)));
@@ -292,7 +292,7 @@ TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") 
 }
 
 TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const Deformation before = desk.deformation();
   desk.press({300, 300});
@@ -310,7 +310,7 @@ TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") 
 
 TEST_CASE(
     "Outline: clicks set its points, a drag makes one smooth, Enter and the first point close") {
-  Desk desk(shapes::rectangle(200, 150));
+  TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const size_t steps = desk.steps();
   desk.click({10, 10});

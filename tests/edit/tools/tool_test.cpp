@@ -30,7 +30,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
   CHECK(desk.deformation().rest.vertex(2) == Complex(200, 100));
@@ -46,7 +46,7 @@ TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis
 }
 
 TEST_CASE("Select: Escape gives a drag up and leaves the scene") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.press({0, 0});
   desk.move({50, 50});
   CHECK(desk.deformation().pose.vertex(0) == Complex(50, 50));
@@ -56,7 +56,7 @@ TEST_CASE("Select: Escape gives a drag up and leaves the scene") {
 }
 
 TEST_CASE("Select: marquee and Shift pick, dragging one moves all") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({150, -50}, {250, 150});
   CHECK(desk.workspace.selection.size() == 2);
   desk.click({0, 0}, kShift);
@@ -68,7 +68,7 @@ TEST_CASE("Select: marquee and Shift pick, dragging one moves all") {
 }
 
 TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 0}, {200, -40});
   desk.press({100, -20}, {}, true);
   desk.release({100, -20});
@@ -85,7 +85,7 @@ TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay
 }
 
 TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its place") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 120});
   run("cage.rest", desk.workspace);
   const Cage pose = desk.deformation().pose;
@@ -102,7 +102,7 @@ TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its 
 
 TEST_CASE("Pen: draw, take back, close by the first point, by Enter and by double-click") {
   for (const int way : {0, 1, 2}) {
-    Desk desk;
+    TestWorkspace desk;
     desk.workspace.tools.active = ToolId::pen;
     for (const Complex z : shapes::rectangle(200, 150)) desk.click(z);
     desk.click({-50, 60});
@@ -129,7 +129,7 @@ TEST_CASE("Each method keeps its parameters, and none takes another's") {
 }
 
 TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing stays to be mended") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   const Deformation before = desk.deformation();
   desk.workspace.tools.active = ToolId::pen;
@@ -147,7 +147,7 @@ TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing st
 }
 
 TEST_CASE("Pen: a click on an edge inserts there") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pen;
   desk.hover({60, 3});
   CHECK(desk.tool().overlay().insertion);
@@ -157,7 +157,7 @@ TEST_CASE("Pen: a click on an edge inserts there") {
 
 TEST_CASE(
     "Pin: a click sets a pin at the rest place under it and switches the method without a jump") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {240, 130});
   desk.settle();
   const VectorXc before = desk.workspace.map().map().f;
@@ -181,7 +181,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pin;
   desk.click({50, 50});
   desk.settle();
@@ -225,7 +225,7 @@ TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents
 }
 
 TEST_CASE("Resetting every handle of a curved pose gives the rest") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   Deformation deformation = desk.deformation();
   deformation.rest.segments[2] =
       deformation.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
@@ -244,7 +244,7 @@ TEST_CASE("Resetting every handle of a curved pose gives the rest") {
 }
 
 TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pin;
   desk.drag({50, 50}, {70, 60});
   CHECK(desk.steps() == 3);  // setting a pin and dragging it on is one step
@@ -255,7 +255,7 @@ TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
 }
 
 TEST_CASE("Nudges merge while they go on, and never into another's step") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   desk.click({0, 0});
   for (int i = 0; i < 3; ++i) run("edit.nudge_right", w);
@@ -273,7 +273,7 @@ TEST_CASE("Nudges merge while they go on, and never into another's step") {
 }
 
 TEST_CASE("A selection never means another point after undo, or a pin that the method hides") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   w.tools.active = ToolId::pen;
   desk.click({100, 0});
@@ -289,7 +289,7 @@ TEST_CASE("A selection never means another point after undo, or a pin that the m
 }
 
 TEST_CASE("Hidden handles cannot be grabbed") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.workspace.display.show_cage = false;
   CHECK_FALSE(handle_at(desk.workspace, desk.workspace.display.viewport.px_at_plane({0, 0})));
   desk.workspace.display.show_cage = true;
@@ -305,7 +305,7 @@ TEST_CASE("Several handles move together around their middle") {
 }
 
 TEST_CASE("Nudging, resetting and methods act on the scene as named") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   desk.click({0, 0});
   for (const char* id : {"edit.nudge_right", "edit.nudge_up_10", "edit.nudge_left_fine"})
     run(id, desk.workspace);
@@ -318,7 +318,7 @@ TEST_CASE("Nudging, resetting and methods act on the scene as named") {
 }
 
 TEST_CASE("The action table: ids and keys are unique, icons and labels are there") {
-  Desk desk(shapes::l_shape());
+  TestWorkspace desk(shapes::l_shape());
   std::set<std::string> ids, keys;
   for (const Action& action : desk.workspace.actions.rows()) {
     CHECK(ids.insert(action.id).second);

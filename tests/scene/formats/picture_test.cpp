@@ -42,16 +42,18 @@ Image marked(int width, int height) {
 }
 
 /// The picture as a camera stores it in one of the eight orientations. Decoding it with orientation
-/// `way` makes it upright again.
-Image held(const Image& image, int way) {
-  const bool turned = way >= 5;
+/// `exif_orientation` makes it upright again.
+Image stored_with_orientation(const Image& image, int exif_orientation) {
+  const bool turned = exif_orientation >= 5;
   Image stored(turned ? image.height : image.width, turned ? image.width : image.height);
   // Exif: the sides of the upright picture where row 0 and column 0 of the stored picture lie.
   for (int r = 0; r < stored.height; ++r)
     for (int c = 0; c < stored.width; ++c) {
       const int row = turned ? c : r, column = turned ? r : c;
-      const bool right = way == 2 || way == 3 || way == 6 || way == 7,
-                 bottom = way == 3 || way == 4 || way == 7 || way == 8;
+      const bool right = exif_orientation == 2 || exif_orientation == 3 || exif_orientation == 6 ||
+                         exif_orientation == 7,
+                 bottom = exif_orientation == 3 || exif_orientation == 4 || exif_orientation == 7 ||
+                          exif_orientation == 8;
       std::memcpy(stored.at(c, r),
                   image.at(right ? image.width - 1 - column : column,
                            bottom ? image.height - 1 - row : row),
@@ -61,13 +63,13 @@ Image held(const Image& image, int way) {
 }
 
 /// Exif data with only an orientation, in alternating byte orders 'II' and 'MM'.
-std::string exif_of(int way) {
-  const char w = static_cast<char>(way);
+std::string exif_of(int exif_orientation) {
+  const char w = static_cast<char>(exif_orientation);
   const char little[] = {'I', 'I', 42, 0, 8, 0, 0, 0, 1, 0, 0x12, 1, 3,
                          0,   1,   0,  0, 0, w, 0, 0, 0, 0, 0,    0, 0};
   const char big[] = {'M', 'M', 0, 42, 0, 0, 0, 8, 0, 1, 1, 0x12, 0,
                       3,   0,   0, 0,  1, 0, w, 0, 0, 0, 0, 0,    0};
-  return way % 2 ? std::string(little, sizeof little) : std::string(big, sizeof big);
+  return exif_orientation % 2 ? std::string(little, sizeof little) : std::string(big, sizeof big);
 }
 
 int largest_difference(const Image& a, const Image& b) {
@@ -119,26 +121,28 @@ void check_adobe(const Image& stored, const Image& read, double allowed) {
     }
 }
 
-struct Raise {
+struct BudgetGuard {
   Budget before = budget();
-  explicit Raise(const Budget& now) { set_budget(now); }
-  ~Raise() { set_budget(before); }
+  explicit BudgetGuard(const Budget& now) { set_budget(now); }
+  ~BudgetGuard() { set_budget(before); }
 };
 
 }  // namespace
 
 TEST_CASE("Pictures of every format are upright in every orientation of the camera") {
   const Image image = marked(21, 13);
-  for (int way = 1; way <= 8; ++way) {
-    CAPTURE(way);
-    const Image stored = held(image, way);
-    CHECK(decode_image(png_file(stored, {.exif = exif_of(way)}), "a.png") == image);
-    CHECK(decode_image(webp_file(stored, {.exif = exif_of(way)}), "a.webp") == image);
-    CHECK(decode_image(webp_file(stored, {.exif = "Exif" + std::string(2, '\0') + exif_of(way)}),
+  for (int exif_orientation = 1; exif_orientation <= 8; ++exif_orientation) {
+    CAPTURE(exif_orientation);
+    const Image stored = stored_with_orientation(image, exif_orientation);
+    CHECK(decode_image(png_file(stored, {.exif = exif_of(exif_orientation)}), "a.png") == image);
+    CHECK(decode_image(webp_file(stored, {.exif = exif_of(exif_orientation)}), "a.webp") == image);
+    CHECK(decode_image(webp_file(stored, {.exif = "Exif" + std::string(2, '\0') +
+                                                  exif_of(exif_orientation)}),
                        "a.webp") == image);
-    CHECK(decode_image(tiff_file(stored, {.orientation = way}), "a.tif") == image);
-    CHECK(largest_difference(decode_image(jpeg_file(stored, {.exif = exif_of(way)}), "a.jpg"),
-                             image) < 30);
+    CHECK(decode_image(tiff_file(stored, {.orientation = exif_orientation}), "a.tif") == image);
+    CHECK(largest_difference(
+              decode_image(jpeg_file(stored, {.exif = exif_of(exif_orientation)}), "a.jpg"),
+              image) < 30);
   }
   CHECK(decode_image(png_file(image, {.exif = exif_of(9)}), "a.png") == image);
   CHECK(decode_image(png_file(image, {.exif = "II*"}), "a.png") == image);
@@ -198,7 +202,7 @@ TEST_CASE("JPEG is read in gray, in both kinds of CMYK, and progressive") {
                            image) < 40);
   CHECK(largest_difference(decode_image(jpeg_file(image, {.kind = JpegKind::adobe_inks}), "a.jpg"),
                            image) < 40);
-  CHECK_THAT(complaint_of([&] {
+  CHECK_THAT(error_message_of([&] {
                decode_image(jpeg_file(image, {.progressive = true, .many_scans = true}), "a.jpg");
              }),
              Catch::Contains("more than 100 passes"));
@@ -231,7 +235,7 @@ TEST_CASE("A picture that is cut off anywhere gives an error that says so") {
                                                0, kind.bytes.size() - 2 - kind.tail)(random);
         CAPTURE(length, kind.bytes.size());
         const std::string said =
-            complaint_of([&] { decode_image(kind.bytes.substr(0, length), kind.name); });
+            error_message_of([&] { decode_image(kind.bytes.substr(0, length), kind.name); });
         CHECK_THAT(said, Catch::Contains("cut off") || Catch::Contains("damaged") ||
                              Catch::Contains("cannot be read") || Catch::Contains("not a picture"));
       }
@@ -241,17 +245,17 @@ TEST_CASE("A picture that is cut off anywhere gives an error that says so") {
   std::string rows = psd_file(Image(64, 48), true);
   rows.resize(26 + 12 + 2 + 2 * 4 * 48);
   std::fill(rows.begin() + 26 + 12 + 2, rows.end(), '\0');
-  CHECK_THAT(complaint_of([&] { decode_image(rows, "a.psd"); }), Catch::Contains("cut off"));
+  CHECK_THAT(error_message_of([&] { decode_image(rows, "a.psd"); }), Catch::Contains("cut off"));
   // A picture of 65535 x 65535 on a canvas of 1 x 1.
   std::string gif = "GIF89a" + little(1, 2) + little(1, 2) +
                     std::string("\x80\0\0\0\0\0\0\0\0,", 10) + little(0, 4) + little(65535, 2) +
                     little(65535, 2) + std::string("\0\2\2\x44\1\0;", 7);
-  CHECK_THAT(complaint_of([&] { decode_image(gif, "a.gif"); }), Catch::Contains("pixels"));
+  CHECK_THAT(error_message_of([&] { decode_image(gif, "a.gif"); }), Catch::Contains("pixels"));
   // A file of 23 bytes that claims 16384 x 16384 pixels.
   std::string claim("\0\0\x0a\0\0\0\0\0\0\0\0\0\0\x40\0\x40\x20\x08\xff\0\0\0\0", 23);
-  CHECK_THAT(complaint_of([&] { decode_image(claim, "a.tga"); }), Catch::Contains("pixels"));
+  CHECK_THAT(error_message_of([&] { decode_image(claim, "a.tga"); }), Catch::Contains("pixels"));
   claim[13] = claim[15] = 0x10;  // 4096 x 4096
-  CHECK_THAT(complaint_of([&] { decode_image(claim, "a.tga"); }), Catch::Contains("cut off"));
+  CHECK_THAT(error_message_of([&] { decode_image(claim, "a.tga"); }), Catch::Contains("cut off"));
 }
 
 TEST_CASE("A JPEG with too many Huffman codes is an error") {
@@ -267,21 +271,21 @@ TEST_CASE("A JPEG with too many Huffman codes is an error") {
       segment('\xc0', std::string("\x08\0\x10\0\x10\1\1\x11\0", 9)) +
       segment('\xc4', std::string(1, '\0') + counts) + segment('\xc4', "\x10" + counts) +
       segment('\xda', std::string("\1\1\0\0\x3f\0", 6)) + std::string(99, '\0');
-  CHECK_THAT(complaint_of([&] { decode_image(bytes, "dht.jpg"); }), Catch::Contains("damaged"));
+  CHECK_THAT(error_message_of([&] { decode_image(bytes, "dht.jpg"); }), Catch::Contains("damaged"));
 }
 
 TEST_CASE("All pictures of a scene share one pixel budget") {
   Budget small = budget();
   small.pixels = 10000;
-  const Raise raised(small);
+  const BudgetGuard raised(small);
   const Folder folder;
   write_file(folder.path / "a.png", encode_png(Image(60, 100)));
   write_file(folder.path / "b.png", encode_png(Image(50, 100)));
   PictureFiles files;
   files.picture(reference_in(folder.path / "a.png"));
-  CHECK_THAT(complaint_of([&] { files.picture(reference_in(folder.path / "b.png")); }),
+  CHECK_THAT(error_message_of([&] { files.picture(reference_in(folder.path / "b.png")); }),
              Catch::Contains("b.png") && Catch::Contains("--max-pixels"));
   CHECK(PictureFiles().picture(reference_in(folder.path / "b.png")).image->width == 50);
-  CHECK_THAT(complaint_of([] { decode_image(bmp_file(Image(200, 51)), "a.bmp"); }),
+  CHECK_THAT(error_message_of([] { decode_image(bmp_file(Image(200, 51)), "a.bmp"); }),
              Catch::Contains("--max-pixels"));
 }

@@ -46,7 +46,7 @@ TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") 
 
 TEST_CASE("SVG files without a cage are rejected with the reason") {
   const auto complaint = [](const std::string& text) {
-    return complaint_of([&] { cage_of_svg(text, "p.svg", 0); });
+    return error_message_of([&] { cage_of_svg(text, "p.svg", 0); });
   };
   using Catch::Contains;
   CHECK_THAT(complaint("hello"), Contains("p.svg"));

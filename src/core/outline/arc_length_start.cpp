@@ -1,5 +1,5 @@
 // The only unknown is the shift between the two starting points; all of 200 values are tried.
-#include "core/outline/equal_shares.h"
+#include "core/outline/arc_length_start.h"
 
 namespace holomorph {
 namespace {
@@ -8,7 +8,7 @@ constexpr Index kShifts = 200;
 
 /// Equal fractions of both lengths. The source's start goes to the point that is `shift` / kShifts
 /// of the target's length after the target's start.
-Correspondence by_equal_shares(const Polyline& source, const Polyline& target, Index shift) {
+Correspondence by_equal_fractions(const Polyline& source, const Polyline& target, Index shift) {
   const double offset = target.length() * static_cast<double>(shift) / kShifts;
   return {{{0, 0.5 * source.length()},
            {offset, offset + 0.5 * target.length()},
@@ -25,13 +25,13 @@ Complex mean(const Points& points) {
 /// The angle by which a curve has turned at equally spaced points, once around.
 std::vector<double> turning(const Polyline& curve) {
   const Points points = at_equal_lengths(curve, kShifts);
-  const auto way = [&](Index i) {
+  const auto chord = [&](Index i) {
     const auto at = [&](Index k) { return points[static_cast<size_t>(k % kShifts)]; };
     return at(i + 1) - at(i);
   };
   std::vector<double> turned{0};
   for (Index i = 1; i < kShifts; ++i)
-    turned.push_back(turned.back() + std::arg(way(i) / way(i - 1)));
+    turned.push_back(turned.back() + std::arg(chord(i) / chord(i - 1)));
   return turned;
 }
 
@@ -49,7 +49,7 @@ Correspondence by_arc_length(const Polyline& source, const Polyline& target) {
                        to[static_cast<size_t>((i + shift) % kShifts)] + center_to);
     if (sum < least) least = sum, best = shift;
   }
-  return by_equal_shares(source, target, best);
+  return by_equal_fractions(source, target, best);
 }
 
 Correspondence by_turning(const Polyline& source, const Polyline& target) {
@@ -67,7 +67,7 @@ Correspondence by_turning(const Polyline& source, const Polyline& target) {
     const double variance = squares - sum * sum / kShifts;
     if (variance < least) least = variance, best = shift;
   }
-  return by_equal_shares(source, target, best);
+  return by_equal_fractions(source, target, best);
 }
 
 }  // namespace holomorph

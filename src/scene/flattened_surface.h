@@ -8,7 +8,7 @@
 namespace holomorph {
 
 /// A surface and the positions of its vertices in the plane. Value type.
-struct LaidSurface {
+struct FlattenedSurface {
   Surface surface;
   Points plane;
 
@@ -18,15 +18,15 @@ struct LaidSurface {
 
 /// Flattens a surface, then moves and scales it so that its bounding box has the center and the
 /// diagonal of `onto`. Throws Error as flattened() does.
-LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto);
+FlattenedSurface flattened_onto(const Surface& surface, Flattening how, const Box& onto);
 
 /// Rotates, scales and moves the surface so that its boundary is this outline, to 1e-6 of the
 /// outline's size. Throws Error if the boundary has another shape.
-LaidSurface laid_along(LaidSurface laid, const Points& outline);
+FlattenedSurface aligned_with_outline(FlattenedSurface laid, const Points& outline);
 
 /// The deformation's surface, read from its file and placed along the outline. Throws Error if
 /// there is no surface, if the file is not a valid one, or if the outline is not its boundary.
-LaidSurface laid_surface_of(const Deformation& deformation);
+FlattenedSurface flattened_surface_of(const Deformation& deformation);
 
 /// The boundary of a surface's texture coordinates in a picture of this size: a cage around the
 /// part of the picture that the surface shows. Throws Error if the surface has no texture

@@ -1,5 +1,5 @@
 // The deformation stores the boundary; the positions of all other vertices follow from it.
-#include "scene/laid_surface.h"
+#include "scene/flattened_surface.h"
 
 #include "core/error.h"
 #include "core/geometry/similarity.h"
@@ -17,19 +17,19 @@ Points along(const std::vector<int>& loop, const Points& places) {
 
 }  // namespace
 
-Points LaidSurface::outline() const {
+Points FlattenedSurface::outline() const {
   return along(disk_boundary(surface), plane);
 }
 
-LaidSurface laid_onto(const Surface& surface, Flattening how, const Box& onto) {
-  LaidSurface laid{surface, flattened(surface, how)};
+FlattenedSurface flattened_onto(const Surface& surface, Flattening how, const Box& onto) {
+  FlattenedSurface laid{surface, flattened(surface, how)};
   const Box box = box_of(laid.plane);
   const double scale = onto.diagonal() / box.diagonal();
   for (Complex& z : laid.plane) z = onto.center() + scale * (z - box.center());
   return laid;
 }
 
-LaidSurface laid_along(LaidSurface laid, const Points& outline) {
+FlattenedSurface aligned_with_outline(FlattenedSurface laid, const Points& outline) {
   constexpr double kSame = 1e-6;  // of the outline's size
   const Points boundary = laid.outline();
   double off = INFINITY;
@@ -47,7 +47,7 @@ LaidSurface laid_along(LaidSurface laid, const Points& outline) {
   return laid;
 }
 
-LaidSurface laid_surface_of(const Deformation& deformation) {
+FlattenedSurface flattened_surface_of(const Deformation& deformation) {
   if (!deformation.surface)
     throw Error(ErrorKind::bad_input,
                 "the scene has no surface; take its outline from an OBJ file first");
@@ -55,7 +55,7 @@ LaidSurface laid_surface_of(const Deformation& deformation) {
   try {
     Surface surface = surface_of_obj(read_file(file), file).surface;
     Points flat = flattened(surface, flattening);
-    return laid_along({std::move(surface), std::move(flat)}, deformation.outline);
+    return aligned_with_outline({std::move(surface), std::move(flat)}, deformation.outline);
   } catch (const Error& error) {
     throw about(file, error);
   }

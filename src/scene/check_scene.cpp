@@ -1,0 +1,191 @@
+// The same limits as the readers in formats/ have, on values in memory.
+#include "scene/check_scene.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/error.h"
+#include "core/geometry/polyline.h"
+#include "core/outline/outline_match.h"
+#include "scene/budget.h"
+#include "scene/formats/scene_json.h"
+
+namespace holomorph {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, std::optional<Complex> where = {}) {
+  throw Error(ErrorKind::bad_input, what, where);
+}
+
+std::string numbered(const char* what, size_t i) {
+  return std::string(what) + " " + std::to_string(i + 1);
+}
+
+void check_count(const char* what, size_t count, size_t most) {
+  if (count > most)
+    fail("there are " + std::to_string(count) + " " + what + "; at most " + std::to_string(most) +
+         " are allowed");
+}
+
+void check_range(const std::string& what, double value, double lowest, double highest) {
+  if (!(value >= lowest && value <= highest)) fail(what + " is out of range");
+}
+
+void check_point(const std::string& what, Complex z) {
+  if (!is_finite(z)) fail(what + " has coordinates that are not finite");
+  if (std::abs(z.real()) > kMaxCoordinate || std::abs(z.imag()) > kMaxCoordinate)
+    fail(what + " has coordinates larger than 1e8", z);
+}
+
+void check_cage(const std::string& what, const Cage& cage) {
+  check_count("cage segments", cage.segments.size(), kMaxSegments);
+  for (const Points& segment : cage.segments) {
+    if (segment.empty()) fail(what + " has a segment without control points");
+    if (segment.size() > kHighestDegree)
+      fail(what + " has a segment of a degree above " + std::to_string(kHighestDegree));
+    for (const Complex& z : segment) check_point(what, z);
+  }
+}
+
+void check_curve(const std::string& what, const Points& curve,
+                 void (*check)(std::span<const Complex>)) {
+  check_count("points in a curve", curve.size(), kMaxCurvePoints);
+  for (const Complex& z : curve) check_point(what, z);
+  check(curve);
+}
+
+void check_corner(const std::string& what, const PoseCorner& pose) {
+  check_range(what, pose.before, -kMaxCornerTurn, kMaxCornerTurn);
+  check_range(what, pose.after, -kMaxCornerTurn, kMaxCornerTurn);
+  check_range(what, pose.tension, 0, 1);
+}
+
+void check_pin(const std::string& what, Complex position, double angle, double scale) {
+  check_point(what, position);
+  check_range(what + "'s angle", angle, -kMaxPinTurn, kMaxPinTurn);
+  check_range(what + "'s scale", scale, kMinPinScale, kMaxPinScale);
+}
+
+void check_handles(const Deformation& deformation) {
+  check_cage("the cage", deformation.rest);
+  check_cage("the posed cage", deformation.pose);
+  if (deformation.rest.size() != deformation.pose.size())
+    fail("the cage has another number of segments posed than at rest");
+  if (deformation.has_cage()) check_rest_cage(deformation.rest);
+  check_count("pins", deformation.pins.size(), kMaxPins);
+  for (size_t i = 0; i < deformation.pins.size(); ++i) {
+    const Pin& pin = deformation.pins[i];
+    const std::string what = numbered("pin", i);
+    check_point(what, pin.rest);
+    check_pin(what, pin.pose, pin.angle.value_or(0), pin.scale);
+    check_range(what + "'s depth", pin.depth, -kMaxDepth, kMaxDepth);
+  }
+  check_count("strokes", deformation.strokes.size(), kMaxStrokes);
+  for (size_t i = 0; i < deformation.strokes.size(); ++i)
+    for (const Points* curve : {&deformation.strokes[i].rest, &deformation.strokes[i].pose})
+      check_curve(numbered("stroke", i), *curve, check_stroke);
+  Index last = -1;
+  for (size_t i = 0; i < deformation.corners.size(); ++i) {
+    const Corner& corner = deformation.corners[i];
+    if (corner.vertex <= last || corner.vertex >= deformation.rest.size())
+      fail("the corners are not sorted by vertices of the cage");
+    last = corner.vertex;
+    check_corner(numbered("corner", i), corner.pose);
+  }
+  if (!deformation.corners.empty() && deformation.corners.size() < 3)
+    fail("there must be at least three corners, or none: all vertices");
+}
+
+void check_paint_and_outline(const Deformation& deformation) {
+  check_count("brush dabs", deformation.stiffness.size(), kMaxDabs);
+  for (const BrushDab& dab : deformation.stiffness) {
+    check_point("a brush dab", dab.at);
+    check_range("a brush dab's radius", dab.radius, kMinBrushRadius, kMaxBrushRadius);
+    check_range("a brush dab's level", dab.level, -kMaxDabLevel, kMaxDabLevel);
+  }
+  if (!deformation.outline.empty()) check_curve("the outline", deformation.outline, check_outline);
+  if (deformation.surface && deformation.outline.empty())
+    fail("the surface needs its flat boundary as the outline");
+}
+
+void check_parameters(const Method& method, const Parameters& values) {
+  for (const auto& [key, value] : values) {
+    const auto spec = std::ranges::find(method.parameters, key, &ParameterSpec::key);
+    if (spec == method.parameters.end())
+      fail("method '" + method.id + "' has no parameter '" + key + "'");
+    if (spec->type == ParameterSpec::Type::choice)
+      check_range(spec->label, value, 0, static_cast<double>(spec->options.size()) - 1);
+    else
+      check_range(spec->label, value, spec->lowest, spec->highest);
+  }
+}
+
+void check_keyframes(const Deformation& deformation) {
+  check_count("keyframes", deformation.keyframes.size(), kMaxKeyframes);
+  double last = -1;
+  for (const Keyframe& key : deformation.keyframes) {
+    char what[48];
+    std::snprintf(what, sizeof what, "the key at %.2f s", key.time);
+    check_range(what, key.time, 0, kMaxTime);
+    if (!(key.time > last)) fail("the keyframes are not sorted by time");
+    last = key.time;
+    check_range(what, key.turns, -kMaxTurns, kMaxTurns);
+    check_cage(what, key.pose.cage);
+    check_count("pins", key.pose.pins.size(), kMaxPins);
+    for (const PosePin& pin : key.pose.pins) check_pin(what, pin.position, pin.angle, pin.scale);
+    check_count("strokes", key.pose.strokes.size(), kMaxStrokes);
+    for (const Points& stroke : key.pose.strokes) check_curve(what, stroke, check_stroke);
+    check_count("corners", key.pose.corners.size(), kMaxSegments);
+    for (const PoseCorner& corner : key.pose.corners) check_corner(what, corner);
+  }
+}
+
+/// Bytes that the numbers of a pose take in a file at most: two of 24 characters and their frame.
+double size_of(const Pose& pose) {
+  constexpr double kPoint = 60, kPart = 300;
+  double points = static_cast<double>(pose.cage.control_count());
+  for (const Points& stroke : pose.strokes) points += static_cast<double>(stroke.size());
+  const double parts = static_cast<double>(pose.pins.size() + pose.corners.size());
+  return kPoint * points + kPart * (parts + 1);
+}
+
+double largest_size(const Scene& scene) {
+  constexpr double kDab = 120, kPoint = 60, kFixed = 20000;
+  double size = kFixed + static_cast<double>(scene.extra.size() + scene.animation_extra.size());
+  for (const SharedLayer& layer : scene.layers) {
+    const Deformation& deformation = layer->deformation;
+    size += kFixed + 2 * size_of(whole_pose_of(deformation)) +
+            kDab * static_cast<double>(deformation.stiffness.size()) +
+            kPoint * static_cast<double>(deformation.outline.size());
+    for (const Keyframe& key : deformation.keyframes) size += size_of(key.pose);
+  }
+  return size;
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+  check_count("layers", scene.layers.size(), kMaxLayers);
+  check_range("the frame rate", scene.animation.frames_per_second, kMinFrameRate, kMaxFrameRate);
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    try {
+      check_texts(layer);
+      check_handles(layer.deformation);
+      check_paint_and_outline(layer.deformation);
+      const Method& method = method_named(layer.deformation.method);
+      check_parameters(method, layer.deformation.parameters);
+      for (const auto& [id, values] : layer.deformation.other_parameters)
+        check_parameters(method_named(id), values);
+      check_keyframes(layer.deformation);
+    } catch (const Error& error) {
+      if (scene.layers.size() == 1) throw;
+      throw Error(error.kind(), numbered("layer", i) + ": " + error.what(), error.where());
+    }
+  }
+  // Extras of parts are not counted: what they hold came from a file, once each.
+  if (largest_size(scene) > budget().scene / 4)
+    check_budget(&Budget::scene, static_cast<double>(json_of(scene).size()), "the scene has");
+}
+
+}  // namespace holomorph

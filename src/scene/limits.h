@@ -1,0 +1,22 @@
+// The largest scene that a file can hold. Readers refuse what is larger, and so do edits.
+#pragma once
+
+#include <cstddef>
+
+namespace holomorph {
+
+inline constexpr double kMaxCoordinate = 1e8;  ///< plane units, from the origin along each axis
+inline constexpr size_t kMaxLayers = 100;
+inline constexpr size_t kMaxSegments = 5000;  ///< of a cage
+inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
+inline constexpr size_t kMaxCurvePoints = 20000;  ///< of a stroke or an outline
+inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value
+inline constexpr double kMaxCornerTurn = 1e3;     ///< radians: 159 full turns
+inline constexpr double kMaxPinTurn = 1e5;        ///< radians
+inline constexpr int kMaxDepth = 1000;            ///< of a pin, in absolute value
+inline constexpr double kMaxTime = 3600;          ///< seconds
+inline constexpr double kMinFrameRate = 1, kMaxFrameRate = 240;  ///< per second
+inline constexpr int kMaxTurns = 150;                            ///< between two keyframes
+inline constexpr size_t kMaxKeyframes = 2000;
+
+}  // namespace holomorph
