@@ -189,8 +189,8 @@ std::string Imports::outline(const Path& path) {
   };
   return jobs_.run("Reading " + path.filename().string(), read, [this, outline, path] {
     chosen_(path);
-    take_outline(workspace_, "Outline from file", std::move(*outline),
-                 surface_of_file(path, Flattening::lscm));
+    set_outline(workspace_, "Outline from file", std::move(*outline),
+                surface_of_file(path, Flattening::lscm));
   });
 }
 

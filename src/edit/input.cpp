@@ -1,4 +1,4 @@
-// Keys in words.
+// Names of keys.
 #include "edit/input.h"
 
 #include <array>

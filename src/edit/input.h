@@ -1,4 +1,4 @@
-// What the pointer does in one frame, as tools see it; and keys as the action table names them.
+// The pointer input of one frame for the tools, and the keys of the action table.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,19 @@ struct Modifiers {
   bool operator==(const Modifiers&) const = default;
 };
 
-/// The pointer in one frame; positions in window px and in the plane.
+/// The state of the pointer in one frame: its position in window px and in the plane, its buttons
+/// and its wheel.
 struct Input {
   Complex px, position;
   bool pressed = false, down = false, released = false, double_clicked = false;  ///< left button
   bool inside = false;  ///< over the canvas and not over a panel
-  double wheel = 0;     ///< lines scrolled upwards
+  double wheel = 0;     ///< lines scrolled up
   Modifiers mods;
-  double now_ms = 0;  ///< of a clock that never goes back
+  double now_ms = 0;  ///< monotonic clock
 };
 
-/// A key by what is printed on it in the user's layout ('A', ',', ...) or by name.
+/// Keys that have a name. Other keys are identified by their character in the user's layout: 'A',
+/// ',', ...
 enum class Key : int {
   tab = 256,
   escape,
@@ -40,7 +42,7 @@ enum class Key : int {
   home,
   end,
   insert,
-  f1,  ///< and so on to f12
+  f1,  ///< f1 to f12 are consecutive
   f2,
   f6 = f1 + 5,
   f10 = f1 + 9,
@@ -57,9 +59,9 @@ struct Shortcut {
   Shortcut(Key named, Modifiers mods = {}) : key(static_cast<int>(named)), mods(mods) {}
 };
 
-/// "Ctrl+Shift+Z".
+/// The name of a shortcut, such as "Ctrl+Shift+Z".
 std::string text_of(const Shortcut& shortcut);
-/// The other way; none when there is no such key.
+/// The inverse of text_of; none if there is no such key.
 std::optional<Shortcut> shortcut_named(const std::string& text);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// The order of the tests is the order of what lies over what.
+// The tests are in stacking order, from the topmost part to the canvas.
 #include "edit/key_focus.h"
 
 namespace holomorph {

@@ -1,4 +1,4 @@
-// Short messages over the canvas.
+// Short messages that are displayed over the canvas.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace holomorph {
 
-/// A short message; a place of the plane that it is about can be shown.
+/// A short message, with the point of the plane that it is about, if any.
 struct Toast {
   std::string text;
   bool problem = false;
   std::optional<Complex> where = {};
 };
 
-/// Messages that the window takes over.
+/// Messages that wait for the window to display them.
 struct Messages {
   std::vector<Toast> toasts = {};
 
@@ -25,7 +25,7 @@ struct Messages {
     toasts.push_back({printable(text), false, where});
   }
   void complain(const Error& error) { complain(error.what(), error.where()); }
-  /// A problem in words; "" is none.
+  /// Adds a problem, unless the text is empty.
   void complain(const std::string& problem, std::optional<Complex> where = {}) {
     if (!problem.empty()) toasts.push_back({printable(problem), true, where});
   }

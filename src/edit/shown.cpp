@@ -1,5 +1,4 @@
-// A document has one pose of its own besides its keyframes; edits at a time change one or the
-// other.
+// A document has its own pose and keyframes. An edit at a time changes one or the other.
 #include "edit/shown.h"
 
 #include <algorithm>

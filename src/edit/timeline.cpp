@@ -1,4 +1,4 @@
-// Time in seconds; frames are what steps and snaps go by.
+// Times are in seconds. Steps and snapping go by frames.
 #include "edit/timeline.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The keyframes as they are being watched and set: a time, and whether it moves.
+// The state of the timeline: the current time, playback, and how keyframes are set.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@ namespace holomorph {
 
 struct Timeline {
   double time = 0;      ///< seconds
-  bool active = false;  ///< the picture is that of the time, not the scene's own pose
+  bool active = false;  ///< the canvas shows the picture at `time`, not the scene's own pose
   bool playing = false, loop = true;
-  bool chosen = false;                  ///< the key at the time was clicked
-  bool recording = false;               ///< a drag sets keys, by the clock
-  bool auto_key = false;                ///< pose edits set keys
-  bool onion = false;                   ///< the pictures of the keys beside the time
-  bool visible = false;                 ///< the panel
-  std::optional<double> clock_ms = {};  ///< when the time was advanced last
+  bool chosen = false;                  ///< the keyframe at `time` was clicked
+  bool recording = false;               ///< a drag is recorded as keyframes in real time
+  bool auto_key = false;                ///< edits of the pose set keyframes
+  bool onion = false;                   ///< onion skin: show the keyframes before and after `time`
+  bool visible = false;                 ///< the panel is open
+  std::optional<double> clock_ms = {};  ///< the clock when `time` was advanced last
 
-  /// Shows a time, at least 0.
+  /// Goes to a time, clamped to 0 ... kLongestTime, and displays it.
   void go_to(double seconds) {
     time = std::clamp(seconds, 0.0, kMaxTime);
     active = true;
@@ -27,15 +27,17 @@ struct Timeline {
   }
 };
 
-/// Lets a playing time go on by the clock; behind the last key it starts again or stops. Returns
-/// whether it moved.
+/// Advances the time by the clock while the timeline plays. After the last keyframe it loops or
+/// stops. Returns whether the time advanced.
 bool advance(Timeline& timeline, const Scene& scene, double now_ms);
 
-/// The frame that is nearest to a time, and its time.
+/// The number of the frame nearest to a time.
 int frame_at(const Scene& scene, double time);
+/// The time of a frame in seconds, clamped to 0 ... kLongestTime.
 double time_of_frame(const Scene& scene, int frame);
 
-/// The next key's time behind a time (or before it); none behind the last one.
+/// The time of the next keyframe after a time, or of the previous one before it; none if there is
+/// no such keyframe.
 std::optional<double> next_key(const Deformation& deformation, double time, bool forwards);
 
 }  // namespace holomorph

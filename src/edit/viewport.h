@@ -1,13 +1,13 @@
-// Window pixels to plane coordinates and back: the only place that knows both.
+// The only conversion between window pixels and plane coordinates.
 #pragma once
 
 #include "core/types.h"
 
 namespace holomorph {
 
-/// The part of the plane that the canvas shows. Window px have x to the right and y down.
+/// The part of the plane that the canvas shows. In window px, x points right and y points down.
 struct Viewport {
-  Complex center;                                   ///< plane point in the middle of the canvas
+  Complex center;                                   ///< plane point at the center of the canvas
   double zoom = 1;                                  ///< window px per plane unit
   double left = 0, top = 0, width = 1, height = 1;  ///< the canvas in window px
 
@@ -22,14 +22,16 @@ struct Viewport {
     return px.real() >= left && px.real() < left + width && px.imag() >= top &&
            px.imag() < top + height;
   }
-  /// Zooms by a factor, keeping the plane point under `px` where it is.
+  /// Zooms by a factor and keeps the plane point under `px` in place. The zoom stays within 0.001
+  /// to 1000.
   void zoom_at(Complex px, double factor) {
     const Complex fixed = plane_at_px(px);
     zoom = std::clamp(zoom * factor, 1e-3, 1e3);
     center += fixed - plane_at_px(px);
   }
   void pan_px(Complex delta) { center -= Complex(delta.real(), -delta.imag()) / zoom; }
-  /// Shows a box with a border of `border` of its size.
+  /// Shows a box with a margin of `border` times its size on each side. Does nothing for an empty
+  /// box.
   void fit(const Box& box, double border = 0.08) {
     if (box.empty()) return;
     center = box.center();

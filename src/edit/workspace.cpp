@@ -1,4 +1,4 @@
-// Commits go through one gate, so that no unusable cage ever enters the history.
+// All edits pass one check (`accepts`), so that no invalid cage ever enters the history.
 #include "edit/workspace.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace holomorph {
 namespace {
 
-std::string left_text(const ActionTable& actions) {
-  return "The pose has no key: it stays the scene's own, and " + actions.key_of("edit.undo") +
-         " leads back. " + actions.key_of("time.key") + " sets a key, and with " +
-         actions.key_of("time.auto_key") + " every edit does.";
+std::string left_pose_text(const ActionTable& actions) {
+  return "The pose that you left has no keyframe; it remains the scene's own pose. Undo with " +
+         actions.key_of("edit.undo") + ", set keyframes with " + actions.key_of("time.key") +
+         ", or turn on auto-key with " + actions.key_of("time.auto_key") + ".";
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ bool advance(Playback& playback, const LiveMap& map, double now_ms) {
     playback = {};
     return true;
   }
-  // Two seconds and a half in all, but no iteration longer than a third of a second.
+  // 2.5 seconds in all, but no iteration is displayed for longer than a third of a second.
   constexpr double kAll = 2500, kLongest = 330;
   if (!playback.due_ms) playback.due_ms = now_ms + std::min(kLongest, kAll / last);
   if (now_ms < *playback.due_ms) return false;
@@ -48,7 +48,7 @@ bool Workspace::accepts(const Scene& scene) {
   try {
     check_scene(scene);
   } catch (const Error& error) {
-    messages.complain("Not done: " + std::string(error.what()), error.where());
+    messages.complain("Edit refused: " + std::string(error.what()), error.where());
     return false;
   }
   return true;
@@ -84,12 +84,14 @@ bool Workspace::require_open_layer() {
   const Layer& layer = document.scene().layer();
   if (layer.locked || !layer.visible)
     messages.say(layer.locked
-                     ? "The layer is locked: " + actions.key_of("layer.lock") + " unlocks it."
-                     : "The layer is hidden: " + actions.key_of("layer.visible") + " shows it.");
+                     ? "The layer is locked. Unlock it with " + actions.key_of("layer.lock") + "."
+                     : "The layer is hidden. Show it with " + actions.key_of("layer.visible") +
+                           ".");
   return !layer.locked && layer.visible;
 }
 
-/// Whether a scene changes the contents of a layer that is locked or hidden before and after.
+/// Whether a scene changes the contents of the edited layer while that is locked or hidden both
+/// before and after.
 bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Layer& before = document.scene().layer();
   if (!before.locked && before.visible) return false;
@@ -97,7 +99,7 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
   if (number == scene.layers.size()) return false;
   const Layer& after = *scene.layers[number];
   if (after.locked != before.locked || after.visible != before.visible) return false;
-  // A picture that was missing may be found again.
+  // A missing picture may be found: that is not a change.
   const bool other_image = before.image && document.image() && after.image != before.image;
   return other_image || after.deformation != before.deformation;
 }
@@ -123,7 +125,7 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   return true;
 }
 
-/// Drops what belongs to the edited layer alone.
+/// Resets state that belongs to the edited layer only.
 void Workspace::leave_layer() {
   shown.preview.reset();
   shown.set_timed({});
@@ -140,20 +142,21 @@ void Workspace::choose_layer(size_t number) {
   chosen.edited = number;
   leave_layer();
   const History& history = document.history();
-  // Looking through the layers is one step, not many.
-  const bool goes_on = history.can_undo() && history.entries()[history.index()].label == kLabel &&
-                       !history.can_redo();
-  if (goes_on) document.undo();
+  // Several changes of the edited layer in a row are one step.
+  const bool merges = history.can_undo() && history.entries()[history.index()].label == kLabel &&
+                      !history.can_redo();
+  if (merges) document.undo();
   commit_layers(kLabel, std::move(chosen));
 }
 
-/// With the deformation's pose as the key at the time, and the document's own pose.
+/// The deformation with its pose stored as the keyframe at the current time, and with the
+/// document's own pose.
 Deformation Workspace::keyed(Deformation deformation) {
   const Deformation& before = shown.own();
   const double time = shown.timeline.time;
   if (const size_t there = key_at(before, time);
       there < before.keyframes.size() && !fits(before, before.keyframes[there].pose))
-    messages.say("A key that did not play was there; undo brings it back.");
+    messages.say("A keyframe that did not fit the scene was replaced. Undo to restore it.");
   deformation = with_key(std::move(deformation), time);
   if (map().posed() && map().posed()->keyframes == before.keyframes) {
     map().follow_keys();
@@ -164,7 +167,8 @@ Deformation Workspace::keyed(Deformation deformation) {
 }
 
 bool Workspace::require_pose() {
-  if (!shown.knows_pose()) messages.say("One moment, the picture at this time is being prepared.");
+  if (!shown.knows_pose())
+    messages.say("The picture at this time is being prepared. Try again in a moment.");
   return shown.knows_pose();
 }
 
@@ -172,21 +176,21 @@ void Workspace::go_to_time(double seconds) {
   shown.preview.reset();
   const Timeline& timeline = shown.timeline;
   if (!timeline.active && seconds != timeline.time && shown.leaves_a_pose())
-    messages.say(left_text(actions));
+    messages.say(left_pose_text(actions));
   shown.go_to_time(seconds);
 }
 
 void Workspace::set_key() {
   if (!require_pose()) return;
   char label[32];
-  std::snprintf(label, sizeof label, "Key at %.2f s", shown.timeline.time);
+  std::snprintf(label, sizeof label, "Keyframe at %.2f s", shown.timeline.time);
   const Deformation deformation = shown.deformation();
   if (!commit(label, keyed(deformation), EditBase::document)) return;
   shown.timeline.visible = shown.timeline.active = true;
   shown.set_timed_pose(whole_pose_of(deformation));
 }
 
-std::vector<Points> Workspace::in_keyframes(std::span<const Complex> rest) {
+std::vector<Points> Workspace::keyframe_images(std::span<const Complex> rest) {
   const Deformation& deformation = shown.own();
   if (deformation.keyframes.empty() || !map().has_map() || map().posed() != deformation) return {};
   std::vector<Points> images;
@@ -214,8 +218,8 @@ bool Workspace::update_map(EvalOptions options) {
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
   if (shown.preview) shown.timeline.playing = false;
   if (shown.timeline.onion && map().has_map()) map().follow_keys();
-  if (shown.preview) return changed;  // an edit of what was shown
-  // While another method is being prepared, handles stay where they were at the time.
+  if (shown.preview) return changed;  // a preview already contains the handles at the time
+  // While another method is being prepared, the handles keep their positions at this time.
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());
   prune_selection();  // degrees of posed segments vary with time
@@ -254,7 +258,7 @@ void Workspace::go_to(size_t entry) {
   shown.set_timed({});
   Timeline& timeline = shown.timeline;
   timeline.playing = false;
-  // What was undone or redone last is shown, at its time.
+  // Display the time of the step that was undone or redone last.
   const std::optional<double> at =
       document.history().entries()[entry < from ? entry + 1 : entry].at;
   const Deformation &was = before.deformation(), &is = shown.own();
@@ -262,7 +266,7 @@ void Workspace::go_to(size_t entry) {
              poses = !other_layer && whole_pose_of(was) != whole_pose_of(is);
   if (at) timeline.time = *at;
   if (at || poses) timeline.active = at && (entry < from || !poses);
-  // Numbers mean other handles in another structure.
+  // In another structure, the same numbers refer to other handles.
   const bool other_cage = was.rest.size() != is.rest.size(),
              other_pins = was.pins.size() != is.pins.size(),
              other_strokes = was.strokes.size() != is.strokes.size();
@@ -280,7 +284,7 @@ void Workspace::show_next_fold() {
   if (found.folds_at.empty()) {
     if (!found.crossing) return messages.say("Nothing folds.");
     display.viewport.center = *found.crossing;
-    return messages.say("Nothing folds; two parts lie over each other here.", found.crossing);
+    return messages.say("Nothing folds, but two parts overlap here.", found.crossing);
   }
   fold_ = folds_ == found.folds_at ? (fold_ + 1) % folds_.size() : 0;
   folds_ = found.folds_at;
@@ -329,7 +333,7 @@ void Workspace::open(Document opened) {
   display.split.reset();
   display.view = View::image;
   tools.active = shown.own().has_cage() ? ToolId::select : ToolId::pen;
-  // A picture that is missing is offered to be found for as long as it is.
+  // No message for missing pictures: the window offers to find them as long as they are missing.
   if (document.layers_without_picture().empty()) messages.complain(document.warning());
 }
 
@@ -357,15 +361,15 @@ std::optional<Cage> solved_cage(const Workspace& workspace) {
   if (!map.has_map() || !map.posed()) return {};
   const std::optional<Deformation>& posed = map.timed() ? map.timed() : map.posed();
   if (map.timed() && key_at(*posed, workspace.shown.timeline.time) == posed->keyframes.size())
-    return {};  // on the way between keys there is none
+    return {};  // between keyframes there is none
   return map.prepared()->deformer->solved_cage(pose_of(*posed));
 }
 
 namespace {
 
-/// The rectangle of a layer's picture where parts of it stay in it; none when the cage takes all of
-/// its corners along.
-Box what_stays(const Cage& cage, const Image* image) {
+/// The rectangle of a layer's picture if some of its corners are outside the cage and stay where
+/// they are; else empty.
+Box resting_box(const Cage& cage, const Image* image) {
   if (!image) return {};
   constexpr double kOnEdge = 1e-6;  // px
   const Points outline = outline_of(cage);
@@ -397,10 +401,10 @@ Box content_box(const Workspace& workspace) {
     for (const Complex& z : map.map().f)
       if (is_finite(z)) box.include(z);
   };
-  include(what_stays(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
+  include(resting_box(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
   for (const SharedLayer& layer : scene.layers) {
     if (layer->id == scene.layer().id || !layer->visible) continue;
-    include(what_stays(layer->deformation.rest, workspace.document.pictures().of(*layer)));
+    include(resting_box(layer->deformation.rest, workspace.document.pictures().of(*layer)));
     include_map(workspace.maps.of(layer->id));
   }
   for (const Complex& z : outline_of(cage_of(deformation, workspace.mode))) box.include(z);
@@ -449,14 +453,14 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
     const double here = std::abs(
         workspace.display.viewport.px_at_plane(position_of(deformation, handle, workspace.mode)) -
         px);
-    // A pin on a cage point's spot is picked first: it lies on top.
+    // A pin at the same position as a cage point is drawn on top and picked first.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;
       distance = here;
     }
   }
   if (best) return best;
-  // Points lie on top of strokes.
+  // Points are drawn on top of strokes and picked first.
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind != Handle::Kind::stroke) continue;
     const double here =

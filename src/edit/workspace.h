@@ -1,4 +1,4 @@
-// Everything that tools and actions act on; the window draws it.
+// Everything that tools and actions work on. The window draws it.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace holomorph {
 
-/// What an action asks of the window, which alone can show dialogs.
+/// A request of an action to the window, which is the only part that can show dialogs.
 enum class Request {
   none,
   new_scene,
@@ -47,43 +47,43 @@ enum class Request {
   compare
 };
 
-/// The iterations of a method that gives energies, watched one by one.
+/// Playback of the iterations of a method that reports energies.
 struct Playback {
-  std::optional<int> iteration = {};  ///< shown; none: the last one
+  std::optional<int> iteration = {};  ///< the iteration on display; none: the last one
   bool playing = false;
-  std::optional<double> due_ms = {};  ///< when the next one is
+  std::optional<double> due_ms = {};  ///< when the next iteration is due
 };
-/// Shows the next iteration when it is due. Returns whether it did, or ended.
+/// Steps to the next iteration when it is due. Returns whether it did so or the playback ended.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
 enum class ToolId { select, pen, pin, stroke, outline, angle, brush };
 
-/// How the canvas shows the scene.
+/// How the canvas displays the scene.
 struct DisplayOptions {
   Viewport viewport;
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
-  std::optional<double> split = {};  ///< left of it, as a fraction of the canvas, is the original
+  std::optional<double> split = {};  ///< fraction of the canvas on the left that shows the original
   double handle_px = 10;             ///< picking distance in window px, scaled with the display
 };
 
-/// The active tool, and what tools are set to.
+/// The active tool and the settings of the tools.
 struct ToolSettings {
   ToolId active = ToolId::select;
   DragOptions drag;
-  bool snaps = false;        ///< drags stop where handles line up
+  bool snaps = false;        ///< whether drags stop where handles line up
   double brush_radius = 60;  ///< plane units
   AutoCageOptions auto_cage = {};
 };
 
-/// The map at a key next to the time that is shown.
+/// The map at the keyframe before or after the displayed time.
 struct OnionSkin {
   const VectorXc& f;  ///< at the mesh's vertices
   bool later = false;
 };
 
-/// An editing session: a document, its maps, and everything that is not saved.
+/// An editing session: a document, its maps, and all state that is not saved.
 struct Workspace {
   explicit Workspace(MeshOptions options = {}) : maps(options) {}
   Workspace(const Workspace&) = delete;
@@ -99,69 +99,72 @@ struct Workspace {
   Messages messages;
   ActionTable actions;
   Playback playback;
-  std::optional<Pose> copied;  ///< a pose
+  std::optional<Pose> copied;  ///< by Copy pose
   Request request = Request::none;
-  /// Does work that may take long on another thread and `then` on this one; the window sets it.
+  /// Runs work that may take long on another thread, and `then` on this one. Set by the window.
   std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>
       run_in_background;
 
   /// The edited layer's map.
   LiveMap& map() { return maps.of(document.scene().layer().id); }
   const LiveMap& map() const { return maps.of(document.scene().layer().id); }
-  /// Brings the maps up to date with what is shown. Returns whether it changed.
+  /// Brings the maps up to date with `shown`. Returns whether any of them changed.
   bool update_map(EvalOptions options);
-  /// Whether the canvas shows the picture at rest.
+  /// Whether the canvas displays the picture at rest.
   bool at_rest() const { return mode == EditMode::rest || display.show_original; }
-  /// Whether there is an outline that the method uses, and it is drawn.
+  /// Whether the method uses an outline that is currently drawn.
   bool shows_outline() const;
-  /// Whether the surface whose boundary the outline is has its view next to the canvas.
+  /// Whether a view next to the canvas displays the surface whose boundary is the outline.
   bool shows_surface() const {
     return display.show_surface && document.scene().deformation().surface.has_value();
   }
 
-  /// One undo step; a rest cage that cannot be used is refused with a toast that shows where. What
-  /// it does to poses and keyframes is Shown::entry_of's.
+  /// Adds an undo step. Refuses a scene that cannot be saved and opened again, or whose rest cage
+  /// is invalid, with a toast that shows where. Shown::entry_of says how an edit changes poses and
+  /// keyframes. Returns whether the step was added.
   bool commit(const std::string& label, Deformation deformation, EditBase base = EditBase::shown);
-  /// The last step, carried further; refused in the same way.
+  /// Replaces the result of the last undo step; refuses as commit does.
   bool amend(Deformation deformation, EditBase base = EditBase::shown);
-  /// For what is done in many small pieces: with the selection unchanged it carries the last step
-  /// further, if that has the same label.
+  /// Merges small edits into one step: amends the last step if that has the same label and the
+  /// selection has not changed since; else commits.
   void commit_or_amend(const std::string& label, Deformation deformation,
                        EditBase base = EditBase::shown);
-  /// One undo step that changes layers, or what all of them share.
+  /// Adds an undo step that changes layers, or settings that all layers share.
   bool commit_layers(const std::string& label, Scene scene);
-  /// The same for layers.
+  /// As commit_or_amend, for layers.
   void commit_or_amend_layers(const std::string& label, Scene scene);
-  /// The next commit_or_amend is a step of its own.
+  /// Makes the next commit_or_amend a separate step.
   void end_mergeable_step() { mergeable_selection_.reset(); }
 
-  /// Whether the edited layer is visible and not locked; says it otherwise.
+  /// Whether the edited layer is visible and not locked. If not, a toast says so.
   bool require_open_layer();
-  /// Whether the shown pose is known; says that it is being prepared otherwise.
+  /// Whether the displayed pose is known. If not, a toast says that it is being prepared.
   bool require_pose();
-  /// Edits another layer.
+  /// Makes another layer the edited one.
   void choose_layer(size_t number);
-  /// Another entry of the history; drops what is selected of a structure that it changes.
+  /// Goes to another entry of the history. Deselects the handles of a structure (cage, pins or
+  /// strokes) whose number of elements differs there.
   void go_to(size_t entry);
-  /// Goes to a time and shows it; says when that leaves a pose without a key.
+  /// Goes to a time and displays it. A toast says when that leaves a pose without a keyframe.
   void go_to_time(double seconds);
-  /// The shown pose as the key at the time.
+  /// Stores the displayed pose as the keyframe at the current time.
   void set_key();
-  /// Where each keyframe takes points at rest; none before their maps are known.
-  std::vector<Points> in_keyframes(std::span<const Complex> rest);
-  /// What the onion skin shows: the keys before and after the time, where it is on and there is a
-  /// pose to compare with.
+  /// The images of points at rest in each keyframe; empty before the keyframes' maps are known.
+  std::vector<Points> keyframe_images(std::span<const Complex> rest);
+  /// The maps at the keyframes before and after the current time. Empty when the onion skin is off,
+  /// while the timeline plays, at rest and before there is a map.
   std::vector<OnionSkin> onion_skins() const;
-  /// Work that may take long, and then what is done with it: next to the window, or immediately
-  /// where there is none. Throws Error then.
+  /// Does work that may take long, and then calls `then`: in the background where the window has
+  /// set run_in_background, else immediately. In the second case errors of the work are thrown.
   void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
-  /// Goes to where the picture folds: the worst place first, then the others.
+  /// Goes to a fold of the picture: to the worst one first, then to the others in turn.
   void show_next_fold();
-  /// Deletes handles as one step and clears the selection; a cage keeps three points, and says so.
+  /// Deletes handles in one step and clears the selection. If fewer than three cage points would
+  /// remain, deletes nothing and says so in a toast.
   void erase(const Selection& handles, Refit refit = Refit::curve);
-  /// Drops handles that an edit removed.
+  /// Deselects handles that do not exist any more.
   void prune_selection();
-  /// Replaces the document; selection, preview, mode and view start afresh.
+  /// Replaces the document and resets selection, preview, mode, tool and view.
   void open(Document opened);
 
  private:
@@ -171,33 +174,37 @@ struct Workspace {
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
   void leave_layer();
-  /// Whether a scene may enter the history; says why not.
+  /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);
 
-  std::optional<Selection> mergeable_selection_;  ///< whose step commit_or_amend may extend
-  Points folds_;                                  ///< that show_next_fold goes through
+  std::optional<Selection> mergeable_selection_;  ///< selection of the step that may be amended
+  Points folds_;                                  ///< the folds that show_next_fold visits
   size_t fold_ = 0;
 };
 
-/// The rest point under a point of the shown picture; none outside it or before there is a map.
+/// The rest position of the point of the displayed picture at z; none outside the picture or before
+/// there is a map.
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
-/// Where the map takes a rest point; the point itself outside the mesh or before there is a map.
+/// The image of a rest point under the map; the point itself outside the mesh or before there is a
+/// map.
 Complex posed_at(const LiveMap& map, Complex rest);
-/// The cage that alone gives the shown map, where the method knows one.
+/// The posed cage that gives the displayed map without pins, if the method can compute one.
 std::optional<Cage> solved_cage(const Workspace& workspace);
-/// The box of picture and cage as shown.
+/// The bounding box of everything on display: pictures, cage, outline and strokes.
 Box content_box(const Workspace& workspace);
 
-/// "pin", "stroke" or "point": what these are, in the words of the history.
+/// The word for these handles in labels of the history: "pin" or "stroke" if all are of that kind,
+/// else "point".
 std::string kind_of(const Selection& handles);
 
-/// The nearest handle of the shown mode within picking distance.
+/// The nearest handle of the current mode within picking distance. Points have priority over
+/// strokes.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
 
-/// The place on the shown mode's cage within picking distance, not at a vertex: where a click
-/// can insert one.
+/// The nearest point on the current mode's cage within picking distance and not at a vertex: where
+/// a click can insert a vertex.
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
-/// Inserts a vertex there as one step and selects it; false when that is refused.
+/// Inserts a vertex there in one step and selects it. Returns false if the step is refused.
 bool insert_at(Workspace& workspace, const CageHit& hit);
 
 }  // namespace holomorph

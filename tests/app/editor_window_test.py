@@ -122,10 +122,10 @@ class EditorWindowTest(WindowCase):
         self.plain("caged.png", RED)
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
-            self.by_palette(editor, "paste a picture")
+            self.by_palette(editor, "paste picture")
             editor.wait(lambda s: s["layers"] == 2, "the pasted layer")
             self.wait_color(editor, (60, 100), GREEN, "the pasted picture")
-            self.by_palette(editor, "copy the picture")
+            self.by_palette(editor, "copy picture")
             editor.wait(lambda s: os.path.exists(copied), "the copied picture")
             path = os.path.join(self.work, "pasted.json")
             self.save_as(editor, path)
@@ -285,7 +285,7 @@ class EditorWindowTest(WindowCase):
         target = os.path.join(self.work, "out.png")
         with Editor(PROGRAM, [self.red_scene()]) as editor:
             self.move_right(editor, 1)
-            self.by_palette(editor, "background: the original")
+            self.by_palette(editor, "background: original")
             self.ask(editor, "ctrl+e")
             self.screenshot(editor, "export")
             editor.key("ctrl+a")

@@ -330,7 +330,7 @@ class WindowTest(WindowCase):
         with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
             editor.wait(lambda s: s["status"] == "certified", "a map")
             editor.key("ctrl+shift+p")
-            editor.type("compare with")
+            editor.type("compare proj")
             editor.key("Return")
             editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
             self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
@@ -355,14 +355,14 @@ class WindowTest(WindowCase):
             editor.wait(lambda s: s["playing"] and s["iterations"] > 2, "the animation")
             editor.wait(lambda s: not s["playing"] and s["iteration"] == s["iterations"] - 1, "its end")
             self.screenshot(editor, "outline")
-            for text, iteration in (("back to the first iter", 0), ("one iteration more", 1)):
+            for text, iteration in (("first iteration", 0), ("next iteration", 1)):
                 editor.key("ctrl+shift+p")
                 editor.type(text)
                 editor.key("Return")
                 editor.wait(lambda s: s["iteration"] == iteration, f"iteration {iteration}")
             self.screenshot(editor, "outline-iteration")
             editor.key("ctrl+shift+p")
-            editor.type("watch the map")
+            editor.type("play iterations")
             editor.key("Return")
             editor.wait(lambda s: s["iteration"] == s["iterations"] - 1, "the end again")
             path = os.path.join(self.work, "outline.json")

@@ -1,4 +1,4 @@
-// Layers in the editor: choosing, locking, hiding, and undo through all of it.
+// Layers in the editor: choosing, locking and hiding them, and undo.
 #include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
@@ -10,7 +10,7 @@ namespace {
 
 const Points kSquare{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
 
-/// Two layers with the same cage; the upper one is edited.
+/// Two layers with the same cage. The upper one is the edited layer.
 struct TwoLayers : TestWorkspace {
   TwoLayers() : TestWorkspace(kSquare) {
     run("layer.double", workspace);
@@ -23,7 +23,7 @@ struct TwoLayers : TestWorkspace {
 
 }  // namespace
 
-TEST_CASE("Edits move the edited layer alone, and undo leads back through both") {
+TEST_CASE("Edits change only the edited layer, and undo goes back through both layers") {
   TwoLayers desk;
   desk.drag({0, 0}, {-20, 0});
   CHECK(desk.corner(1) == Complex(-20, 0));
@@ -43,7 +43,7 @@ TEST_CASE("Edits move the edited layer alone, and undo leads back through both")
   CHECK(desk.corner(1) == Complex(0, 0));
 }
 
-TEST_CASE("Looking through layers is one step of the history") {
+TEST_CASE("Several changes of the edited layer in a row are one step of the history") {
   TwoLayers desk;
   const size_t steps = desk.steps();
   for (int i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("Looking through layers is one step of the history") {
   CHECK_FALSE(desk.workspace.actions.named("layer.above").enabled(desk.workspace));
 }
 
-TEST_CASE("A locked layer refuses edits and says so; the others do not") {
+TEST_CASE("A locked layer refuses edits and says so; other layers accept them") {
   TwoLayers desk;
   run("layer.lock", desk.workspace);
   const Scene before = desk.workspace.document.scene();
@@ -68,7 +68,7 @@ TEST_CASE("A locked layer refuses edits and says so; the others do not") {
   CHECK(desk.workspace.messages.toasts.back().text.find("locked") != std::string::npos);
   run("layer.delete", desk.workspace);
   CHECK(desk.workspace.document.scene().layers.size() == 2);
-  run("layer.down", desk.workspace);  // its place is not its content
+  run("layer.down", desk.workspace);  // moving a locked layer is allowed
   CHECK(desk.workspace.document.scene().edited == 0);
   run("layer.above", desk.workspace);
   desk.settle();
@@ -81,7 +81,7 @@ TEST_CASE("A locked layer refuses edits and says so; the others do not") {
   CHECK(desk.workspace.shown.own().pose.vertex(0) == Complex(-20, 0));
 }
 
-TEST_CASE("Layers are hidden, ordered and deleted by actions, and each undoes") {
+TEST_CASE("Actions hide, reorder and delete layers, and undo reverts each of them") {
   TwoLayers desk;
   const Scene before = desk.workspace.document.scene();
   for (const char* id : {"layer.visible", "layer.lock", "layer.down", "layer.delete",
@@ -96,7 +96,8 @@ TEST_CASE("Layers are hidden, ordered and deleted by actions, and each undoes") 
   CHECK_FALSE(desk.workspace.actions.named("layer.delete").enabled(desk.workspace));
 }
 
-TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
+TEST_CASE(
+    "All layers are shown at the current time, and a layer without keyframes keeps its pose") {
   TwoLayers desk;
   Workspace& w = desk.workspace;
   w.go_to_time(0);
@@ -123,8 +124,8 @@ TEST_CASE("A time shows all layers, and the one without keys keeps its pose") {
   CHECK(desk.workspace.actions.named("time.play").enabled(w));
 }
 
-TEST_CASE("Folds are walked from the worst one on, and around") {
-  // Two corners of the square cross to the other side, one of them farther.
+TEST_CASE("Next fold goes to the worst fold, then to the others, and starts again") {
+  // Two corners of the square cross the opposite side, one of them farther than the other.
   TestWorkspace desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
   Workspace& w = desk.workspace;
   run("view.fold", w);
@@ -146,7 +147,7 @@ TEST_CASE("Folds are walked from the worst one on, and around") {
   }
 }
 
-TEST_CASE("A box around a picture moves all of it, and the view is of where it is") {
+TEST_CASE("A box around a picture moves all of it, and the view follows") {
   TestWorkspace desk(Points{});
   ImageReference reference = reference_in("/nowhere/blank.png");
   const Picture blank{std::make_shared<const Image>(100, 80), "", {}};

@@ -1,4 +1,4 @@
-// The timeline: what is shown at a time, what edits there mean, and how time goes on.
+// The timeline: what is displayed at a time, what edits at a time do, and how time advances.
 #include "edit/timeline.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ void go_to(TestWorkspace& desk, double time) {
   desk.workspace.update_map({});
 }
 
-/// A bar with keys at 0 (at rest) and at 1 s (moved to the right by 40).
+/// A bar with keyframes at 0 (at rest) and at 1 s (moved to the right by 40).
 void set_two_keys(TestWorkspace& desk) {
   act(desk, "time.key");
   desk.workspace.shown.timeline.go_to(1);
@@ -36,20 +36,20 @@ void set_two_keys(TestWorkspace& desk) {
 
 }  // namespace
 
-TEST_CASE("Timeline: keys are set, and the picture between them is shown") {
+TEST_CASE("Timeline: between two keyframes, the blended picture is displayed") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   CHECK(desk.deformation().keyframes.size() == 2);
   CHECK(desk.workspace.shown.timeline.visible);
   go_to(desk, 0.5);
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
-  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);  // its own stays
+  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);  // the scene's own pose stays
   CHECK(desk.workspace.map().map().f[0].real() -
             desk.workspace.map().prepared()->mesh->vertices[0].real() ==
         Approx(20).margin(1e-2));
 }
 
-TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to it") {
+TEST_CASE("Timeline: an edit of the pose leaves the displayed time, and undo returns to it") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.5);
@@ -57,7 +57,7 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   const Complex from = desk.deformation().pose.vertex(2);
   desk.press(from);
   desk.move({380, 170});
-  desk.workspace.update_map({});  // as the window does while it is dragged
+  desk.workspace.update_map({});  // as the window does during a drag
   desk.move({400, 200});
   desk.release({400, 200});
   CHECK_FALSE(desk.workspace.shown.timeline.active);
@@ -66,19 +66,19 @@ TEST_CASE("Timeline: a pose edit at a time leaves the time, undo leads back to i
   CHECK(desk.deformation().keyframes.size() == 2);
   CHECK(desk.steps() == steps + 1);
   go_to(desk, 0.9);
-  CHECK_FALSE(desk.workspace.messages.toasts.empty());  // it has no key
+  CHECK_FALSE(desk.workspace.messages.toasts.empty());  // the pose has no keyframe
   act(desk, "edit.undo");
-  CHECK(desk.workspace.shown.timeline.time == 0.5);  // where it was made
+  CHECK(desk.workspace.shown.timeline.time == 0.5);  // the time of the edit
   CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.deformation().pose.vertex(2).real() == Approx(320).margin(1e-3));
   act(desk, "edit.redo");
-  act(desk, "time.key");  // now it is one
+  act(desk, "time.key");  // stores the pose as a keyframe
   CHECK(desk.deformation().keyframes.size() == 3);
   CHECK(desk.workspace.shown.timeline.active);
   CHECK(std::abs(desk.deformation().keyframes[1].pose.cage.vertex(2) - Complex(400, 200)) < 1e-6);
 }
 
-TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
+TEST_CASE("Timeline: with auto-key, edits of the pose set keyframes") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   act(desk, "time.auto_key");
@@ -89,15 +89,15 @@ TEST_CASE("Timeline: with auto-key edits of the pose set keys") {
   REQUIRE(desk.deformation().keyframes.size() == 3);
   CHECK(desk.deformation().keyframes[1].time == 0.5);
   CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-3);
-  CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(340, 100));  // its own stays
+  CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(340, 100));  // the own pose stays
   act(desk, "edit.undo");
   CHECK(desk.deformation().keyframes.size() == 2);
-  // The time stays shown, and the next edit is one of what is there.
+  // The time is still displayed, so the next edit starts from the pose at this time.
   CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
 }
 
-TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
+TEST_CASE("Timeline: Delete removes the keyframe that was clicked, not points") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
@@ -107,16 +107,16 @@ TEST_CASE("Timeline: Delete takes the key that was clicked, not points") {
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
   CHECK(desk.workspace.shown.own().rest.size() == 4);
   act(desk, "edit.undo");
-  go_to(desk, 0.5);  // another time: nothing is chosen
+  go_to(desk, 0.5);  // at another time, no keyframe is chosen
   CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
 }
 
-TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
+TEST_CASE("Timeline: an edit whose result is the scene's own pose is not lost") {
   for (const bool auto_key : {false, true}) {
     TestWorkspace desk(kBar);
     set_two_keys(desk);
     desk.workspace.shown.timeline.auto_key = auto_key;
-    // The own pose is that of the second key: copied there, pasted onto the first.
+    // The own pose is that of the second keyframe. Copy it there and paste it at the first one.
     go_to(desk, 1);
     act(desk, "time.copy");
     go_to(desk, 0);
@@ -132,7 +132,8 @@ TEST_CASE("Timeline: an edit that ends at the scene's own pose is an edit") {
   }
 }
 
-TEST_CASE("Timeline: while a time's picture is on its way no key is set from another pose") {
+TEST_CASE(
+    "Timeline: while the picture at a time is being prepared, no keyframe gets another pose") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);
@@ -141,7 +142,7 @@ TEST_CASE("Timeline: while a time's picture is on its way no key is set from ano
   CHECK_FALSE(desk.workspace.shown.knows_pose());
   act(desk, "time.key");
   CHECK(desk.workspace.shown.own().keyframes.size() == 2);
-  // Where the time is the same, so are the handles.
+  // At the same time the handles stay known when the method changes.
   desk.settle();
   go_to(desk, 1);
   desk.workspace.commit("Method", with_method(desk.deformation(), "mean_value"));
@@ -149,7 +150,7 @@ TEST_CASE("Timeline: while a time's picture is on its way no key is set from ano
   CHECK(desk.workspace.shown.own().keyframes[1].pose.cage.vertex(0) == Complex(40, 0));
 }
 
-TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
+TEST_CASE("Timeline: a keyframe set during a rotation does not change the rotation") {
   TestWorkspace desk(kBar);
   act(desk, "time.key");
   desk.workspace.shown.timeline.time = 1;
@@ -169,7 +170,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
       act(desk, "time.key");
       REQUIRE(desk.workspace.shown.own().keyframes.size() == 3);
       CHECK(desk.workspace.shown.own().keyframes[1].ease == Ease::linear);
-      INFO(turns << " turns, a key at " << time);
+      INFO(turns << " turns, a keyframe at " << time);
       CHECK(turned(time) == Approx(mid).margin(1e-6));
       CHECK_FALSE(desk.workspace.map().injectivity().folds());
       CHECK(turned(0.9) == Approx(before).margin(1e-6));
@@ -177,7 +178,7 @@ TEST_CASE("Timeline: a key set on a turning way leaves the way as it was") {
     }
 }
 
-TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
+TEST_CASE("Timeline: edits of keyframes do not set poses, even with auto-key") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   act(desk, "time.auto_key");
@@ -203,13 +204,13 @@ TEST_CASE("Timeline: edits of keys are no poses, with auto-key, too") {
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
 }
 
-TEST_CASE("Timeline: two drags of keys are two steps") {
+TEST_CASE("Timeline: two drags of a keyframe are two steps") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   const size_t steps = desk.steps();
   Workspace& w = desk.workspace;
   for (const double time : {1.25, 1.5}) {
-    w.end_mergeable_step();  // as the panel does at a press
+    w.end_mergeable_step();  // as the panel does on a press
     for (const double nearer : {time - 0.125, time})
       w.commit_or_amend("Move key", with_key_moved(w.shown.own(), 1, nearer).first,
                         EditBase::document);
@@ -219,7 +220,7 @@ TEST_CASE("Timeline: two drags of keys are two steps") {
   CHECK(w.shown.own().keyframes[1].time == 1.25);
 }
 
-TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
+TEST_CASE("Timeline: auto-key refuses more keyframes than a file may contain") {
   TestWorkspace desk(kBar);
   Deformation deformation = desk.deformation();
   for (size_t i = 0; i < kMaxKeyframes; ++i)
@@ -235,7 +236,7 @@ TEST_CASE("Timeline: auto-key keeps to what a file may hold") {
   CHECK(desk.workspace.shown.own() == deformation);
 }
 
-TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the time") {
+TEST_CASE("Timeline: edits that do not change the pose keep the scene's own pose and the time") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.25);
@@ -243,7 +244,7 @@ TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the ti
   desk.workspace.commit("Method", other);
   CHECK(desk.workspace.shown.timeline.active);
   CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);
-  // An inserted point goes into all keyframes; the own pose is then the shown one.
+  // A point is inserted in all keyframes, and the displayed pose becomes the scene's own pose.
   desk.settle();
   desk.workspace.update_map({});
   desk.workspace.commit("Insert", inserted(desk.deformation(), 0, 0.5));
@@ -252,7 +253,7 @@ TEST_CASE("Timeline: what is no pose edit leaves the scene's own pose and the ti
   CHECK(desk.workspace.shown.own().pose.vertex(0).real() == Approx(6.25).margin(0.01));
 }
 
-TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture is there") {
+TEST_CASE("Timeline: a pin set at a time gets the position of its image in every keyframe") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
@@ -265,7 +266,7 @@ TEST_CASE("Timeline: a pin set at a time is in every keyframe where the picture 
   CHECK(std::abs(deformation.keyframes[1].pose.pins[0].position - Complex(190, 50)) < 0.1);
 }
 
-TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the picture is there") {
+TEST_CASE("Timeline: a stroke drawn at a time gets the position of its image in every keyframe") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 1);
@@ -282,7 +283,7 @@ TEST_CASE("Timeline: a stroke drawn at a time is in every keyframe where the pic
     CHECK(std::abs(second[i] - first[i] - Complex(40, 0)) < 0.1);
 }
 
-TEST_CASE("Timeline: the onion skin is the keys before and after") {
+TEST_CASE("Timeline: the onion skin shows the keyframes before and after") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.5);
@@ -293,7 +294,7 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
   const double rest = desk.workspace.map().prepared()->mesh->vertices[0].real();
   CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
   CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
-  // The own pose is compared with the keys as they are now.
+  // With the own pose on display, the onion skin shows the current keyframes.
   Deformation deformation = desk.workspace.shown.own();
   for (Points& segment : deformation.keyframes[1].pose.cage.segments) segment[0] += 7.0;
   desk.workspace.commit("Key", deformation, EditBase::document);
@@ -313,9 +314,9 @@ TEST_CASE("Timeline: the onion skin is the keys before and after") {
 
 namespace {
 
-using Way = Complex (*)(double seconds);
+using MotionPath = Complex (*)(double seconds);
 
-/// Half a circle from (300, 100) in two seconds; the same way straight.
+/// Half a circle from (300, 100) in two seconds, and a straight path from the same point.
 Complex on_arc(double seconds) {
   return Complex(250, 100) + std::polar(50.0, kPi / 2 * seconds);
 }
@@ -323,24 +324,24 @@ Complex straight(double seconds) {
   return Complex(300, 100) + seconds * Complex(150, 40);
 }
 
-/// Two seconds with Ctrl, sixty times a second.
-void record(TestWorkspace& desk, Way way = on_arc) {
+/// A Ctrl-drag of two seconds with sixty frames per second.
+void record(TestWorkspace& desk, MotionPath path = on_arc) {
   constexpr Modifiers kCtrl{true, false, false};
   desk.now_ms = 5000;
-  desk.press(way(0), kCtrl);
-  desk.move(way(0) + Complex(0, 4), kCtrl);  // the clock starts
+  desk.press(path(0), kCtrl);
+  desk.move(path(0) + Complex(0, 4), kCtrl);  // the clock starts
   for (int i = 1; i <= 120; ++i) {
     desk.now_ms = 5000 + 1000.0 / 60 * i;
-    desk.move(way(i / 60.0), kCtrl);
+    desk.move(path(i / 60.0), kCtrl);
     desk.workspace.update_map({});
   }
-  desk.release(way(2), kCtrl);
+  desk.release(path(2), kCtrl);
   desk.workspace.update_map({});
 }
 
 }  // namespace
 
-TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs") {
+TEST_CASE("Timeline: a Ctrl-drag records motion in few keyframes") {
   TestWorkspace desk(kBar);
   const size_t steps = desk.steps();
   record(desk);
@@ -350,7 +351,7 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
   CHECK(deformation.keyframes.size() <= 15);
   CHECK(deformation.keyframes.front().time == 0);
   CHECK(length_of(desk.workspace.document.scene()) == 2);
-  CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // its own pose stays
+  CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // the own pose stays
   CHECK(desk.workspace.shown.timeline.active);
   for (const double time : {0.3, 0.77, 1.31, 1.9}) {
     go_to(desk, time);
@@ -361,7 +362,7 @@ TEST_CASE("Timeline: a drag with Ctrl records motion in as few keys as it needs"
   CHECK(desk.workspace.shown.own().keyframes.empty());
 }
 
-TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
+TEST_CASE("Timeline: a straight motion is recorded as it was drawn") {
   TestWorkspace desk(kBar);
   record(desk, straight);
   CHECK(desk.workspace.shown.own().keyframes.size() <= 10);
@@ -373,7 +374,7 @@ TEST_CASE("Timeline: a straight way is recorded as it was drawn") {
   CHECK(length_of(desk.workspace.document.scene()) == 2);
 }
 
-TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of others") {
+TEST_CASE("Timeline: a recording keeps keyframes that do not play, and the whole turns of others") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();
@@ -399,7 +400,7 @@ TEST_CASE("Timeline: a recording leaves keys that do not play, and the turns of 
   CHECK(desk.workspace.map().motion().rotation_at(3) == Approx(2 * kPi).margin(0.05));
 }
 
-TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
+TEST_CASE("Timeline: tangents that do not exist in all keyframes are not recorded") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();
@@ -422,7 +423,7 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
   CHECK(desk.steps() == steps);
   CHECK_FALSE(desk.workspace.shown.timeline.recording);
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
-  // Its vertex is, and takes the tangents along that there are.
+  // Its vertex is recorded and moves the tangents that exist.
   desk.workspace.selection.clear();
   const Complex vertex = desk.deformation().pose.vertex(0);
   desk.press(vertex, kCtrl);
@@ -436,7 +437,7 @@ TEST_CASE("Timeline: tangents that are none at other times are not recorded") {
         Approx(vertex.real() - 30).margin(1));
 }
 
-TEST_CASE("Timeline: another document opened during a recording keeps its time") {
+TEST_CASE("Timeline: a document that is opened during a recording keeps its own time") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.75);
@@ -450,10 +451,10 @@ TEST_CASE("Timeline: another document opened during a recording keeps its time")
   CHECK_FALSE(desk.workspace.shown.timeline.recording);
 }
 
-TEST_CASE("Timeline: what moves already goes on under a recording") {
+TEST_CASE("Timeline: existing motion continues during a recording") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
-  act(desk, "edit.reset");  // from the deformation's own pose, too
+  act(desk, "edit.reset");  // the recording starts from the own pose
   CHECK_FALSE(desk.workspace.shown.timeline.active);
   desk.workspace.shown.timeline.time = 0;
   record(desk);
@@ -468,7 +469,7 @@ TEST_CASE("Timeline: what moves already goes on under a recording") {
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(2));
 }
 
-TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing") {
+TEST_CASE("Timeline: Escape cancels a recording, and a Ctrl-click records nothing") {
   TestWorkspace desk(kBar);
   constexpr Modifiers kCtrl{true, false, false};
   const size_t steps = desk.steps();
@@ -489,7 +490,7 @@ TEST_CASE("Timeline: Escape drops a recording, a click with Ctrl records nothing
   CHECK(is_smooth(desk.deformation(), 2, EditMode::pose));
 }
 
-TEST_CASE("Timeline: time goes on, loops, and stops at the end") {
+TEST_CASE("Timeline: time advances, loops, and stops at the end") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   Timeline& timeline = desk.workspace.shown.timeline;
@@ -508,7 +509,7 @@ TEST_CASE("Timeline: time goes on, loops, and stops at the end") {
   CHECK_FALSE(advance(timeline, scene, 4100));
 }
 
-TEST_CASE("Timeline: steps by frames and keys") {
+TEST_CASE("Timeline: steps by frames and keyframes") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);

@@ -33,7 +33,7 @@ void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
         *outline = outline_of_file(surface.file, 0, onto, how);
       },
       [&workspace, label, outline, surface] {
-        take_outline(workspace, label, std::move(*outline), surface);
+        set_outline(workspace, label, std::move(*outline), surface);
       });
 }
 

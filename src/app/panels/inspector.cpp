@@ -119,7 +119,7 @@ void method_section(Workspace& workspace) {
 /// A corner's own angles, and the tension of the edge behind it.
 void corner_angles(Workspace& workspace, Index vertex) {
   const Deformation deformation = workspace.shown.deformation();
-  if (!serves(deformation, MethodUse::corners) || workspace.mode == EditMode::rest) return;
+  if (!has_method_for(deformation, MethodUse::corners) || workspace.mode == EditMode::rest) return;
   if (!is_corner(deformation, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
   const PoseCorner pose = corner_at(deformation, vertex);
   const double turn = (pose.before + pose.after) / 2, opening = corner_opening(deformation, vertex);

@@ -72,7 +72,8 @@ class HarmonicCoordinates final : public RealCoordinates {
     const Polyline::Nearest near = edge_.nearest(z);
     const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.locations.size();
     const auto& [segment, from] = flat_.locations[i];
-    const double to = flat_.locations[next].segment == segment && next > 0 ? flat_.locations[next].t : 1;
+    const double to =
+        flat_.locations[next].segment == segment && next > 0 ? flat_.locations[next].t : 1;
     return {segment, from + near.parameter * (to - from)};
   }
 

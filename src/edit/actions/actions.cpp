@@ -1,5 +1,5 @@
-// The rows come from one file for each menu. Each row is a sentence: what it is called, when it is
-// enabled, what it does.
+// The rows come from one file per menu. Each row says what the action is called, when it is enabled
+// and what it does.
 #include "edit/actions/actions.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ ActionTable::ActionTable() {
 
 const Action& ActionTable::named(const std::string& id) const {
   const auto found = std::ranges::find(rows_, id, &Action::id);
-  check(found != rows_.end(), "the table of actions has the id that is asked for");
+  check(found != rows_.end(), "the table of actions has a row with the requested id");
   return *found;
 }
 
@@ -71,7 +71,7 @@ std::vector<std::string> ActionTable::use_keys(const KeyNames& changes) {
         unknown.push_back(name);
     known.push_back({id, std::move(keys)});
   }
-  // A change is deliberate: a key that the table gives to another action is removed there.
+  // The user's choice wins: a changed key is removed from the action that has it by default.
   for (const auto& [id, keys] : known)
     if (named(id).keys != keys) set_keys(id, keys);
   return unknown;

@@ -1,4 +1,4 @@
-// The one table of actions: menus, toolbar, tooltips, keys, help and tests all read it.
+// The table of actions. Menus, toolbar, tooltips, keys, help and tests all read it.
 #pragma once
 
 #include "edit/input.h"
@@ -8,46 +8,47 @@ namespace holomorph {
 
 struct Workspace;
 
-/// A row of the table. Rows name their fields; what is missing has the default.
+/// A row of the table. Rows name the fields that they set; the others keep their defaults.
 struct Action {
   std::string id, label;
-  const char* hint = "";  ///< what it does, where the label does not say all of it
-  const char* icon = "";  ///< a glyph of the icon font
-  const char* menu = "";  ///< the menu that lists it
+  const char* hint = "";  ///< for the tooltip; empty where the label says everything
+  const char* icon = "";  ///< a glyph of the icon font; empty: none
+  const char* menu = "";  ///< the menu that lists the action; empty: none
   std::vector<Shortcut> keys = {};
   bool (*enabled)(const Workspace&) = nullptr;
-  void (*run)(Workspace&) = nullptr;            ///< null for what a key does while it is held
-  bool (*checked)(const Workspace&) = nullptr;  ///< for what can be on or off
-  bool during_gesture = false;                  ///< its keys also act while a tool is in use
+  void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
+  bool (*checked)(const Workspace&) = nullptr;  ///< for actions that can be on or off, else null
+  bool during_gesture = false;                  ///< its keys also act during a tool's gesture
 };
 
-/// The rows in menu order, with the keys in use: those that the program was built with, and the
-/// user's changes to them. A value that a workspace owns.
+/// The rows in menu order with their current keys: the built-in keys and the user's changes. Value
+/// type, owned by a workspace.
 class ActionTable {
  public:
-  /// With the built-in keys.
+  /// The table with the built-in keys.
   ActionTable();
 
   const std::vector<Action>& rows() const { return rows_; }
-  /// The action of this id; it must exist.
+  /// The action with this id, which must exist.
   const Action& named(const std::string& id) const;
-  /// The enabled action that a key press runs; null without one.
+  /// The enabled action that a key press runs; null if there is none.
   const Action* for_key(const Shortcut& key, const Workspace& workspace) const;
-  /// The action that has a key, whether it is enabled or not; null without one.
+  /// The action that has this key, enabled or not; null if there is none.
   const Action* owner_of(const Shortcut& key) const;
-  /// How a sentence names an action: by its key, or by its label in quotes where it has none.
+  /// The name of an action in a message: its first key, or its label in quotes if it has no key.
   std::string key_of(const std::string& id) const;
 
-  /// Gives all actions their built-in keys except for these changes. Changes that name no action or
-  /// no key are left out and returned.
+  /// Resets all keys to the built-in ones and applies these changes. Skips names that are not the
+  /// id of an action or not a key, and returns them.
   std::vector<std::string> use_keys(const KeyNames& changes);
-  /// The keys that differ from the built-in ones, and all of them.
+  /// The keys of the actions whose keys differ from the built-in ones.
   KeyNames changed_keys() const;
+  /// The keys of all actions.
   KeyNames all_keys() const;
-  /// Gives an action exactly these keys and removes them from all others. Returns the labels of
-  /// those that lost one.
+  /// Sets the keys of an action and removes these keys from all other actions. Returns the labels
+  /// of the actions that lost a key.
   std::vector<std::string> set_keys(const std::string& id, const std::vector<Shortcut>& keys);
-  /// Gives an action its built-in keys again; the same otherwise.
+  /// Resets the keys of an action to the built-in ones, as by set_keys.
   std::vector<std::string> reset_keys(const std::string& id);
   bool has_own_keys(const Action& action) const { return action.keys != built_in(action.id); }
 
@@ -57,11 +58,11 @@ class ActionTable {
   std::vector<Action> rows_, as_built_;
 };
 
-/// Runs an enabled action; an Error becomes a toast.
+/// Runs an action if it is enabled. An Error becomes a toast.
 void run(const Action& action, Workspace& workspace);
-/// The same for the action of this id.
+/// Runs the action with this id in the same way.
 void run(const std::string& id, Workspace& workspace);
-/// "Undo (Ctrl+Z)".
+/// The label and the first key, such as "Undo (Ctrl+Z)".
 std::string label_with_keys(const Action& action);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Menu Cage: the cage, and what the method does with it.
+// Menu Cage: actions on the cage and on the map that it controls.
 #include "edit/actions/groups.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
@@ -33,20 +33,20 @@ void make_cage(Workspace& w) {
       });
 }
 
-/// A cage that leaves the picture its shape: its box moves, scales and turns it.
+/// Makes the picture's rectangle the cage and selects all its points: the box around the selection
+/// then moves, scales and rotates the whole picture.
 void make_box(Workspace& w) {
   const Image& image = *w.document.image();
   const double width = image.width, height = image.height;
   const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  if (!w.commit("Box around the picture", with_cage(w.shown.own(), corners), EditBase::document))
-    return;
+  if (!w.commit("Place picture", with_cage(w.shown.own(), corners), EditBase::document)) return;
   w.mode = EditMode::pose;
   w.tools.active = ToolId::select;
   const std::vector<Handle> all = handles_of(w.shown.deformation(), w.mode);
   w.selection = Selection(all.begin(), all.end());
 }
 
-void switch_posture(Workspace& w) {
+void switch_mode(Workspace& w) {
   w.mode = w.mode == EditMode::pose ? EditMode::rest : EditMode::pose;
   w.prune_selection();
 }
@@ -65,6 +65,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "cage.from_picture",
           .label = "Make from picture",
+          .hint = "Fit a cage to the outline of the picture",
           .icon = kMagic,
           .menu = "Cage",
           .enabled = has_image,
@@ -72,7 +73,8 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "cage.box",
-          .label = "Box around the picture, to move and scale it",
+          .label = "Place",
+          .hint = "Put a box around the picture, to move, scale and rotate it",
           .icon = kMove,
           .menu = "Cage",
           .enabled = has_image,
@@ -80,16 +82,18 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "cage.rest",
-          .label = "Show and edit the rest shape",
+          .label = "Edit rest shape",
+          .hint = "The pose stays while you edit the rest shape",
           .menu = "Cage",
           .keys = {Key::tab},
           .enabled = has_cage,
-          .run = switch_posture,
+          .run = switch_mode,
           .checked = [](const Workspace& w) { return w.mode == EditMode::rest; },
       },
       {
           .id = "cage.corner",
-          .label = "Smooth point or corner",
+          .label = "Smooth or corner",
+          .hint = "Make the selected points smooth, or corners if all are smooth",
           .menu = "Cage",
           .keys = {'C'},
           .enabled = has_cage_selection,
@@ -97,17 +101,19 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "cage.all_corners",
-          .label = "All points are corners with angles",
+          .label = "All points as corners",
+          .hint = "Turn and open every point with the tool Angles",
           .menu = "Cage",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
           .run =
               [](Workspace& w) {
-                w.commit("All corners", with_all_corners(w.shown.deformation()));
+                w.commit("All points as corners", with_all_corners(w.shown.deformation()));
               },
       },
       {
           .id = "cage.bake",
-          .label = "Pose the cage as the pins do",
+          .label = "Apply pins to cage",
+          .hint = "Pose the cage as the pins do, and switch to the method Cage",
           .menu = "Cage",
           .enabled =
               [](const Workspace& w) {
@@ -115,11 +121,12 @@ std::vector<Action> cage_actions() {
                        method_named(w.shown.deformation().method).uses_pins &&
                        !w.shown.deformation().pins.empty();
               },
-          .run = [](Workspace& w) { w.commit("Pose by pins", baked(w.shown.deformation())); },
+          .run = [](Workspace& w) { w.commit("Apply pins to cage", baked(w.shown.deformation())); },
       },
       {
           .id = "cage.raise",
-          .label = "Raise the curves' degree",
+          .label = "Raise degree",
+          .hint = "For the selected curves, or for all; they keep their shape",
           .menu = "Cage",
           .enabled = has_cage,
           .run =
@@ -129,7 +136,8 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "cage.lower",
-          .label = "Lower the curves' degree",
+          .label = "Lower degree",
+          .hint = "Fit curves of lower degree to the selected ones, or to all",
           .menu = "Cage",
           .enabled = has_cage,
           .run =
@@ -140,13 +148,15 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.fold_free",
           .label = "Make it fold-free",
+          .hint = "Switch to No folds, which follows the current method",
           .menu = "Cage",
           .enabled = [](const Workspace& w) { return has_cage(w) && !is_bounded(w); },
           .run = [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); },
       },
       {
           .id = "map.play",
-          .label = "Watch the map converge",
+          .label = "Play iterations",
+          .hint = "Watch the map converge",
           .menu = "Cage",
           .enabled = converges,
           .run =
@@ -159,7 +169,7 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "map.step",
-          .label = "One iteration more",
+          .label = "Next iteration",
           .menu = "Cage",
           .enabled = [](const Workspace& w) { return converges(w) && w.playback.iteration; },
           .run =
@@ -172,7 +182,7 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "map.restart",
-          .label = "Back to the first iteration",
+          .label = "First iteration",
           .menu = "Cage",
           .enabled = converges,
           .run = [](Workspace& w) { w.playback = {0}; },

@@ -13,7 +13,7 @@ bool chosen(const Workspace& w) {
   return w.tools.active == tool;
 }
 
-/// Arrow keys.
+/// Moves the selection by (dx, dy) times `tenths` tenths of a pixel of the picture.
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
@@ -24,14 +24,15 @@ void nudge(Workspace& w) {
 }
 
 template <int up, int down>
-void reach(Workspace& w) {
+void scale_radius(Workspace& w) {
   if (w.tools.active == ToolId::brush) {
     w.tools.brush_radius =
         std::clamp(w.tools.brush_radius * up / down, kMinBrushRadius, kMaxBrushRadius);
     return;
   }
   w.tools.drag.soft = true;
-  w.tools.drag.reach = std::clamp(w.tools.drag.reach * up / down, kLeastReach, kMostReach);
+  w.tools.drag.reach =
+      std::clamp(w.tools.drag.reach * up / down, kMinReach, kMaxReach);
 }
 
 void select_all(Workspace& w) {
@@ -63,7 +64,7 @@ void free_pin_angles(Workspace& w) {
   Deformation deformation = w.shown.deformation();
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::pin) deformation.pins[handle.index].angle.reset();
-  w.commit("Free pin angle", std::move(deformation));
+  w.commit("Free rotation", std::move(deformation));
 }
 
 bool has_turned_pin(const Workspace& w) {
@@ -87,7 +88,7 @@ void redo(Workspace& w) {
   w.go_to(w.document.history().index() + 1);
 }
 
-/// Arrow keys in one direction: by 1, with Shift by 10, with Ctrl by 0.1.
+/// Adds the nudges of one arrow key: by 1, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
 void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
   const auto add = [&](const char* id, const char* by, Modifiers mods, void (*run)(Workspace&)) {
@@ -125,7 +126,7 @@ void change_depth(Workspace& w) {
       int& depth = deformation.pins[static_cast<size_t>(handle.index)].depth;
       depth = std::clamp(depth + by, -kMaxDepth, kMaxDepth);
     }
-  w.commit_or_amend(by > 0 ? "Pin up" : "Pin down", std::move(deformation));
+  w.commit_or_amend(by > 0 ? "Bring pin forward" : "Send pin back", std::move(deformation));
 }
 
 }  // namespace
@@ -168,7 +169,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.delete",
-          .label = "Delete selection",
+          .label = "Delete",
+          .hint = "Delete the selected points, pins, strokes or keyframe",
           .icon = kTrash,
           .menu = "Edit",
           .keys = {Key::del, Key::backspace},
@@ -177,7 +179,9 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.delete_plain",
-          .label = "Delete, keep the neighbours' tangents",
+          .label = "Delete, keep tangents",
+          .hint =
+              "Delete points without fitting the curve again; the neighbors keep their tangents",
           .menu = "Edit",
           .keys = {{Key::del, kShift}},
           .enabled = has_selection,
@@ -185,7 +189,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.soft",
-          .label = "Soft selection: drags take what is near along",
+          .label = "Soft selection",
+          .hint = "Nearby points follow a drag, less the farther away they are",
           .icon = kSoft,
           .menu = "Edit",
           .keys = {'O'},
@@ -195,23 +200,26 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.soft_less",
-          .label = "Softness, or the brush, reaches less far",
+          .label = "Smaller radius",
+          .hint = "Shrink the brush, or the radius of soft selection",
           .menu = "Edit",
           .keys = {'['},
           .enabled = has_cage,
-          .run = reach<4, 5>,
+          .run = scale_radius<4, 5>,
       },
       {
           .id = "edit.soft_more",
-          .label = "Softness, or the brush, reaches farther",
+          .label = "Larger radius",
+          .hint = "Enlarge the brush, or the radius of soft selection",
           .menu = "Edit",
           .keys = {']'},
           .enabled = has_cage,
-          .run = reach<5, 4>,
+          .run = scale_radius<5, 4>,
       },
       {
           .id = "edit.symmetry",
-          .label = "Symmetry: the other side goes along, mirrored",
+          .label = "Symmetry",
+          .hint = "The counterpart on the other side makes the mirrored move",
           .icon = kSymmetry,
           .menu = "Edit",
           .keys = {'X'},
@@ -221,7 +229,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.snap",
-          .label = "Snap: drags stop where things line up",
+          .label = "Snap",
+          .hint = "Dragged points stop where they line up",
           .icon = kSnap,
           .menu = "Edit",
           .keys = {'G'},
@@ -232,6 +241,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.reset",
           .label = "Reset to rest",
+          .hint = "Reset the selection, or everything when nothing is selected",
           .icon = kReset,
           .menu = "Edit",
           .keys = {'R'},
@@ -240,7 +250,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.remove_stiffness",
-          .label = "Remove the painted stiffness",
+          .label = "Remove stiffness",
+          .hint = "Clear everything that the brush painted",
           .menu = "Edit",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().stiffness.empty(); },
           .run =
@@ -252,7 +263,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.remove_outline",
-          .label = "Remove the outline",
+          .label = "Remove outline",
+          .hint = "Return to the cage and pins",
           .menu = "Edit",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().outline.empty(); },
           .run =
@@ -267,7 +279,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.pin_up",
-          .label = "Pin up: what is around it over the rest",
+          .label = "Bring pin forward",
+          .hint = "Draw the parts near the pin over other parts",
           .menu = "Edit",
           .keys = {{Key::page_up, kShift}},
           .enabled = has_pin,
@@ -275,7 +288,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.pin_down",
-          .label = "Pin down: what is around it under the rest",
+          .label = "Send pin back",
+          .hint = "Draw the parts near the pin under other parts",
           .menu = "Edit",
           .keys = {{Key::page_down, kShift}},
           .enabled = has_pin,
@@ -283,7 +297,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "edit.free_angle",
-          .label = "Let pin turn freely",
+          .label = "Free rotation",
+          .hint = "The selected pins leave rotation and scale free",
           .menu = "Edit",
           .enabled = has_turned_pin,
           .run = free_pin_angles,
@@ -300,7 +315,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "tool.pen",
-          .label = "Pen: draw a cage, insert points",
+          .label = "Pen",
+          .hint = "Draw a cage, or insert points into it",
           .icon = kPen,
           .menu = "Tools",
           .keys = {'P'},
@@ -311,6 +327,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "tool.pin",
           .label = "Pin",
+          .hint = "Set pins and drag them",
           .icon = kPin,
           .menu = "Tools",
           .keys = {'N'},
@@ -320,7 +337,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "tool.stroke",
-          .label = "Stroke: draw lines on the picture and reshape them",
+          .label = "Stroke",
+          .hint = "Draw lines on the picture and reshape them",
           .icon = kStroke,
           .menu = "Tools",
           .keys = {'S'},
@@ -330,7 +348,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "tool.outline",
-          .label = "Outline: draw the shape that the picture goes onto",
+          .label = "Outline",
+          .hint = "Draw the shape that the cage takes",
           .icon = kOutline,
           .menu = "Tools",
           .keys = {'U'},
@@ -340,7 +359,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "tool.angle",
-          .label = "Angles: turn corners, open and shut them",
+          .label = "Angles",
+          .hint = "Turn corners, and open or close them",
           .icon = kAngle,
           .menu = "Tools",
           .keys = {'A'},
@@ -350,7 +370,8 @@ std::vector<Action> edit_actions() {
       },
       {
           .id = "tool.brush",
-          .label = "Stiffness: paint what keeps its shape",
+          .label = "Stiffness brush",
+          .hint = "Paint parts that keep their shape",
           .icon = kShield,
           .menu = "Tools",
           .keys = {'B'},

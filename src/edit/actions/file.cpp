@@ -1,4 +1,4 @@
-// Menu File: what the window is asked for.
+// Menu File, and copy and paste of pictures. The window carries out all of these requests.
 #include "edit/actions/groups.h"
 
 namespace holomorph {
@@ -49,7 +49,8 @@ std::vector<Action> file_actions() {
       },
       {
           .id = "file.find_picture",
-          .label = "Find a missing picture...",
+          .label = "Find missing picture...",
+          .hint = "Pictures that moved to the same folder are found with it",
           .icon = kSearch,
           .menu = "File",
           .enabled =
@@ -68,6 +69,7 @@ std::vector<Action> file_actions() {
       {
           .id = "file.export_again",
           .label = "Export again",
+          .hint = "Use the settings of the last export",
           .menu = "File",
           .keys = {{'E', kCtrlShift}},
           .enabled = has_content,
@@ -75,7 +77,8 @@ std::vector<Action> file_actions() {
       },
       {
           .id = "file.copy_picture",
-          .label = "Copy the picture as shown",
+          .label = "Copy picture",
+          .hint = "Copy the picture as it is shown",
           .menu = "Edit",
           .keys = {{'C', kCtrlAlt}},
           .enabled = has_content,
@@ -83,7 +86,8 @@ std::vector<Action> file_actions() {
       },
       {
           .id = "file.paste_picture",
-          .label = "Paste a picture as a layer",
+          .label = "Paste picture",
+          .hint = "Add the picture on the clipboard as a layer",
           .menu = "Edit",
           .keys = {{'V', kCtrlAlt}},
           .enabled = always,
@@ -92,13 +96,16 @@ std::vector<Action> file_actions() {
       {
           .id = "file.import_cage",
           .label = "Cage from SVG...",
+          .hint = "Use the path with the id \"rest\", or else the first",
           .menu = "File",
           .enabled = always,
           .run = ask<Request::import_cage>,
       },
       {
           .id = "file.import_outline",
-          .label = "Outline from SVG, picture or OBJ...",
+          .label = "Outline from file...",
+          .hint =
+              "Use an SVG path, the opaque part of a picture, or the boundary of an OBJ surface",
           .menu = "File",
           .enabled = has_cage,
           .run = ask<Request::import_outline>,
@@ -106,13 +113,15 @@ std::vector<Action> file_actions() {
       {
           .id = "file.import_pose",
           .label = "Posed cage from SVG...",
+          .hint = "Use the path with the id \"pose\", or else the first",
           .menu = "File",
           .enabled = has_cage,
           .run = ask<Request::import_pose>,
       },
       {
           .id = "file.export_film",
-          .label = "Export film of the keyframes...",
+          .label = "Export film...",
+          .hint = "Write the animation of the keyframes",
           .menu = "File",
           .enabled = plays,
           .run = ask<Request::export_film>,
@@ -120,6 +129,7 @@ std::vector<Action> file_actions() {
       {
           .id = "file.export_svg",
           .label = "Export cage as SVG...",
+          .hint = "Write the rest shape and the pose",
           .menu = "File",
           .enabled = has_cage,
           .run = ask<Request::export_svg>,
@@ -127,6 +137,7 @@ std::vector<Action> file_actions() {
       {
           .id = "file.export_surface",
           .label = "Export textured surface...",
+          .hint = "Write an OBJ surface with texture coordinates, a material and the picture",
           .menu = "File",
           .enabled = has_surface,
           .run = ask<Request::export_surface>,

@@ -1,4 +1,4 @@
-// What the files of the action table share.
+// Declarations that the files of the action table share.
 #pragma once
 
 #include "edit/actions/actions.h"
@@ -12,7 +12,7 @@ std::vector<Action> cage_actions();
 std::vector<Action> layer_actions();
 std::vector<Action> time_actions();
 std::vector<Action> view_actions();
-/// What keys do while they are held; the window asks for them.
+/// Actions that last while a key is held. They have no `run`: the window checks their keys.
 std::vector<Action> held_actions();
 
 inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false},

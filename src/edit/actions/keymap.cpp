@@ -1,4 +1,4 @@
-// What the keys window and its export say.
+// The texts of the keys window and of its export.
 #include "edit/actions/keymap.h"
 
 #include <algorithm>
@@ -19,35 +19,37 @@ std::string keys_text(const Action& action) {
 
 const std::vector<Gesture>& gestures() {
   static const std::vector<Gesture> all{
-      {"Drag a point or pin", "move it; Shift keeps the axis"},
-      {"Drag on empty canvas", "select with a box; Shift adds"},
+      {"Drag a point or pin", "move it; with Shift, along one axis"},
+      {"Drag on empty canvas", "select with a box; with Shift, add to the selection"},
       {"Double-click an edge", "insert a cage point"},
-      {"Alt-click a point or pin", "delete it"},
-      {"Drag the box of what is selected",
-       "inside it moves, its grips scale, the knob turns; Shift free or 15 degrees, Alt from the "
-       "middle"},
-      {"Ctrl-drag points, pins, strokes", "record their motion as keyframes, by the clock"},
-      {"Ctrl-click a cage point", "smooth or corner; drag its tangents, Alt breaks them"},
-      {"Drag the ring of a selected pin", "turn the picture around it; Shift: 15 degree steps"},
+      {"Alt-click a point, pin or stroke", "delete it"},
+      {"Drag the box around the selection",
+       "inside, move; a grip, scale; the knob, rotate. With Shift, scale freely or rotate in steps "
+       "of 15 degrees; with Alt, scale about the middle"},
+      {"Ctrl-drag points, pins or strokes", "record their motion in real time as keyframes"},
+      {"Ctrl-click a cage point",
+       "make it smooth or a corner; drag its tangents to bend the curve, with Alt one at a time"},
+      {"Drag the ring of a selected pin",
+       "rotate the picture around it; with Shift, in steps of 15 degrees"},
       {"Wheel on the ring", "scale the picture around the pin"},
-      {"Drag a stroke", "move it; at an end, or with Ctrl, bend it"},
-      {"Shift-drag with a stroke selected", "draw its new place"},
-      {"Drag the outline (outline tool)", "bend it; with Ctrl move all of it"},
+      {"Drag a stroke", "move it; at an end or with Ctrl, bend it"},
+      {"Shift-drag with a stroke selected", "draw the stroke again"},
+      {"Drag the outline (outline tool)", "bend it; with Ctrl, move all of it"},
       {"Drag a corner's ring or arm (angle tool)",
-       "turn it; open or shut it; Shift: 15 degree steps"},
-      {"Drag an edge (angle tool)", "let it bend, or keep it straight"},
-      {"Drag on the timeline", "go to a time; move a key, Alt between frames"},
-      {"Middle drag, Space-drag", "pan"},
-      {"Wheel", "zoom at the cursor"},
-      {"Right click", "menu of what is under the cursor"},
+       "turn the corner, or open and close it; with Shift, in steps of 15 degrees"},
+      {"Drag an edge (angle tool)", "downward, let it bend; upward, keep it straight"},
+      {"Drag on the timeline", "go to a time, or move a keyframe; with Alt, between frames"},
+      {"Drag with the middle button or Space", "pan"},
+      {"Wheel", "zoom at the pointer"},
+      {"Right-click", "open the menu of what is under the pointer"},
       {"Ctrl-click a number field", "type into it"},
-      {"Enter, Backspace, Esc", "while drawing: close, take a point back, cancel"}};
+      {"Enter, Backspace, Esc", "while drawing: close the shape, take a point back, cancel"}};
   return all;
 }
 
 namespace {
 
-/// As code, a bar being no border of the table.
+/// The text as code, with bars escaped so that they do not end the cell.
 std::string table_cell(const std::string& text) {
   std::string cell = "`";
   for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);

@@ -1,14 +1,15 @@
-// Keys and mouse gestures in words.
+// Texts that describe keys and mouse gestures.
 #pragma once
 
 #include "edit/actions/actions.h"
 
 namespace holomorph {
 
-/// "Ctrl+Shift+Z, Ctrl+Y"; signs that are reached with and without Shift are named once.
+/// The keys of an action, such as "Ctrl+Shift+Z, Ctrl+Y". A sign that is bound both with and
+/// without Shift is listed once.
 std::string keys_text(const Action& action);
 
-/// A mouse gesture in words: what to do, and what it does.
+/// A mouse gesture: what the user does, and its effect.
 struct Gesture {
   const char *what, *does;
 };

@@ -1,4 +1,4 @@
-// Menu Layer: pictures above each other, and what is behind them.
+// Menu Layer: the stack of pictures, and the background behind it.
 #include "edit/actions/groups.h"
 
 namespace holomorph {
@@ -8,21 +8,21 @@ bool has_others(const Workspace& w) {
   return w.document.scene().layers.size() > 1;
 }
 template <int by>
-bool has_neighbour(const Workspace& w) {
+bool has_neighbor(const Workspace& w) {
   const Scene& scene = w.document.scene();
   return by > 0 ? scene.edited + 1 < scene.layers.size() : scene.edited > 0;
 }
-size_t neighbour(const Workspace& w, int by) {
+size_t neighbor(const Workspace& w, int by) {
   return w.document.scene().edited + static_cast<size_t>(by);
 }
 template <int by>
 void choose(Workspace& w) {
-  w.choose_layer(neighbour(w, by));
+  w.choose_layer(neighbor(w, by));
 }
 template <int by>
 void move(Workspace& w) {
-  w.commit_layers(by > 0 ? "Layer up" : "Layer down",
-                  with_layer_moved(w.document.scene(), neighbour(w, by)));
+  w.commit_layers(by > 0 ? "Move layer up" : "Move layer down",
+                  with_layer_moved(w.document.scene(), neighbor(w, by)));
 }
 
 void show_layer(Workspace& w) {
@@ -60,7 +60,8 @@ std::vector<Action> layer_actions() {
   return {
       {
           .id = "layer.add",
-          .label = "Add a picture as a layer...",
+          .label = "Add picture...",
+          .hint = "Add a picture as a layer",
           .icon = kAdd,
           .menu = "Layer",
           .enabled = has_content,
@@ -68,7 +69,8 @@ std::vector<Action> layer_actions() {
       },
       {
           .id = "layer.replace",
-          .label = "Replace the picture, keep the rest...",
+          .label = "Replace picture...",
+          .hint = "Keep the cage, pins and keyframes",
           .menu = "Layer",
           .enabled = has_content,
           .run = ask<Request::replace_picture>,
@@ -110,41 +112,42 @@ std::vector<Action> layer_actions() {
       },
       {
           .id = "layer.above",
-          .label = "Edit the layer above",
+          .label = "Edit layer above",
           .menu = "Layer",
           .keys = {Key::page_up},
-          .enabled = has_neighbour<1>,
+          .enabled = has_neighbor<1>,
           .run = choose<1>,
       },
       {
           .id = "layer.below",
-          .label = "Edit the layer below",
+          .label = "Edit layer below",
           .menu = "Layer",
           .keys = {Key::page_down},
-          .enabled = has_neighbour<-1>,
+          .enabled = has_neighbor<-1>,
           .run = choose<-1>,
       },
       {
           .id = "layer.up",
-          .label = "Move the layer up",
+          .label = "Move layer up",
           .icon = kUp,
           .menu = "Layer",
           .keys = {{Key::page_up, kCtrl}},
-          .enabled = has_neighbour<1>,
+          .enabled = has_neighbor<1>,
           .run = move<1>,
       },
       {
           .id = "layer.down",
-          .label = "Move the layer down",
+          .label = "Move layer down",
           .icon = kDown,
           .menu = "Layer",
           .keys = {{Key::page_down, kCtrl}},
-          .enabled = has_neighbour<-1>,
+          .enabled = has_neighbor<-1>,
           .run = move<-1>,
       },
       {
           .id = "layer.visible",
-          .label = "Show or hide the layer",
+          .label = "Show layer",
+          .hint = "Show or hide the current layer",
           .menu = "Layer",
           .keys = {{'H', kCtrl}},
           .enabled = has_content,
@@ -153,7 +156,8 @@ std::vector<Action> layer_actions() {
       },
       {
           .id = "layer.lock",
-          .label = "Lock or unlock the layer",
+          .label = "Lock layer",
+          .hint = "Protect the current layer from changes, or unlock it",
           .menu = "Layer",
           .keys = {{'L', kCtrl}},
           .enabled = has_content,
@@ -170,7 +174,7 @@ std::vector<Action> layer_actions() {
       },
       {
           .id = "background.color",
-          .label = "Background: a colour",
+          .label = "Background: color",
           .menu = "Layer",
           .enabled = has_content,
           .run = set_background<Fill::color>,
@@ -178,7 +182,8 @@ std::vector<Action> layer_actions() {
       },
       {
           .id = "background.original",
-          .label = "Background: the original picture",
+          .label = "Background: original picture",
+          .hint = "Fill the gaps that moved parts leave",
           .menu = "Layer",
           .enabled = has_content,
           .run = set_background<Fill::original>,

@@ -1,4 +1,4 @@
-// Menu Time: keyframes and what is shown.
+// Menu Time: playback, keyframes and poses.
 #include "edit/actions/groups.h"
 
 namespace holomorph {
@@ -55,7 +55,7 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.back",
-          .label = "One frame back",
+          .label = "Previous frame",
           .icon = kBack,
           .menu = "Time",
           .keys = {','},
@@ -64,7 +64,7 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.forward",
-          .label = "One frame on",
+          .label = "Next frame",
           .icon = kForward,
           .menu = "Time",
           .keys = {'.'},
@@ -73,7 +73,7 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.previous_key",
-          .label = "Previous key",
+          .label = "Previous keyframe",
           .icon = kFirst,
           .menu = "Time",
           .keys = {{',', kShift}, {'<', kShift}},
@@ -82,7 +82,7 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.next_key",
-          .label = "Next key",
+          .label = "Next keyframe",
           .icon = kLast,
           .menu = "Time",
           .keys = {{'.', kShift}, {'>', kShift}},
@@ -91,7 +91,8 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.key",
-          .label = "Set a key",
+          .label = "Set keyframe",
+          .hint = "Store the current pose at the current time",
           .icon = kKey,
           .menu = "Time",
           .keys = {'I'},
@@ -100,18 +101,20 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.delete_key",
-          .label = "Delete the key at this time",
+          .label = "Delete keyframe",
+          .hint = "Delete the keyframe at the current time",
           .menu = "Time",
           .enabled = [](const Workspace& w) { return key_here(w).has_value(); },
           .run =
               [](Workspace& w) {
-                w.commit("Delete key", without_key(w.shown.own(), *key_here(w)),
+                w.commit("Delete keyframe", without_key(w.shown.own(), *key_here(w)),
                          EditBase::document);
               },
       },
       {
           .id = "time.auto_key",
-          .label = "Auto-key: edits of the pose set keys",
+          .label = "Auto-key",
+          .hint = "Every change of the pose sets a keyframe",
           .icon = kRecord,
           .menu = "Time",
           .keys = {'K'},
@@ -126,6 +129,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.loop",
           .label = "Loop",
+          .hint = "Start again after the last keyframe",
           .icon = kLoop,
           .menu = "Time",
           .enabled = has_cage,
@@ -134,7 +138,8 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.onion",
-          .label = "Onion skin: the keys before and after",
+          .label = "Onion skin",
+          .hint = "Show the keyframes before and after the current time",
           .icon = kOnion,
           .menu = "Time",
           .enabled = has_cage,
@@ -151,7 +156,7 @@ std::vector<Action> time_actions() {
               [](Workspace& w) {
                 if (!w.require_pose()) return;
                 w.copied = whole_pose_of(w.shown.deformation());
-                w.messages.say("The pose is copied.");
+                w.messages.say("Pose copied.");
               },
       },
       {
@@ -167,14 +172,15 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.paste_mirrored",
-          .label = "Paste pose, mirrored",
+          .label = "Paste pose mirrored",
+          .hint = "Needs a cage that is symmetric at rest",
           .menu = "Time",
           .keys = {{'V', kCtrlShift}},
           .enabled = has_copied,
           .run =
               [](Workspace& w) {
                 w.commit(
-                    "Paste mirrored pose",
+                    "Paste pose mirrored",
                     posed_as(w.shown.deformation(), mirrored(w.shown.deformation(), *w.copied)));
               },
       },

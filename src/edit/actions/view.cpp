@@ -6,11 +6,11 @@ namespace holomorph {
 namespace {
 
 template <View view>
-void look(Workspace& w) {
+void set_view(Workspace& w) {
   w.display.view = view;
 }
 template <View view>
-bool looks(const Workspace& w) {
+bool has_view(const Workspace& w) {
   return w.display.view == view;
 }
 
@@ -20,8 +20,9 @@ void zoom_by(Workspace& w, double factor) {
                              factor);
 }
 
-/// Corners with angles are where the picture is, not the cage.
-Complex shown_place(const Workspace& w, const Handle& handle) {
+/// The plane position at which a handle is drawn. The tool Angles draws corners where the map takes
+/// them, not at the points of the posed cage.
+Complex displayed_position(const Workspace& w, const Handle& handle) {
   const bool corner = w.tools.active == ToolId::angle && w.mode == EditMode::pose &&
                       handle.kind == Handle::Kind::cage && handle.control == 0;
   return corner ? posed_vertex(w, handle.index)
@@ -34,8 +35,8 @@ void frame_selection(Workspace& w) {
     if (handle.kind == Handle::Kind::stroke)
       for (const Complex& z : curve_of(w.shown.deformation(), handle.index, w.mode)) box.include(z);
     else
-      box.include(shown_place(w, handle));
-  const double least = 60;  // one point alone is shown with its surroundings
+      box.include(displayed_position(w, handle));
+  const double least = 60;  // also shows the surroundings of a single point
   if (!box.empty()) {
     const Complex center = box.center();
     box.include(center + Complex(least, least));
@@ -58,35 +59,38 @@ std::vector<Action> view_actions() {
           .menu = "View",
           .keys = {'1'},
           .enabled = always,
-          .run = look<View::image>,
-          .checked = looks<View::image>,
+          .run = set_view<View::image>,
+          .checked = has_view<View::image>,
       },
       {
           .id = "view.angle",
           .label = "Angle distortion",
+          .hint = "Color the picture by how much angles change",
           .menu = "View",
           .keys = {'2'},
           .enabled = has_cage,
-          .run = look<View::angle>,
-          .checked = looks<View::angle>,
+          .run = set_view<View::angle>,
+          .checked = has_view<View::angle>,
       },
       {
           .id = "view.area",
           .label = "Area",
+          .hint = "Color the picture by how much areas change",
           .menu = "View",
           .keys = {'3'},
           .enabled = has_cage,
-          .run = look<View::area>,
-          .checked = looks<View::area>,
+          .run = set_view<View::area>,
+          .checked = has_view<View::area>,
       },
       {
           .id = "view.stretch",
           .label = "Largest stretch",
+          .hint = "Color the picture by how much lengths grow",
           .menu = "View",
           .keys = {'4'},
           .enabled = has_cage,
-          .run = look<View::stretch>,
-          .checked = looks<View::stretch>,
+          .run = set_view<View::stretch>,
+          .checked = has_view<View::stretch>,
       },
       {
           .id = "view.checker",
@@ -94,19 +98,21 @@ std::vector<Action> view_actions() {
           .menu = "View",
           .keys = {'5'},
           .enabled = has_cage,
-          .run = look<View::checker>,
-          .checked = looks<View::checker>,
+          .run = set_view<View::checker>,
+          .checked = has_view<View::checker>,
       },
       {
           .id = "view.compare",
-          .label = "Compare with other projections",
+          .label = "Compare projections",
+          .hint = "Give the same map and bounds to four other methods",
           .menu = "View",
           .enabled = [](const Workspace& w) { return has_cage(w) && is_bounded(w); },
           .run = ask<Request::compare>,
       },
       {
           .id = "view.fold",
-          .label = "Go to the worst fold, and on to the next",
+          .label = "Next fold",
+          .hint = "Go to the worst fold, then to the next one",
           .menu = "View",
           .keys = {'W'},
           .enabled = [](const Workspace& w) { return w.map().has_map(); },
@@ -114,7 +120,8 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "view.before_after",
-          .label = "Before and after, side by side",
+          .label = "Before and after",
+          .hint = "Show the original and the pose side by side",
           .icon = kHalves,
           .menu = "View",
           .keys = {{'\\', kShift}, {'|', kShift}},
@@ -147,6 +154,7 @@ std::vector<Action> view_actions() {
       {
           .id = "view.surface",
           .label = "Surface in space",
+          .hint = "Show the surface with the picture on it",
           .menu = "View",
           .enabled = has_surface,
           .run = [](Workspace& w) { w.display.show_surface = !w.display.show_surface; },
@@ -210,7 +218,8 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "edit.context_menu",
-          .label = "Menu of what is selected",
+          .label = "Context menu",
+          .hint = "Open the menu of what is selected",
           .menu = "Edit",
           .keys = {{Key::f10, kShift}},
           .enabled = has_content,
@@ -218,7 +227,8 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "view.menu",
-          .label = "Keys go to the menu",
+          .label = "Focus menu",
+          .hint = "Move the keyboard focus to the menu",
           .menu = "View",
           .keys = {Key::f10},
           .enabled = always,
@@ -226,7 +236,8 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "view.next_panel",
-          .label = "Keys go to the next panel",
+          .label = "Focus next panel",
+          .hint = "Move the keyboard focus from panel to panel",
           .menu = "View",
           .keys = {Key::f6},
           .enabled = always,
@@ -234,7 +245,8 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "help.palette",
-          .label = "Find an action...",
+          .label = "Find action...",
+          .hint = "Search actions, methods and settings by name",
           .icon = kSearch,
           .menu = "Help",
           .keys = {{'P', kCtrlShift}},
@@ -244,6 +256,7 @@ std::vector<Action> view_actions() {
       {
           .id = "help.keys",
           .label = "Keys and mouse",
+          .hint = "List all keys and mouse gestures, and change keys",
           .icon = kHelp,
           .menu = "Help",
           .keys = {Key::f1, '?', {'?', kShift}},
@@ -257,19 +270,20 @@ std::vector<Action> held_actions() {
   return {
       {
           .id = "hold.overlays",
-          .label = "Hold: hide cage and pins",
+          .label = "Hide cage and pins (hold)",
           .keys = {'H'},
           .enabled = always,
       },
       {
           .id = "hold.original",
-          .label = "Hold: show the original picture",
+          .label = "Show original (hold)",
           .keys = {'\\'},
           .enabled = always,
       },
       {
           .id = "hold.alt",
-          .label = "Hold: as Alt, where the desktop takes Alt itself",
+          .label = "Act as Alt (hold)",
+          .hint = "For desktops that use Alt-drags themselves",
           .keys = {'Q'},
           .enabled = always,
       },

@@ -1,4 +1,4 @@
-// A list of corners is written down by the first edit that needs one.
+// The list of corners is empty until an edit needs it; an empty list means all vertices.
 #include "edit/edits/corner_edits.h"
 
 #include <algorithm>
@@ -13,9 +13,10 @@ auto found(const Deformation& deformation, Index vertex) {
   return std::ranges::find(deformation.corners, vertex, &Corner::vertex);
 }
 
-/// A deformation whose method sets angles, with the corners listed and this one among them.
+/// Switches to a method that sets angles, lists the corners, adds this one if it is not among them,
+/// and returns its pose.
 PoseCorner& corner(Deformation& deformation, Index vertex) {
-  if (!serves(deformation, MethodUse::corners))
+  if (!has_method_for(deformation, MethodUse::corners))
     deformation = with_method_for(std::move(deformation), MethodUse::corners);
   deformation = deformation.corners.empty() ? with_all_corners(std::move(deformation))
                                             : with_corner(std::move(deformation), vertex);
@@ -46,17 +47,17 @@ Deformation with_corner(Deformation deformation, Index vertex) {
                n = deformation.corners.size();
   const Corner &before = deformation.corners[(at + n - 1) % n],
                &after = deformation.corners[at % n];
-  // The share of the way, by the rest's vertices.
+  // Position of the vertex between its two corners, by the lengths of the edges at rest.
   const auto way = [&](Index from, Index to) {
     double length = 0;
     for (Index v = from; v != to; v = (v + 1) % deformation.rest.size())
       length += std::abs(deformation.rest.vertex(v + 1) - deformation.rest.vertex(v));
     return length;
   };
-  const double share =
+  const double fraction =
       way(before.vertex, vertex) / (way(before.vertex, vertex) + way(vertex, after.vertex));
   const auto between = [&](const PoseCorner& from, const PoseCorner& to) {
-    const double turn = (1 - share) * from.after + share * to.before;
+    const double turn = (1 - fraction) * from.after + fraction * to.before;
     return PoseCorner{turn, turn, from.tension};
   };
   for_fitting_keys(deformation, [&](Pose& pose) {
@@ -72,7 +73,8 @@ Deformation with_corner(Deformation deformation, Index vertex) {
 Deformation without_corner(Deformation deformation, Index vertex) {
   if (deformation.corners.empty()) deformation = with_all_corners(std::move(deformation));
   if (deformation.corners.size() <= 3)
-    throw Error(ErrorKind::bad_input, "three corners stay: fewer have no angles to set");
+    throw Error(ErrorKind::bad_input,
+                "the method needs at least three corners; make another point a corner first");
   if (const auto at = found(deformation, vertex); at != deformation.corners.end()) {
     const long number = at - deformation.corners.begin();
     for_fitting_keys(deformation, [&](Pose& pose) {

@@ -1,35 +1,38 @@
-// Edits of the corners whose angles method `angles` sets.
+// Edits of corners, whose angles the method `angles` prescribes.
 #pragma once
 
 #include "edit/edits/edits.h"
 
 namespace holomorph {
 
-/// Whether a cage vertex has angles of its own: all do while no corners are listed.
+/// Whether a cage vertex is a corner. While the list of corners is empty, all vertices are.
 bool is_corner(const Deformation& deformation, Index vertex);
-/// A vertex' own angles; none at vertices that are no corners.
+/// The angles of a corner; the default at vertices that are not listed.
 PoseCorner corner_at(const Deformation& deformation, Index vertex);
 
-/// By how much its own angles open a corner, in radians: twice what corner_opened turned.
+/// How far a corner is opened, in radians: the sum of the turns of its two edges away from each
+/// other, or twice the angle given to corner_opened.
 double corner_opening(const Deformation& deformation, Index vertex);
 
-/// With a vertex as a corner more, turned as its edge is there.
+/// Makes a vertex a corner, with the turn that its edge has there.
 Deformation with_corner(Deformation deformation, Index vertex);
-/// Without this corner. Throws Error when it is one of three.
+/// Makes a corner a plain vertex. Throws Error if there are only three corners.
 Deformation without_corner(Deformation deformation, Index vertex);
+/// Makes all vertices corners.
 Deformation with_all_corners(Deformation deformation);
 
-/// A corner turned by an angle in radians, in a deformation whose method sets angles.
+/// Turns a corner by an angle in radians. This function, corner_opened and with_tension make the
+/// vertex a corner and switch to the method for corners if needed.
 Deformation corner_turned(Deformation deformation, Index vertex, double by);
-/// A corner opened: each of its two edges turned away from the other by an angle in radians.
+/// Opens a corner: turns each of its two edges away from the other by an angle in radians.
 Deformation corner_opened(Deformation deformation, Index vertex, double by);
 
-/// The corner that the edge with this segment of the cage starts at.
+/// The corner at which the edge that contains this segment of the cage starts.
 Index corner_before(const Deformation& deformation, Index segment);
-/// With a tension, 0 to 1, of the edge that starts at a corner.
+/// Sets the tension of the edge that starts at a corner, clamped to 0 ... 1.
 Deformation with_tension(Deformation deformation, Index corner, double tension);
 
-/// The corners' numbers after a vertex was inserted behind a segment's first, or erased.
+/// Renumbers the corners after a vertex was inserted in a segment, or erased.
 void follow_insertion(std::vector<Corner>& corners, Index segment);
 void follow_erasure(std::vector<Corner>& corners, Index vertex);
 

@@ -1,4 +1,5 @@
-// Whether a vertex is smooth is read off its tangents: there is no flag that could disagree.
+// Whether a vertex is smooth follows from its tangents. There is no flag that could contradict
+// them.
 #include "edit/edits/curve_edits.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode) {
 Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
                           bool breaks) {
   const Cage& cage = cage_of(deformation, mode);
-  std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its other tangent
+  std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its opposite tangent
   for (const Index vertex : {tangent.index, wrapped(cage, tangent.index + 1)}) {
     if (breaks || !is_smooth(deformation, vertex, mode)) continue;
     const auto [before, after] = tangents_of(deformation, vertex, mode);
@@ -61,8 +62,8 @@ Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, E
   moved.segments[tangent.index][tangent.control] = to;
   for (const auto& [vertex, other] : opposite) {
     const Complex z = moved.vertex(vertex), arm = to - z;
-    Complex& place = moved.segments[wrapped(moved, other.index)][other.control];
-    if (std::abs(arm) > 0) place = z - arm * (std::abs(place - z) / std::abs(arm));
+    Complex& position = moved.segments[wrapped(moved, other.index)][other.control];
+    if (std::abs(arm) > 0) position = z - arm * (std::abs(position - z) / std::abs(arm));
   }
   return deformation;
 }
@@ -85,7 +86,7 @@ Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
   const Index before = wrapped(cage, vertex - 1);
   const Complex z = cage.vertex(vertex);
-  for (const Index e : {before, vertex})  // a quadratic's one tangent belongs to the other end, too
+  for (const Index e : {before, vertex})  // a quadratic shares its tangent with its other end
     if (cage.degree(e) == 2) raise_to(cage, e, 3);
   if (cage.degree(before) > 2)
     cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;

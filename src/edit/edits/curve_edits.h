@@ -1,41 +1,43 @@
-// Edits of curved segments: tangents, smooth points and corners, degrees.
+// Edits of curved segments: tangents, smooth vertices and corners, degrees.
 #pragma once
 
 #include "edit/edits/edits.h"
 
 namespace holomorph {
 
-/// The control points next to a vertex; none on the side of a straight segment of degree 1. A
-/// quadratic's one inner control point is the tangent of both its ends.
+/// The control points next to a vertex; none on the side of a segment of degree 1. The inner
+/// control point of a quadratic segment is the tangent of both its ends.
 struct Tangents {
   std::optional<Handle> before, after;
 };
 Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode);
 
-/// Whether both tangents of a vertex lie on one line through it.
+/// Whether the two tangents of a vertex point in opposite directions, up to a small angle.
 bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode);
 
-/// Puts a control point at a place. Opposite tangents of a smooth vertex turn along and keep their
-/// lengths, unless `breaks`.
+/// Moves a control point to a position. At a smooth vertex the opposite tangent rotates with it and
+/// keeps its length, unless `breaks`.
 Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
                           bool breaks);
 
-/// With a smooth vertex: tangents along the line between its neighbours, a third of the way to
-/// them. Straight neighbours become cubics.
+/// Makes a vertex smooth: its tangents become parallel to the line between the neighboring
+/// vertices, with a third of the distances to these as lengths. Adjacent segments of degree less
+/// than 3 become cubic.
 Deformation smoothed(Deformation deformation, Index vertex, EditMode mode);
-/// With a corner: tangents on the lines to the neighbours.
+/// Makes a vertex a corner: its tangents point to the neighboring vertices.
 Deformation cornered(Deformation deformation, Index vertex, EditMode mode);
-/// Smooth vertices of a selection become corners when all of them are smooth, else smooth.
+/// Makes the selected vertices corners if all of them are smooth, else makes them smooth.
 Deformation toggled_corners(Deformation deformation, const Selection& selection, EditMode mode);
 
-/// The segments that a selection means: of its control points, and after its vertices; all when
-/// there are none.
+/// The segments that a selection refers to: those that contain a selected control point or start at
+/// a selected vertex; all segments if there are none.
 std::set<Index> segments_of(const Deformation& deformation, const Selection& selection,
                             EditMode mode);
 
-/// Degrees up by one (the curves stay, exactly) or down (least squares), within 1 to
-/// kHighestDegree.
+/// Raises the degrees of the segments of a selection by one, up to kHighestDegree. The curves keep
+/// their shapes exactly.
 Deformation raised(Deformation deformation, const Selection& selection, EditMode mode);
+/// Lowers their degrees by one, down to 1, by least squares.
 Deformation lowered(Deformation deformation, const Selection& selection, EditMode mode);
 
 }  // namespace holomorph

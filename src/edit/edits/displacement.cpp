@@ -1,4 +1,4 @@
-// Soft selection falls off smoothly to nothing at its reach.
+// The weight of the soft selection falls off smoothly to 0 at its radius.
 #include "edit/edits/displacement.h"
 
 #include "scene/mirror.h"
@@ -6,13 +6,13 @@
 namespace holomorph {
 namespace {
 
-/// 1 at 0, flat there and at 1, 0 from there on.
+/// (1 - s^2)^2 for s < 1 and 0 from there on: 1 at 0, with zero slope at 0 and at 1.
 double falloff(double share) {
   return share >= 1 ? 0 : (1 - share * share) * (1 - share * share);
 }
 
-Displacements softly(const Deformation& deformation, const Selection& dragged, Complex by,
-                     EditMode mode, double reach) {
+Displacements soft_displacements(const Deformation& deformation, const Selection& dragged,
+                                 Complex by, EditMode mode, double reach) {
   Displacements all;
   for (const Handle& handle : handles_of(deformation, mode)) {
     if (is_tangent(handle) || dragged.contains(handle)) continue;
@@ -25,7 +25,7 @@ Displacements softly(const Deformation& deformation, const Selection& dragged, C
   return all;
 }
 
-Complex mirrored_way(Complex by) {
+Complex mirrored(Complex by) {
   return {-by.real(), by.imag()};
 }
 
@@ -38,11 +38,11 @@ std::map<Handle, Handle> counterparts_of(const Deformation& deformation) {
     if (!is_tangent(handle)) kinds[handle.kind].push_back(handle);
   std::map<Handle, Handle> counterparts;
   for (const auto& [kind, handles] : kinds) {
-    Points places;
+    Points positions;
     for (const Handle& handle : handles)
-      places.push_back(position_of(deformation, handle, EditMode::rest));
+      positions.push_back(position_of(deformation, handle, EditMode::rest));
     for (size_t i = 0; i < handles.size(); ++i)
-      if (const auto found = mirror.counterpart(places, places[i]))
+      if (const auto found = mirror.counterpart(positions, positions[i]))
         counterparts[handles[i]] = handles[*found];
   }
   return counterparts;
@@ -51,28 +51,29 @@ std::map<Handle, Handle> counterparts_of(const Deformation& deformation) {
 Displacements displacements(const Deformation& deformation, const Selection& dragged, Complex by,
                             EditMode mode, const DragOptions& drag_options) {
   Displacements all;
-  if (drag_options.soft) all = softly(deformation, dragged, by, mode, drag_options.reach);
+  if (drag_options.soft)
+    all = soft_displacements(deformation, dragged, by, mode, drag_options.reach);
   for (const Handle& handle : dragged) all[handle] = by;
   if (!drag_options.symmetric) return all;
   Displacements both = all;
   for (const auto& [handle, other] : counterparts_of(deformation)) {
-    const auto way = all.find(handle), own = all.find(other);
-    if (way == all.end()) continue;
+    const auto displacement = all.find(handle), own = all.find(other);
+    if (displacement == all.end()) continue;
     if (other == handle)
-      both[handle] = 0.5 * (way->second + mirrored_way(way->second));
-    else if (own == all.end() || std::abs(own->second) < std::abs(way->second))
-      both[other] = mirrored_way(way->second);
+      both[handle] = 0.5 * (displacement->second + mirrored(displacement->second));
+    else if (own == all.end() || std::abs(own->second) < std::abs(displacement->second))
+      both[other] = mirrored(displacement->second);
   }
   return both;
 }
 
 Deformation displaced(Deformation deformation, const Displacements& by, EditMode mode) {
   Displacements all = by;
-  for (const auto& [handle, way] : by)
-    for (const Handle& tangent : tangents_beside(cage_of(deformation, mode), handle))
-      all.try_emplace(tangent, way);
-  for (const auto& [handle, way] : all)
-    if (exists(deformation, handle, mode)) shift(deformation, handle, way, mode);
+  for (const auto& [handle, displacement] : by)
+    for (const Handle& tangent : adjacent_tangents(cage_of(deformation, mode), handle))
+      all.try_emplace(tangent, displacement);
+  for (const auto& [handle, displacement] : all)
+    if (exists(deformation, handle, mode)) shift(deformation, handle, displacement, mode);
   return deformation;
 }
 

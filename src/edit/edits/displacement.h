@@ -1,4 +1,4 @@
-// Where handles go when some of them are dragged: those near them, and their mirror images.
+// The displacements of all handles when some are dragged: soft selection and symmetry.
 #pragma once
 
 #include <map>
@@ -7,26 +7,29 @@
 
 namespace holomorph {
 
-/// What a drag takes along besides what is dragged.
+/// Which handles follow the dragged ones.
 struct DragOptions {
-  bool soft = false;
-  double reach = 100;      ///< plane units: handles nearer than this go along softly, less and less
-  bool symmetric = false;  ///< what lies on the other side at rest goes the mirrored way
+  bool soft = false;       ///< nearby handles follow, less the farther away they are
+  double reach = 100;      ///< radius of the soft selection in plane units
+  bool symmetric = false;  ///< the counterpart on the other side at rest makes the mirrored move
 };
-inline constexpr double kLeastReach = 1, kMostReach = 1e5;
+inline constexpr double kMinReach = 1, kMaxReach = 1e5;
 
 using Displacements = std::map<Handle, Complex>;
 
-/// How far each handle goes when these are dragged by so much. Vertices, pins and strokes take
-/// part, tangents where they are dragged themselves; what lies on the mirror's line stays on it.
+/// The displacement of each handle that moves when `dragged` moves by `by`. Vertices, pins and
+/// strokes can follow; tangents move only if they are dragged themselves. With symmetry, handles on
+/// the mirror axis stay on it.
 Displacements displacements(const Deformation& deformation, const Selection& dragged, Complex by,
                             EditMode mode, const DragOptions& drag_options);
 
-/// Moves handles; control points beside a vertex go along unless they have a way of their own.
+/// Moves handles. The control points next to a vertex move with it unless they have their own
+/// displacement.
 Deformation displaced(Deformation deformation, const Displacements& by, EditMode mode);
 
-/// For each vertex, pin and stroke the one that lies where the mirror takes it at rest, where there
-/// is one. Cost: the square of their number.
+/// Maps each vertex, pin and stroke to its counterpart: the handle of the same kind that lies at
+/// its mirror image at rest. Handles without a counterpart are left out. Cost: quadratic in the
+/// number of handles.
 std::map<Handle, Handle> counterparts_of(const Deformation& deformation);
 
 }  // namespace holomorph

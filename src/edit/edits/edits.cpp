@@ -1,4 +1,5 @@
-// Rest and pose have the same segments; every structural edit is made in both.
+// Rest shape, pose and keyframes have the same structure; every structural edit changes all of
+// them.
 #include "edit/edits/edits.h"
 
 #include <algorithm>
@@ -22,16 +23,16 @@ Cage& cage_of(Deformation& deformation, EditMode mode) {
   return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }
 
-/// A stroke's points, to read in a const deformation and to change in another.
-template <class AnyScene>
-auto& curve(AnyScene& deformation, Index stroke, EditMode mode) {
+/// The points of a stroke; const if the deformation is const.
+template <class AnyDeformation>
+auto& curve(AnyDeformation& deformation, Index stroke, EditMode mode) {
   auto& found = deformation.strokes[static_cast<size_t>(stroke)];
   return mode == EditMode::rest ? found.rest : found.pose;
 }
 
-/// The place of a pin or control point, to read in a const deformation and to change in another.
-template <class AnyScene>
-auto& place(AnyScene& deformation, Handle handle, EditMode mode) {
+/// The position of a pin or control point; const if the deformation is const.
+template <class AnyDeformation>
+auto& point_of(AnyDeformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
     return mode == EditMode::rest ? deformation.pins[handle.index].rest
                                   : deformation.pins[handle.index].pose;
@@ -49,7 +50,7 @@ Complex position_of(const Deformation& deformation, Handle handle, EditMode mode
     const Polyline line(without_repeats(curve_of(deformation, handle.index, mode)), false);
     return line.at(0.5 * line.length());
   }
-  return place(deformation, handle, mode);
+  return point_of(deformation, handle, mode);
 }
 
 bool exists(const Deformation& deformation, Handle handle, EditMode mode) {
@@ -77,7 +78,7 @@ std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode) {
   return handles;
 }
 
-std::vector<Handle> tangents_beside(const Cage& cage, Handle handle) {
+std::vector<Handle> adjacent_tangents(const Cage& cage, Handle handle) {
   if (handle.kind != Handle::Kind::cage || handle.control != 0) return {};
   const Index before = (handle.index + cage.size() - 1) % cage.size();
   std::vector<Handle> tangents;
@@ -89,7 +90,7 @@ std::vector<Handle> tangents_beside(const Cage& cage, Handle handle) {
 
 void shift(Deformation& deformation, Handle handle, Complex by, EditMode mode) {
   if (handle.kind != Handle::Kind::stroke) {
-    place(deformation, handle, mode) += by;
+    point_of(deformation, handle, mode) += by;
     return;
   }
   for (Complex& z : curve(deformation, handle.index, mode)) z += by;
@@ -122,12 +123,13 @@ Deformation inserted(Deformation deformation, Index segment, double t) {
 }
 
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
-  // From the highest number down, so that the remaining numbers stay valid.
+  // In decreasing order, so that the remaining numbers stay valid.
   Index vertices = 0;
   for (const Handle& handle : selection)
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
   if (deformation.rest.size() - vertices < 3 && vertices > 0)
-    throw Error(ErrorKind::bad_input, "a cage keeps at least three points");
+    throw Error(ErrorKind::bad_input,
+                "a cage needs at least three points; select fewer points to delete");
   const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
   for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::pin) {
@@ -167,7 +169,7 @@ Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
   return deformation;
 }
 
-bool serves(const Deformation& deformation, MethodUse use) {
+bool has_method_for(const Deformation& deformation, MethodUse use) {
   const Method& method = method_named(deformation.method);
   return followed_method(method, deformation.parameters).id == usual_method(use).id;
 }
@@ -178,7 +180,7 @@ Deformation with_method_for(Deformation deformation, MethodUse use) {
 
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes) {
-  if (!serves(deformation, MethodUse::strokes))
+  if (!has_method_for(deformation, MethodUse::strokes))
     deformation = with_method_for(std::move(deformation), MethodUse::strokes);
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
@@ -227,7 +229,7 @@ Deformation with_outline(Deformation deformation, Points outline,
                          std::optional<SurfaceReference> surface) {
   deformation.outline = std::move(outline);
   deformation.surface = std::move(surface);
-  return serves(deformation, MethodUse::outline)
+  return has_method_for(deformation, MethodUse::outline)
              ? deformation
              : with_method_for(std::move(deformation), MethodUse::outline);
 }
@@ -246,7 +248,7 @@ Deformation scaled(Deformation deformation, Index pin, double factor) {
 
 namespace {
 
-/// Where an inner control point of a posed segment is when that segment is posed as it rests.
+/// The position of an inner control point of a posed segment when the segment has its rest shape.
 Complex rest_control(const Deformation& deformation, Handle handle) {
   const Points rest = deformation.rest.controls(handle.index);
   const int degree = deformation.pose.degree(handle.index);
@@ -258,7 +260,7 @@ Complex rest_control(const Deformation& deformation, Handle handle) {
 
 Deformation reset(Deformation deformation, const Selection& selection) {
   if (selection.empty()) return at_rest(std::move(deformation));
-  // Vertices first: they take the tangents along that are not selected themselves.
+  // Vertices first: tangents that are not selected move with them.
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) {
       const Complex rest = deformation.rest.vertex(handle.index);
@@ -276,7 +278,7 @@ Deformation reset(Deformation deformation, const Selection& selection) {
       curve(deformation, handle.index, EditMode::pose) =
           curve_of(deformation, handle.index, EditMode::rest);
     } else if (handle.control > 0 && exists(deformation, handle, EditMode::pose)) {
-      place(deformation, handle, EditMode::pose) = rest_control(deformation, handle);
+      point_of(deformation, handle, EditMode::pose) = rest_control(deformation, handle);
     }
   }
   return deformation;
@@ -290,7 +292,7 @@ Deformation baked(Deformation deformation) {
   if (!solved)
     throw Error(
         ErrorKind::bad_input,
-        "the pins move a finer boundary than the cage's points; switch \"Cage's own points\" on");
+        "the pins move a finer boundary than the cage's points; turn on \"Cage's own points\"");
   deformation.pose = *solved;
   return with_method_for(std::move(deformation), MethodUse::cage);
 }
@@ -322,7 +324,7 @@ Deformation fold_free(Deformation deformation) {
       *std::ranges::find(bounded.parameters, "reference", &ParameterSpec::key);
   const auto followed =
       std::ranges::find(reference.options, deformation.method, &ParameterSpec::Option::id);
-  check(followed != reference.options.end(), "fold_free: a method that can be followed");
+  check(followed != reference.options.end(), "fold_free: the method can be followed");
   deformation = with_method(std::move(deformation), bounded.id);
   deformation.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
   return deformation;

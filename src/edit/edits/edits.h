@@ -1,5 +1,4 @@
-// Edits as functions from a deformation to a deformation. None of them knows about windows or
-// tools.
+// Edits are functions from deformations to deformations. They are independent of windows and tools.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,8 @@
 
 namespace holomorph {
 
-/// What can be picked: a control point of the cage (control 0 is a vertex), a pin or a stroke.
+/// Something that can be picked: a control point of the cage (control 0 is a vertex), a pin or a
+/// stroke.
 struct Handle {
   enum class Kind { cage, pin, stroke };
   Kind kind = Kind::cage;
@@ -20,101 +20,106 @@ struct Handle {
 };
 using Selection = std::set<Handle>;
 
-/// A control point that is no vertex.
+/// Whether a handle is a control point of the cage but not a vertex.
 inline bool is_tangent(const Handle& handle) {
   return handle.kind == Handle::Kind::cage && handle.control > 0;
 }
 
-/// Which of the two shapes an edit or a picture is about.
+/// The shape that is edited or displayed: the pose, or the rest shape.
 enum class EditMode { pose, rest };
 
-/// The cage of a mode.
+/// The posed cage or the rest cage.
 const Cage& cage_of(const Deformation& deformation, EditMode mode);
-/// A handle's place in a mode; a stroke's is its middle.
+/// The position of a handle. For a stroke, its midpoint by arc length.
 Complex position_of(const Deformation& deformation, Handle handle, EditMode mode);
+/// Whether the handle's number is valid. Pins and strokes exist only if the method uses them.
 bool exists(const Deformation& deformation, Handle handle, EditMode mode);
-/// Every handle of a mode: cage control points, then pins and strokes where the method uses
-/// them.
+/// All handles that exist: the control points of the cage, then pins, then strokes.
 std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode);
 
-/// The control points next to a vertex, which go with it; none for other handles.
-std::vector<Handle> tangents_beside(const Cage& cage, Handle handle);
-/// Moves one handle alone, a stroke as a whole; a moved rest point leaves the pose where it is.
+/// The control points next to a vertex, which move with it; empty for other handles.
+std::vector<Handle> adjacent_tangents(const Cage& cage, Handle handle);
+/// Moves one handle, without the control points next to it. A stroke moves as a whole. Moving the
+/// rest shape does not change the pose.
 void shift(Deformation& deformation, Handle handle, Complex by, EditMode mode);
-/// Moves handles; moving a vertex takes the control points next to it along.
+/// Moves handles. The control points next to a vertex move with it.
 Deformation moved(Deformation deformation, const Selection& selection, Complex by, EditMode mode);
 
-/// Puts one handle at a place.
+/// Moves one handle to a position.
 Deformation placed(Deformation deformation, Handle handle, Complex at, EditMode mode);
 
-/// The middle of the handles' box.
+/// The center of the bounding box of the handles' positions.
 Complex center_of(const Deformation& deformation, const Selection& selection, EditMode mode);
 
-/// A cage vertex inserted at parameter t of a segment, in rest and pose alike: both curves stay.
+/// Inserts a cage vertex at parameter t of a segment, in the rest shape, the pose and all keyframes
+/// that fit. The curves keep their shapes.
 Deformation inserted(Deformation deformation, Index segment, double t);
 
-/// Without these handles: vertices, pins and strokes. At least three segments stay: throws Error
-/// otherwise.
+/// Deletes handles: vertices, pins and strokes. Throws Error if fewer than three cage vertices
+/// would remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
-/// Whether a deformation's method, or the one that it follows, is the usual one for this use.
-bool serves(const Deformation& deformation, MethodUse use);
-/// With the usual method for a use.
+/// Whether the deformation's method, or the method that it follows, is the usual one for a use.
+bool has_method_for(const Deformation& deformation, MethodUse use);
+/// Switches to the usual method for a use.
 Deformation with_method_for(Deformation deformation, MethodUse use);
 
-/// With a pin more; the method becomes one that uses pins. In keyframes it is where these take its
-/// place at rest, by number, or at its pose.
+/// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` has the
+/// image of `rest` in each keyframe; the pin goes there. Without it, the pin goes to `pose` in all
+/// keyframes.
 Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
                      const std::vector<Points>& in_keyframes = {});
 
-/// With a stroke more; the method becomes `strokes` unless it is, or follows that. In keyframes it
-/// is where these take it from rest, by number, or in its pose.
+/// Adds a stroke. Switches to the method `strokes` unless the current method is that one or follows
+/// it. `in_keyframes` has the image of `rest` in each keyframe; without it, the stroke has its pose
+/// in all keyframes.
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes = {});
 /// The points of a stroke.
 const Points& curve_of(const Deformation& deformation, Index stroke, EditMode mode);
-/// A stroke's mode redrawn, run through from the end that is nearer to its old start.
+/// Replaces a stroke's curve by a drawn one, reversed if that brings its ends nearer to the old
+/// ones.
 Deformation redrawn(Deformation deformation, Index stroke, Points curve, EditMode mode);
-/// A curve pulled at one of its points: what is within `reach` of arc length, less than half of a
-/// closed curve's, follows the less the farther it is.
+/// Moves one point of a curve. Points within arc length `reach` of it follow, less the farther away
+/// they are. For a closed curve, `reach` must be less than half of its length.
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
-/// With another curve in place of a stroke's.
+/// Replaces a stroke's curve.
 Deformation with_curve(Deformation deformation, Index stroke, Points curve, EditMode mode);
-/// With an outline, and the method that takes the cage's shape onto it or follows that; the surface
-/// is the one whose boundary it is.
+/// Sets the outline, and the surface whose boundary it is, if any. Switches to the usual method for
+/// outlines unless the current method is that one or follows it.
 Deformation with_outline(Deformation deformation, Points outline,
                          std::optional<SurfaceReference> surface = {});
 
-/// A pin turned to an angle in radians; the pin turns the picture from then on.
+/// Sets a pin's angle in radians. The pin then prescribes rotation and scale.
 Deformation turned(Deformation deformation, Index pin, double angle);
 
-/// A pin's scale times a factor, kept within the bounds of PosePin; the pin turns and scales the
-/// picture from then on.
+/// Multiplies a pin's scale by a factor, clamped to the bounds of PosePin. The pin then prescribes
+/// rotation and scale.
 Deformation scaled(Deformation deformation, Index pin, double factor);
 
-/// The selected handles (all when none is) posed as they rest.
+/// Resets the pose of the selected handles to rest, or the whole pose if nothing is selected.
 Deformation reset(Deformation deformation, const Selection& selection);
 
-/// The cage posed as the deformation's pins would have its control points, in method `cage`; the
-/// pins stay for later. Throws Error when they do not move the cage's own points (parameter
-/// own_controls).
+/// Poses the cage as the pins do and switches to the method `cage`. The pins are kept. Throws Error
+/// if the pins do not act on the cage's own control points (parameter own_controls).
 Deformation baked(Deformation deformation);
 
-/// With method `bounded`, which follows the method that the deformation has now.
+/// Switches to the method `bounded`, which follows the current method.
 Deformation fold_free(Deformation deformation);
 
-/// With another method, and the parameters that it had when it was left.
+/// Switches to another method and restores the parameters that it had when it was last used.
 Deformation with_method(Deformation deformation, const std::string& id);
-/// With a preset of its method, in place of the others.
+/// Applies a preset of the method. Parameters that only other presets set get their defaults.
 Deformation with_preset(Deformation deformation, const Preset& preset);
 
-/// The place on a mode's cage that is nearest to z.
+/// A point on a cage: the segment, its parameter t, and the distance to a given point.
 struct CageHit {
   Index segment = 0;
   double t = 0;
   Complex point;
   double distance = 1e300;
 };
+/// The point of the cage that is nearest to z.
 CageHit nearest_on_cage(const Cage& cage, Complex z);
 
 }  // namespace holomorph

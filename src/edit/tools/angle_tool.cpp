@@ -1,5 +1,5 @@
-// A: rings turn the posed cage's corners, arms open and shut them, a drag on an edge changes its
-// tension.
+// Key A. A ring turns corners of the posed cage, arms open and close them, and a drag of an edge
+// changes its tension.
 #include <algorithm>
 
 #include "edit/actions/actions.h"
@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kTensionPx = 150;  ///< of dragging, for all of it
+constexpr double kTensionPx = 150;  ///< length of a drag that changes the tension by 1
 
 class AngleTool final : public Tool {
  public:
@@ -25,7 +25,7 @@ class AngleTool final : public Tool {
     if (!deformation.has_cage() || workspace.mode == EditMode::rest) return;
     if (const auto shown = shown_corner(workspace)) {
       mark_ = corner_mark(workspace, *shown);
-      if (input.inside) mark_->hovered = part_at(*mark_, input.px, workspace.display.handle_px);
+      if (input.inside) mark_->hovered = region_at(*mark_, input.px, workspace.display.handle_px);
     }
     if (!input.inside) return;
     const bool on_mark = mark_ && mark_->hovered != CornerMark::Region::none;
@@ -75,31 +75,31 @@ class AngleTool final : public Tool {
 
   std::string hint(const Workspace& workspace) const override {
     const Deformation& deformation = workspace.shown.deformation();
-    if (!deformation.has_cage()) return needs_a_cage(workspace, "Angles are those of a cage");
+    if (!deformation.has_cage()) return needs_a_cage(workspace, "Turning corners needs a cage");
     if (workspace.mode == EditMode::rest)
-      return workspace.actions.key_of("cage.rest") + " shows the pose, where corners turn";
+      return workspace.actions.key_of("cage.rest") + " returns to the pose, where corners turn";
     if (dragging_ && edge_)
       return "Tension " +
              text_of_number(corner_at(deformation, corner_before(deformation, *edge_)).tension) +
-             ": drag down to let the edge bend";
+             ": drag down to let the edge bend, up to straighten it";
     if (dragging_) {
       const PoseCorner pose = corner_at(deformation, mark_->vertex);
       const double turn = (pose.before + pose.after) / 2,
                    opening = corner_opening(deformation, mark_->vertex);
       return "Turned by " + text_of_number(turn * 180 / kPi) + ", opened by " +
-             text_of_number(opening * 180 / kPi) + " degrees; Shift snaps to 15";
+             text_of_number(opening * 180 / kPi) + " degrees; hold Shift for steps of 15";
     }
     if (mark_ && mark_->hovered == CornerMark::Region::ring)
-      return "Drag the ring to turn the corner, as often around as you like";
+      return "Drag the ring to turn the corner, as many times around as you like";
     if (mark_ && mark_->hovered != CornerMark::Region::none)
-      return "Drag the arm to open or shut the corner";
+      return "Drag the arm to open or close the corner";
     if (hover_)
       return is_corner(deformation, *hover_)
-                 ? "Click to turn or open it; Shift-click: more; Alt-click: no corner"
+                 ? "Click to select the corner; Shift-click to select more; Alt-click to make it a "
+                   "plain point"
                  : "Click to make this point a corner";
-    if (edge_) return "Drag down to let the edge bend, up to keep it straight";
-    return "Click a corner, or drag a box around some, for ring and arms; drag an edge for its "
-           "tension";
+    if (edge_) return "Drag down to let the edge bend, up to straighten it";
+    return "Click a corner or drag a box to select corners; drag an edge to change its tension";
   }
 
  private:
@@ -109,7 +109,7 @@ class AngleTool final : public Tool {
     return text;
   }
 
-  /// The corners that are selected: what a ring or arm acts on.
+  /// The selected corners. Ring and arms act on all of them.
   static std::vector<Index> corners_of(const Workspace& workspace) {
     std::vector<Index> corners;
     for (const Handle& handle : workspace.selection)
@@ -119,7 +119,8 @@ class AngleTool final : public Tool {
         corners.push_back(handle.index);
     return corners;
   }
-  /// The one that shows ring and arms: the last that was clicked.
+  /// The corner that has the ring and the arms: the one that was clicked last if it is selected,
+  /// else the first selected one.
   std::optional<Index> shown_corner(const Workspace& workspace) const {
     const std::vector<Index> corners = corners_of(workspace);
     if (corners.empty()) return {};
@@ -131,7 +132,8 @@ class AngleTool final : public Tool {
       Deformation deformation = workspace.shown.deformation();
       for (const Index corner : corners)
         deformation = without_corner(std::move(deformation), corner);
-      workspace.commit(corners.size() == 1 ? "No corner" : "No corners", std::move(deformation));
+      workspace.commit(corners.size() == 1 ? "Remove corner" : "Remove corners",
+                       std::move(deformation));
       workspace.selection.clear();
     } catch (const Error& error) {
       workspace.messages.complain(error);
@@ -141,7 +143,7 @@ class AngleTool final : public Tool {
   void pick(const Input& input, Workspace& workspace) {
     if (input.mods.alt) return remove({*hover_}, workspace);
     if (!is_corner(workspace.shown.deformation(), *hover_))
-      workspace.commit("Corner", with_corner(workspace.shown.deformation(), *hover_));
+      workspace.commit("Add corner", with_corner(workspace.shown.deformation(), *hover_));
     const Handle handle{Handle::Kind::cage, *hover_, 0};
     if (!input.mods.shift) workspace.selection.clear();
     if (!workspace.selection.erase(handle)) workspace.selection.insert(handle);
@@ -167,10 +169,11 @@ class AngleTool final : public Tool {
     turned_ = 0;
     deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
-    switches_ = !serves(deformation_, MethodUse::corners);
+    switches_ = !has_method_for(deformation_, MethodUse::corners);
   }
 
-  /// The angle that was dragged around the mark's centre, counter-clockwise and unwrapped.
+  /// The angle of the drag around the mark's center, counter-clockwise and unwrapped. With Shift,
+  /// in steps of 15 degrees.
   double turned(const Input& input) {
     const Complex before = last_px_ - mark_->center, now = input.px - mark_->center;
     if (std::abs(now) > 1 && std::abs(before) > 1) {
@@ -188,8 +191,8 @@ class AngleTool final : public Tool {
       return with_tension(deformation_, corner, corner_at(deformation_, corner).tension + up);
     }
     const double by = turned(input);
-    // Inside is to the left of a counter-clockwise cage's edges: what starts at the corner opens
-    // it clockwise.
+    // The inside is to the left of the edges of a counter-clockwise cage, so the edge that starts
+    // at the corner opens it by turning clockwise.
     const bool opens_clockwise = (mark_->hovered == CornerMark::Region::after) ==
                                  (signed_area(outline_of(deformation_.rest)) > 0);
     Deformation deformation = deformation_;
@@ -204,7 +207,7 @@ class AngleTool final : public Tool {
     if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
       workspace.shown.preview = changed(input);
     if (input.down && !input.released) {
-      if (mark_) {  // drawn where the corner is by now
+      if (mark_) {  // drawn at the corner's current position
         const CornerMark::Region hovered = mark_->hovered;
         const Complex center = mark_->center;
         shown_ = corner_mark(workspace, mark_->vertex);
@@ -221,13 +224,13 @@ class AngleTool final : public Tool {
                      : mark_->hovered == CornerMark::Region::ring ? "Turn corner"
                                                                   : "Open corner",
                      *workspace.shown.preview);
-    if (switches_) workspace.messages.say("The method is \"Angles\": corners turn, nothing folds.");
+    if (switches_) workspace.messages.say("Switched to Angles, which never folds.");
   }
 
   std::optional<CornerMark> mark_, shown_;
   std::optional<Index> edge_, hover_;
   Index clicked_ = -1;
-  std::vector<Index> corners_;  ///< that the drag acts on
+  std::vector<Index> corners_;  ///< the corners that the drag changes
   std::optional<std::pair<Complex, Complex>> marquee_;
   bool dragging_ = false, switches_ = false;
   Complex start_px_, last_px_;

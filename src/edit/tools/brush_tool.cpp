@@ -1,5 +1,5 @@
-// B: paints where the picture is stiff or soft. What is painted lies on the picture at rest, under
-// the pointer, and counts when the button is let go.
+// Key B. Paints where the picture is stiff or soft. Dabs are stored at rest positions, those of the
+// points under the pointer. They take effect when the button is released.
 #include <algorithm>
 #include <utility>
 
@@ -9,19 +9,19 @@
 namespace holomorph {
 namespace {
 
-constexpr double kStrength = 0.5;  ///< powers of ten a touch
-constexpr double kSpacing = 0.35;  ///< between touches, of the radius
+constexpr double kStrength = 0.5;  ///< powers of ten per dab
+constexpr double kSpacing = 0.35;  ///< distance between dabs, as a fraction of the radius
 
 class BrushTool final : public Tool {
  public:
   ToolId id() const override { return ToolId::brush; }
 
   void input(const Input& input, Workspace& workspace) override {
-    place_ = input.inside ? std::optional(input.position) : std::nullopt;
+    position_ = input.inside ? std::optional(input.position) : std::nullopt;
     radius_ = workspace.tools.brush_radius;
     if (input.inside && input.pressed) {
       if (!workspace.shown.deformation().has_cage())
-        return workspace.messages.say(needs_a_cage(workspace, "Stiffness acts inside a cage"));
+        return workspace.messages.say(needs_a_cage(workspace, "The brush needs a cage"));
       painting_ = true;
       last_.reset();
       dabs_ = workspace.shown.deformation().stiffness;
@@ -29,7 +29,7 @@ class BrushTool final : public Tool {
       level_ = input.mods.ctrl ? -kStrength : kStrength;
     }
     if (!painting_) return;
-    touch(input, workspace);
+    add_dab(input, workspace);
     if (input.down && !input.released) return;
     painting_ = false;
     finish(workspace);
@@ -41,17 +41,18 @@ class BrushTool final : public Tool {
     ToolOverlay overlay;
     overlay.shows_dabs = true;
     if (painting_) overlay.dabs = dabs_;
-    overlay.brush = place_;
+    overlay.brush = position_;
     return overlay;
   }
   std::string hint(const Workspace& workspace) const override {
     const bool acts = method_named(workspace.shown.deformation().method).uses_stiffness;
-    return std::string("Drag makes stiff, Ctrl-drag soft, Shift-drag erases; [ and ] size") +
-           (acts ? "" : "; acts in \"As rigid as possible\"");
+    return std::string(
+               "Drag to stiffen, Ctrl-drag to soften, Shift-drag to erase; [ and ] set the size") +
+           (acts ? "" : "; switches to As rigid as possible");
   }
 
  private:
-  void touch(const Input& input, const Workspace& workspace) {
+  void add_dab(const Input& input, const Workspace& workspace) {
     const auto at = rest_at(workspace, input.position);
     if (!at || (last_ && std::abs(*at - *last_) < kSpacing * radius_)) return;
     last_ = at;
@@ -65,7 +66,8 @@ class BrushTool final : public Tool {
 
   void finish(Workspace& workspace) {
     if (std::exchange(full_, false))
-      workspace.messages.say("5000 touches of the brush are the most; erase some with Shift.");
+      workspace.messages.say(
+          "The limit of 5000 brush dabs is reached. Erase some with Shift-drag.");
     Deformation deformation = workspace.shown.deformation();
     if (deformation.stiffness == dabs_) return;
     deformation.stiffness = std::move(dabs_);
@@ -78,12 +80,12 @@ class BrushTool final : public Tool {
       return;
     if (switches)
       workspace.messages.say(
-          "The method is \"As rigid as possible\": the one that knows stiffness.");
+          "Switched to As rigid as possible, which takes stiffness into account.");
   }
 
   bool painting_ = false, erases_ = false, full_ = false;
   double level_ = kStrength, radius_ = 1;
-  std::optional<Complex> place_, last_;
+  std::optional<Complex> position_, last_;
   std::vector<BrushDab> dabs_;
 };
 

@@ -1,4 +1,5 @@
-// Equal steps first, so that smoothing does not depend on how fast the hand moved.
+// The line is resampled at equal steps before smoothing, so that the result does not depend on the
+// speed of the hand.
 #include "edit/tools/freehand.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kStepPx = 3;  ///< between the points that are kept while drawing
+constexpr double kStepPx = 3;  ///< smallest distance between recorded points
 constexpr int kFewest = 8, kFewestAround = 24, kMost = 400, kSmoothings = 3;
 
 }  // namespace
@@ -30,9 +31,9 @@ Points Freehand::finish(bool closed, double step_px, double shortest_px, const V
   for (size_t i = 0; i + 1 < line.size(); ++i) length += std::abs(line[i + 1] - line[i]);
   if (line.size() < (closed ? 4 : 2) || length * view.zoom < shortest_px) return {};
   const Polyline drawn(line, closed);
-  const double wanted = drawn.length() * view.zoom / step_px;
+  const double count = drawn.length() * view.zoom / step_px;
   Points points = at_equal_lengths(drawn, static_cast<Index>(std::clamp<double>(
-                                              wanted, closed ? kFewestAround : kFewest, kMost)));
+                                              count, closed ? kFewestAround : kFewest, kMost)));
   for (int pass = 0; pass < kSmoothings; ++pass) {
     const Points before = points;
     const size_t n = points.size();

@@ -1,4 +1,4 @@
-// A line drawn in one go with the button down, its tremor smoothed.
+// A line drawn freehand with the button held down, and smoothed at the end.
 #pragma once
 
 #include "edit/input.h"
@@ -14,13 +14,14 @@ class Freehand {
   }
   bool active() const { return !line_.empty(); }
   void cancel() { line_.clear(); }
-  /// So far.
+  /// The line so far, not smoothed.
   const Points& line() const { return line_; }
 
-  /// Follows the pointer; true when the button was let go.
+  /// Follows the pointer. Returns true when the button is released.
   bool follow(const Input& input);
-  /// Ends it: the smoothed line at equal steps of about `step_px`, run together with its start when
-  /// it closes; empty when it is shorter than `shortest_px`.
+  /// Ends the line and returns it, smoothed and resampled at equal steps of about `step_px`. Empty
+  /// if the line is shorter than `shortest_px`. With `closed`, the points are those of a closed
+  /// curve.
   Points finish(bool closed, double step_px, double shortest_px, const Viewport& view);
 
  private:

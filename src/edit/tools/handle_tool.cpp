@@ -1,4 +1,4 @@
-// A press is decided in one order: the ring, then the handle under the pointer.
+// A press acts on the handle under the pointer. The ring gets it only where there is no handle.
 #include "edit/tools/handle_tool.h"
 
 namespace holomorph {
@@ -23,7 +23,7 @@ bool HandleTool::press(const Input& input, Workspace& workspace) {
     return true;
   }
   if (!hover_) return false;
-  if (erases(input, *hover_, workspace))
+  if (erase_with_alt(input, *hover_, workspace))
     hover_.reset();
   else if (select(input, workspace) && !start_gesture(input, workspace))
     drag_.start(input, *hover_, workspace.selection, workspace.shown.deformation());

@@ -1,4 +1,4 @@
-// What the tools that pick and drag handles share: picking, dragging, the ring of a pin.
+// The common base of tools that pick and drag handles: picking, dragging, the ring of a pin.
 #pragma once
 
 #include "edit/tools/tool.h"
@@ -16,23 +16,25 @@ class HandleTool : public Tool {
   ToolOverlay overlay() const override;
 
  protected:
-  /// Continues a drag of handles or of the ring. Returns whether there is one.
+  /// Continues the current drag of handles or of the ring. Returns false if there is none.
   bool follow(const Input& input, Workspace& workspace);
   /// Finds the handle under the pointer.
   void find(const Input& input, const Workspace& workspace);
-  /// A press on the ring turns it; on a handle, Alt deletes it, and otherwise it is selected and
-  /// dragged. Returns whether the press was on either.
+  /// Handles a press. On the ring it starts a rotation. On a handle it deletes the handle with Alt,
+  /// and otherwise selects it and starts a drag. Returns whether the press was on the ring or a
+  /// handle.
   bool press(const Input& input, Workspace& workspace);
-  /// Starts a gesture of the tool's own on the selected handle under the pointer, in place of a
-  /// drag. Returns whether there is one.
+  /// Starts the tool's own gesture on the selected handle under the pointer instead of a drag.
+  /// Returns false if there is none.
   virtual bool start_gesture(const Input&, Workspace&) { return false; }
 
   HandleDrag drag_;
-  PinRing ring_;  ///< shown by tools that call its `hover`
+  PinRing ring_;  ///< displayed by tools that call its `hover`
   std::optional<Handle> hover_;
 
  private:
-  /// Shift adds the handle under the pointer or removes it. Returns whether it is selected.
+  /// Selects the handle under the pointer; with Shift, adds it to the selection or removes it.
+  /// Returns whether it is selected afterwards.
   bool select(const Input& input, Workspace& workspace);
 };
 

@@ -1,4 +1,4 @@
-// A perspective of 30 degrees from bottom to top.
+// A perspective camera with a vertical field of view of 30 degrees.
 #include "edit/tools/orbit.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ Eigen::Matrix3d turned(double yaw, double pitch) {
 }  // namespace
 
 OrbitCamera OrbitCamera::around(const Surface& surface, double aspect) {
-  constexpr double kAside = 0.45, kAbove = 0.2;  // head on, a relief looks flat
+  constexpr double kAside = 0.45, kAbove = 0.2;  // seen from the front, a relief looks flat
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
   Eigen::Vector3d facing = Eigen::Vector3d::Zero();
@@ -54,7 +54,7 @@ void OrbitCamera::pan_px(Complex delta, double height) {
   const double per_px = 2 * distance * std::tan(kHalfAngle) / std::max(height, 1.0);
   target += turned(yaw, pitch).transpose() *
             Eigen::Vector3d(-per_px * delta.real(), per_px * delta.imag(), 0);
-  // No farther than where the surface is still between the clipping planes.
+  // Pan only as far as the surface stays between the clipping planes.
   const Eigen::Vector3d off = target - middle;
   if (off.norm() > 2 * radius) target = middle + 2 * radius * off.normalized();
 }

@@ -5,30 +5,31 @@
 
 namespace holomorph {
 
-/// Looks at a point; y stays up. Angles are radians. Value type.
+/// An orbit camera, which looks at `target` with the y axis up. Angles are in radians. Value type.
 struct OrbitCamera {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  double yaw = 0, pitch = 0;  ///< of the camera seen from the target: 0, 0 is on +z
-  double distance = 3;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of what is seen
-  double radius = 1;                                 ///< around that
+  double yaw = 0, pitch = 0;  ///< direction from the target to the camera: 0, 0 is +z
+  double distance = 3;        ///< from the target to the camera
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< center of the surface's bounding sphere
+  double radius = 1;                                 ///< radius of the bounding sphere
 
   bool operator==(const OrbitCamera&) const = default;
 
-  /// All of a surface in a picture of this width / height, a little from the side of what most of
-  /// its triangles face.
+  /// A camera that sees all of a surface in a view with this width / height. It looks from the side
+  /// that the surface faces on average, turned a little so that a relief does not look flat.
   static OrbitCamera around(const Surface& surface, double aspect);
-  /// Turns with the pointer; half the height of the view, in px, is a quarter turn. Stops when it
-  /// looks straight down or up.
+  /// Orbits with the pointer: a drag over half the height of the view, in px, is a quarter turn.
+  /// The pitch stops just before the camera looks straight up or down.
   void turn_px(Complex delta, double height);
-  /// What is in the target's distance follows the pointer.
+  /// Pans so that points at the target's distance follow the pointer.
   void pan_px(Complex delta, double height);
-  /// Nearer by a factor, within bounds.
+  /// Divides the distance by a factor, within bounds that depend on the radius.
   void zoom(double factor);
 
-  /// Surface to camera: a motion; the camera is at the origin and looks along -z.
+  /// The rigid motion from surface to camera coordinates. The camera is at the origin and looks
+  /// along -z.
   Eigen::Matrix4d to_view() const;
-  /// From there to OpenGL's clip coordinates.
+  /// The projection from camera coordinates to OpenGL's clip coordinates.
   Eigen::Matrix4d to_clip(double aspect) const;
 };
 

@@ -1,5 +1,5 @@
-// O: an outline is drawn in one go, closed and smoothed when it is let go, or click by click, and
-// the picture's shape goes onto it; on the outline itself a drag bends it.
+// Key U. Draws an outline, which the cage then takes as its shape: freehand, closed and smoothed
+// when the button is released, or point by point. A drag of the outline itself bends it.
 #include <algorithm>
 
 #include "core/geometry/polyline.h"
@@ -11,7 +11,7 @@ namespace holomorph {
 namespace {
 
 constexpr double kStepPx = 4, kShortestPx = 60;
-constexpr double kReach = 0.12;  ///< of a pull, in lengths of the outline
+constexpr double kReach = 0.12;  ///< reach of a pull, as a fraction of the outline's length
 
 class OutlineTool final : public Tool {
  public:
@@ -31,7 +31,7 @@ class OutlineTool final : public Tool {
     hovered_ = input.inside && is_near(input, workspace);
     if (!input.pressed) return;
     if (!workspace.shown.deformation().has_cage())
-      return workspace.messages.say("The outline is for the cage's shape: make a cage first.");
+      return workspace.messages.say("An outline needs a cage. Make a cage first.");
     if (!hovered_) return drawing_.start(input);
     const Points& outline = workspace.shown.deformation().outline;
     const auto nearest = std::ranges::min_element(
@@ -50,7 +50,7 @@ class OutlineTool final : public Tool {
     const PenPath::Answer answer = path_.key(key);
     if (answer == PenPath::Answer::close) close(workspace);
     if (answer == PenPath::Answer::too_few)
-      workspace.messages.say("An outline needs three points at least.");
+      workspace.messages.say("An outline needs at least three points.");
     return answer != PenPath::Answer::ignored || Tool::key(key, workspace);
   }
   bool busy() const override { return path_.active() || drawing_.active() || pull_.has_value(); }
@@ -63,21 +63,20 @@ class OutlineTool final : public Tool {
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
-      return "Make a cage first: its shape goes onto the outline";
+      return "Make a cage first; it takes the shape of the outline";
     if (path_.active() && path_.closes()) return "Click to close the outline";
     if (path_.active())
-      return "Click for corners, drag for smooth points; Enter or the first point closes; "
-             "Backspace "
-             "takes one back";
-    if (drawing_.active()) return "Let go to close the outline; Esc gives it up";
-    if (hovered_ || pull_) return "Drag to bend the outline, with Ctrl to move all of it";
-    return "Drag to draw the outline that the picture's shape goes onto, or click its points";
+      return "Click for a corner, drag for a smooth point; press Enter or click the first point to "
+             "close; Backspace takes a point back";
+    if (drawing_.active()) return "Release to close the outline; Esc cancels";
+    if (hovered_ || pull_) return "Drag to bend the outline, Ctrl-drag to move all of it";
+    return "Drag to draw the outline that the cage takes, or click its points";
   }
 
  private:
   struct Pull {
     size_t point;
-    bool whole;  ///< the outline is moved
+    bool whole;  ///< the whole outline moves
     Complex start, start_px;
     Deformation deformation;
   };
@@ -89,7 +88,8 @@ class OutlineTool final : public Tool {
     return distance * workspace.display.viewport.zoom <= workspace.display.handle_px;
   }
 
-  /// A drawing that goes nowhere is a click: the first of the points of a path.
+  /// Ends a freehand drawing. One that stays within the drag threshold is a click, which sets the
+  /// first point of a path.
   void finish(const Input& input, Workspace& workspace) {
     const Complex first = drawing_.line().front();
     const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
@@ -101,15 +101,15 @@ class OutlineTool final : public Tool {
       path_.follow(input, workspace.display.viewport, workspace.display.handle_px);
     } else if (outline.empty()) {
       workspace.messages.say(
-          "Keep the button down and draw all around the new shape, or click its points.");
+          "Hold the button down and draw all around the shape, or click its points.");
     } else {
-      take_outline(workspace, "Draw outline", std::move(outline));
+      set_outline(workspace, "Draw outline", std::move(outline));
     }
   }
 
   void close(Workspace& workspace) {
-    // A refused drawing stays, so that a point can be taken back.
-    if (take_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
+    // A refused path stays, so that the user can take points back.
+    if (set_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
   }
 
   void follow_pull(const Input& input, Workspace& workspace) {
@@ -139,8 +139,8 @@ class OutlineTool final : public Tool {
 
 }  // namespace
 
-bool take_outline(Workspace& workspace, const std::string& label, Points outline,
-                  std::optional<SurfaceReference> surface) {
+bool set_outline(Workspace& workspace, const std::string& label, Points outline,
+                 std::optional<SurfaceReference> surface) {
   try {
     check_outline(outline);
   } catch (const Error& error) {

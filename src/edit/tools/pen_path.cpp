@@ -1,4 +1,4 @@
-// The last point stays open to its tangent as long as the button is down.
+// While the button is down, a drag sets the tangent of the last point.
 #include "edit/tools/pen_path.h"
 
 namespace holomorph {
@@ -32,7 +32,7 @@ bool PenPath::follow(const Input& input, const Viewport& view, double handle_px)
   closes_ = nodes_.size() >= kFewest && near(nodes_[0], handle_px);
   if (input.mods.shift) pointer_ = constrained(input.position);
   if (!input.pressed) return false;
-  // The second click of a double-click would repeat the last point: it closes instead.
+  // The second click of a double-click would repeat the last point. It closes the curve instead.
   const bool repeated = near(nodes_.back(), kDragThresholdPx);
   if (closes_ || (input.double_clicked && repeated && nodes_.size() >= kFewest)) return true;
   if (!repeated) set_point(*pointer_);
@@ -75,7 +75,7 @@ Cage PenPath::cage() const {
   return cage;
 }
 
-/// As a polyline; the last point's tangent shows while it is pulled.
+/// The open curve so far as a polyline, with the last point's tangent while that is pulled out.
 Points PenPath::drawn() const {
   Points line;
   for (size_t i = 0; i + 1 < nodes_.size(); ++i) {
@@ -91,7 +91,7 @@ Points PenPath::drawn() const {
   return line;
 }
 
-/// In steps of 15 degrees from the last point.
+/// z moved so that its direction from the last point is a multiple of 15 degrees.
 Complex PenPath::constrained(Complex z) const {
   const Complex by = z - nodes_.back().at;
   return nodes_.back().at +

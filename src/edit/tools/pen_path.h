@@ -1,36 +1,37 @@
-// A closed curve that is being drawn point by point.
+// A closed curve that the user draws point by point.
 #pragma once
 
 #include "edit/tools/tool.h"
 
 namespace holomorph {
 
-/// A click sets a corner; dragging on from there makes it smooth. Starting is its owner's.
+/// A click sets a corner; a drag from there makes the point smooth. The tool that owns the path
+/// sets its first point.
 class PenPath {
  public:
   bool active() const { return !nodes_.empty(); }
-  /// The first point, or one more; its tangent can be pulled out until the button is let go.
+  /// Adds a point. Its tangent can be pulled out until the button is released.
   void set_point(Complex at);
-  /// Follows the pointer. True when the curve is to be closed: by a click on its first point, or a
-  /// double-click.
+  /// Follows the pointer. Returns true when a click on the first point or a double-click closes the
+  /// curve.
   bool follow(const Input& input, const Viewport& view, double handle_px);
 
   enum class Answer { ignored, used, close, too_few };
-  /// Enter closes, Backspace takes a point back, Escape gives all up.
+  /// Enter closes the curve, Backspace or Delete removes the last point, Escape cancels.
   Answer key(Key key);
   void cancel() {
     nodes_.clear();
     placing_ = closes_ = false;
   }
 
-  /// Straight between corners, else cubic.
+  /// The closed curve: straight between corners, else cubic.
   Cage cage() const;
-  /// Whether the next click closes it.
+  /// Whether a click at the current position closes the curve.
   bool closes() const { return closes_; }
   void show(ToolOverlay& overlay) const;
 
  private:
-  /// A tangent of 0 is a corner.
+  /// A point of the curve. A corner has the tangent 0.
   struct Node {
     Complex at, tangent;
   };
@@ -40,7 +41,7 @@ class PenPath {
 
   std::vector<Node> nodes_;
   std::optional<Complex> pointer_;
-  bool placing_ = false;  ///< the button is still down on the last point
+  bool placing_ = false;  ///< the button is still down after the last point was set
   bool closes_ = false;
 };
 

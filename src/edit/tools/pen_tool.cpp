@@ -1,4 +1,5 @@
-// P: draw a cage point by point; on a finished cage's edge, insert; on its points, move.
+// Key P. Draws a cage point by point, inserts points in the edges of a finished cage, and moves its
+// points.
 #include "edit/actions/actions.h"
 #include "edit/tools/handle_tool.h"
 #include "edit/tools/pen_path.h"
@@ -48,17 +49,16 @@ class PenTool final : public HandleTool {
   std::string hint(const Workspace& workspace) const override {
     if (path_.active() && path_.closes()) return "Click to close the cage";
     if (path_.active())
-      return "Click the first point, press Enter or double-click to close; drag for a smooth "
-             "point; "
-             "Backspace takes one back; Esc cancels";
+      return "Click for a corner, drag for a smooth point; click the first point, press Enter or "
+             "double-click to close; Backspace takes a point back; Esc cancels";
     if (!workspace.shown.deformation().has_cage()) return "Click around the picture to draw a cage";
-    if (insertion_) return "Click to insert a point; rest and pose keep their shape";
-    return "Click an edge to insert a point; click elsewhere to draw another cage in place of this "
+    if (insertion_) return "Click to insert a point; rest shape and pose do not change";
+    return "Click an edge to insert a point; click elsewhere to draw another cage instead of this "
            "one";
   }
 
  private:
-  /// Nothing is being drawn.
+  /// Handles input while no path is being drawn.
   void idle(const Input& input, Workspace& workspace) {
     const Deformation& deformation = workspace.shown.deformation();
     if (deformation.has_cage()) {
@@ -75,12 +75,13 @@ class PenTool final : public HandleTool {
       }
     }
     if (!input.pressed) return;
-    // A cage is drawn around the picture as it rests.
+    // A cage is drawn around the picture at rest.
     if (deformation.has_cage() && deformation != at_rest(deformation)) {
       if (workspace.mode == EditMode::pose)
         workspace.messages.say(
-            "Drawing another cage on the picture at rest. Closing it replaces the cage; " +
-            workspace.actions.key_of("edit.undo") + " brings it back.");
+            "Drawing another cage on the picture at rest. It replaces this cage when you close it. "
+            "Undo with " +
+            workspace.actions.key_of("edit.undo") + ".");
       workspace.mode = EditMode::rest;
     }
     workspace.selection.clear();
@@ -88,7 +89,7 @@ class PenTool final : public HandleTool {
   }
 
   void close(Workspace& workspace) {
-    // A refused drawing stays, so that a point can be taken back.
+    // A refused path stays, so that the user can take points back.
     if (!workspace.commit("Draw cage", with_cage(workspace.shown.own(), path_.cage()),
                           EditBase::document))
       return;

@@ -1,4 +1,5 @@
-// The mesh's boundary is the cage, cut finely.
+// The boundary of the mesh subdivides the cage, so images of segments are runs of boundary
+// vertices.
 #include "edit/tools/posed_corners.h"
 
 #include <algorithm>
@@ -32,12 +33,12 @@ Points posed_segment(const Workspace& workspace, Index segment) {
   }
   const Mesh& mesh = *workspace.map().prepared()->mesh;
   const size_t n = mesh.boundary.size();
-  const auto place = [&](Index vertex) {
+  const auto boundary_index = [&](Index vertex) {
     const int node = mesh.cage_vertices[static_cast<size_t>(vertex)];
     return static_cast<size_t>(std::ranges::find(mesh.boundary, node) - mesh.boundary.begin());
   };
-  const size_t from = place(segment), to = place((segment + 1) % pose.size());
-  // The boundary runs counter-clockwise, the cage as it was drawn.
+  const size_t from = boundary_index(segment), to = boundary_index((segment + 1) % pose.size());
+  // The boundary is counter-clockwise; the cage has the orientation in which it was drawn.
   const size_t step = signed_area(outline_of(workspace.shown.deformation().rest)) > 0 ? 1 : n - 1;
   Points line{workspace.map().map().f[mesh.boundary[from]]};
   for (size_t at = from; at != to;) {
@@ -58,8 +59,9 @@ CornerMark corner_mark(const Workspace& workspace, Index vertex) {
       last = viewport.px_at_plane(z);
       if (std::abs(last - mark.center) >= arm) break;
     }
-    const Complex way = last - mark.center;
-    return mark.center + (std::abs(way) > 0 ? arm * way / std::abs(way) : Complex(arm));
+    const Complex direction = last - mark.center;
+    return mark.center +
+           (std::abs(direction) > 0 ? arm * direction / std::abs(direction) : Complex(arm));
   };
   const Index n = workspace.shown.deformation().pose.size();
   Points before = posed_segment(workspace, (vertex + n - 1) % n);
@@ -69,7 +71,7 @@ CornerMark corner_mark(const Workspace& workspace, Index vertex) {
   return mark;
 }
 
-CornerMark::Region part_at(const CornerMark& mark, Complex px, double handle_px) {
+CornerMark::Region region_at(const CornerMark& mark, Complex px, double handle_px) {
   const double before = std::abs(px - mark.before), after = std::abs(px - mark.after);
   if (std::min(before, after) <= handle_px)
     return before < after ? CornerMark::Region::before : CornerMark::Region::after;

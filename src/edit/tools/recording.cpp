@@ -1,5 +1,5 @@
-// A sample for each drawn frame; the needed ones are found as Ramer, Douglas and Peucker find the
-// needed points of a line, with time in the place of length.
+// Takes a sample per drawn frame. The Ramer-Douglas-Peucker algorithm, with time as the parameter,
+// selects the samples that become keyframes.
 #include "edit/tools/recording.h"
 
 #include <algorithm>
@@ -11,29 +11,29 @@
 namespace holomorph {
 namespace {
 
-Points places_in(const Pose& pose) {
-  Points places = vertices_of(pose.cage);
-  for (const PosePin& pin : pose.pins) places.push_back(pin.position);
+Points positions_in(const Pose& pose) {
+  Points positions = vertices_of(pose.cage);
+  for (const PosePin& pin : pose.pins) positions.push_back(pin.position);
   for (const Points& stroke : pose.strokes)
-    places.insert(places.end(), stroke.begin(), stroke.end());
-  return places;
+    positions.insert(positions.end(), stroke.begin(), stroke.end());
+  return positions;
 }
 
-void blend(Points& a, const Points& b, double share) {
-  for (size_t i = 0; i < a.size() && a.size() == b.size(); ++i) a[i] += share * (b[i] - a[i]);
+void blend(Points& a, const Points& b, double fraction) {
+  for (size_t i = 0; i < a.size() && a.size() == b.size(); ++i) a[i] += fraction * (b[i] - a[i]);
 }
 
-/// A moment between two that are a drawn frame apart.
-Pose between(Pose a, const Pose& b, double share) {
+/// The pose between two samples that are one drawn frame apart.
+Pose between(Pose a, const Pose& b, double fraction) {
   for (size_t e = 0; e < a.cage.segments.size(); ++e)
-    blend(a.cage.segments[e], b.cage.segments[e], share);
-  for (size_t k = 0; k < a.strokes.size(); ++k) blend(a.strokes[k], b.strokes[k], share);
+    blend(a.cage.segments[e], b.cage.segments[e], fraction);
+  for (size_t k = 0; k < a.strokes.size(); ++k) blend(a.strokes[k], b.strokes[k], fraction);
   for (size_t p = 0; p < a.pins.size(); ++p)
-    a.pins[p].position += share * (b.pins[p].position - a.pins[p].position);
+    a.pins[p].position += fraction * (b.pins[p].position - a.pins[p].position);
   return a;
 }
 
-constexpr double kLongestStep = 0.4;  ///< seconds between keys while something moves
+constexpr double kLongestStep = 0.4;  ///< seconds between keyframes while something moves
 
 /// Whether a segment has the same degree in all keyframes that play.
 bool keeps_degree(const Deformation& deformation, Index segment) {
@@ -49,23 +49,23 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
   if (!workspace.require_pose()) return false;
   start_ = workspace.shown.base();
   workspace.map().follow_keys();
-  over_keys_ = !start_.keyframes.empty() && workspace.map().motion().plays();
+  keyframes_play_ = !start_.keyframes.empty() && workspace.map().motion().plays();
   what_ = what;
   drag_options_ = workspace.tools.drag;
   std::erase_if(what_, [&](const Handle& handle) {
     return !exists(start_, handle, EditMode::pose) ||
-           (over_keys_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
+           (keyframes_play_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
   });
   start_time_ = workspace.shown.timeline.time;
   if (what_.empty() || start_time_ >= kMaxTime) {
     workspace.messages.say(what_.empty()
-                               ? "These tangents are none in other keys: they are not recorded."
-                               : "There is no time left to record.");
+                               ? "Not recorded: these tangents do not exist in all keyframes."
+                               : "No time left to record. Go to an earlier time.");
     return false;
   }
   start_ms_ = now_ms;
   const Pose pose = whole_pose_of(dragged(base_at(workspace, start_time_), 0));
-  samples_ = {{start_time_, 0, pose, places_in(pose)}};
+  samples_ = {{start_time_, 0, pose, positions_in(pose)}};
   workspace.shown.timeline.playing = false;
   workspace.shown.timeline.recording = true;
   return true;
@@ -73,15 +73,17 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
 
 Deformation Recording::base_at(const Workspace& workspace, double time) const {
   const Motion& motion = workspace.map().motion();
-  return over_keys_ && motion.plays() ? motion.deformation_at(start_, time, motion.map_at(time))
-                                      : start_;
+  return keyframes_play_ && motion.plays()
+             ? motion.deformation_at(start_, time, motion.map_at(time))
+             : start_;
 }
 
 Deformation Recording::dragged(Deformation deformation, Complex by) const {
-  const Displacements ways = displacements(start_, what_, by, EditMode::pose, drag_options_);
-  // Vertices take their tangents along, so these come behind them.
+  const Displacements displacements_by_handle =
+      displacements(start_, what_, by, EditMode::pose, drag_options_);
+  // Moving a vertex moves its tangents, so tangents are placed after the vertices.
   for (const bool tangents : {false, true})
-    for (const auto& [handle, way] : ways) {
+    for (const auto& [handle, way] : displacements_by_handle) {
       if (is_tangent(handle) != tangents || !exists(deformation, handle, EditMode::pose)) continue;
       if (handle.kind == Handle::Kind::stroke) {
         Points& pose = deformation.strokes[static_cast<size_t>(handle.index)].pose;
@@ -101,7 +103,7 @@ Deformation Recording::follow(Workspace& workspace, Complex by, double now_ms) {
   workspace.shown.timeline.time = time;
   const Pose pose = whole_pose_of(deformation);
   if (time > samples_.back().time) samples_.emplace_back();
-  samples_.back() = {time, by, pose, places_in(pose)};
+  samples_.back() = {time, by, pose, positions_in(pose)};
   return deformation;
 }
 
@@ -110,31 +112,32 @@ Recording::RecordedPose Recording::sample_at(double time) const {
   if (after == samples_.end()) return samples_.back();
   if (after == samples_.begin()) return samples_.front();
   const RecordedPose &a = *std::prev(after), &b = *after;
-  const double share = (time - a.time) / (b.time - a.time);
-  return {time, a.by + share * (b.by - a.by), between(a.pose, b.pose, share), {}};
+  const double fraction = (time - a.time) / (b.time - a.time);
+  return {time, a.by + fraction * (b.by - a.by), between(a.pose, b.pose, fraction), {}};
 }
 
-/// The times of the samples that are needed.
-std::vector<double> Recording::needed(double tolerance) const {
+/// The times of the samples that become keyframes.
+std::vector<double> Recording::keyframe_times(double tolerance) const {
   std::vector<double> times{samples_.front().time};
   const auto split = [&](const auto& self, size_t first, size_t last) -> void {
     const RecordedPose &a = samples_[first], &b = samples_[last];
     size_t worst = first;
     double most = tolerance;
     for (size_t i = first + 1; i < last; ++i) {
-      const double share = (samples_[i].time - a.time) / (b.time - a.time);
-      for (size_t h = 0; h < a.places.size(); ++h) {
-        const double off =
-            std::abs(samples_[i].places[h] - (1 - share) * a.places[h] - share * b.places[h]);
+      const double fraction = (samples_[i].time - a.time) / (b.time - a.time);
+      for (size_t h = 0; h < a.positions.size(); ++h) {
+        const double off = std::abs(samples_[i].positions[h] - (1 - fraction) * a.positions[h] -
+                                    fraction * b.positions[h]);
         if (off <= most) continue;
         worst = i;
         most = off;
       }
     }
-    // In-betweens turn parts instead of moving them straight: over short ways that is the same.
+    // Between keyframes, parts may rotate instead of moving along straight lines. Over short
+    // distances the difference is negligible, so long steps are split.
     double way = 0;
-    for (size_t h = 0; h < a.places.size(); ++h)
-      way = std::max(way, std::abs(b.places[h] - a.places[h]));
+    for (size_t h = 0; h < a.positions.size(); ++h)
+      way = std::max(way, std::abs(b.positions[h] - a.positions[h]));
     if (worst == first && last > first + 1 && b.time - a.time > kLongestStep && way > tolerance)
       worst = (first + last) / 2;
     if (worst > first) {
@@ -156,9 +159,9 @@ void Recording::finish(Workspace& workspace) {
   const double end = samples_.back().time;
   if (at_frame(end) <= start_time_) return cancel(workspace);
   double tolerance = kTolerancePx / workspace.display.viewport.zoom;
-  std::vector<double> times = needed(tolerance);
+  std::vector<double> times = keyframe_times(tolerance);
   while (times.size() + before.keyframes.size() > kMaxKeyframes && times.size() > 2)
-    times = needed(tolerance *= 2);
+    times = keyframe_times(tolerance *= 2);
   Deformation deformation = before;
   const auto set = [&](double time, const Pose& pose) {
     const size_t there = key_at(deformation, time);
@@ -174,7 +177,7 @@ void Recording::finish(Workspace& workspace) {
   for (const Keyframe& key : before.keyframes)
     if (key.time >= start_time_ && key.time <= end && fits(before, key.pose))
       set(key.time, whole_pose_of(dragged(posed_as(before, key.pose), sample_at(key.time).by)));
-  // Even between keys, and behind the last one as it was.
+  // Linear between the recorded keyframes; after the last one, the easing that was there before.
   const auto behind = std::ranges::upper_bound(before.keyframes, end, {}, &Keyframe::time);
   const Ease last = behind == before.keyframes.begin() ? Ease::smooth : std::prev(behind)->ease;
   const double last_time = at_frame(end);
@@ -196,14 +199,14 @@ void Recording::finish(Workspace& workspace) {
 void Recording::cancel(Workspace& workspace) {
   samples_.clear();
   workspace.shown.preview.reset();
-  // Another document has a time of its own.
+  // If another document was opened, `recording` is off, and its time is kept.
   if (std::exchange(workspace.shown.timeline.recording, false))
     workspace.shown.timeline.time = start_time_;
 }
 
 std::string recording_hint(const Timeline& timeline) {
   char text[80];
-  std::snprintf(text, sizeof text, "Recording, %.1f s; release to set the keys, Esc drops them",
+  std::snprintf(text, sizeof text, "Recording, %.1f s; release to set the keyframes, Esc cancels",
                 timeline.time);
   return text;
 }

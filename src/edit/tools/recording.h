@@ -1,4 +1,4 @@
-// Motion recorded as it is dragged: the time runs, and where handles go becomes keyframes.
+// Records a drag as motion: time runs while handles are dragged, and their paths become keyframes.
 #pragma once
 
 #include "edit/workspace.h"
@@ -7,17 +7,18 @@ namespace holomorph {
 
 class Recording {
  public:
-  /// From the workspace's time on. Where keyframes play, everything but the handles goes on moving
-  /// with them; else it stays as it is shown. Tangents of segments whose degree changes with time
-  /// are left out. Returns whether anything is left to record.
+  /// Starts at the workspace's current time. If keyframes play, everything except the dragged
+  /// handles continues to move with them; otherwise it keeps its displayed pose. Tangents of
+  /// segments whose degree changes with time are left out. Returns whether anything is left to
+  /// record; a toast says so if not.
   bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
-  /// The deformation at this moment with the handles by `by` from where they were at the start. The
-  /// workspace's time goes along.
+  /// The deformation at the time that belongs to `now_ms`, with the dragged handles displaced by
+  /// `by` from their positions at the start. Sets the workspace's time.
   Deformation follow(Workspace& workspace, Complex by, double now_ms);
-  /// Sets linear keyframes at frames, as few as keep everything within three window pixels of its
-  /// way, as one step. Keys that are there already keep what was not dragged; those that do not
-  /// play stay as they are.
+  /// Sets linear keyframes at frames in one step: few keyframes that keep all handles within three
+  /// window px of their paths. Existing keyframes keep what was not dragged. Those that do not play
+  /// are not changed.
   void finish(Workspace& workspace);
   void cancel(Workspace& workspace);
 
@@ -26,23 +27,23 @@ class Recording {
     double time = 0;
     Complex by;
     Pose pose;
-    Points places;  ///< of all handles
+    Points positions;  ///< positions of all handles
   };
-  /// A deformation with the handles where they are dragged to.
+  /// A deformation with the handles at the positions to which they are dragged.
   Deformation dragged(Deformation deformation, Complex by) const;
   Deformation base_at(const Workspace& workspace, double time) const;
   RecordedPose sample_at(double time) const;
-  std::vector<double> needed(double tolerance) const;
+  std::vector<double> keyframe_times(double tolerance) const;
 
   Selection what_;
   DragOptions drag_options_;
-  Deformation start_;  ///< what was shown
+  Deformation start_;  ///< the displayed deformation at the start
   double start_time_ = 0, start_ms_ = 0;
-  bool over_keys_ = false;
+  bool keyframes_play_ = false;
   std::vector<RecordedPose> samples_;
 };
 
-/// What to say meanwhile.
+/// The status hint during a recording.
 std::string recording_hint(const Timeline& timeline);
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
-// V: pick, move, box-select, turn pins, insert by double-click, delete by Alt-click.
+// Key V. Selects and moves handles, selects with a box, rotates pins, inserts points by
+// double-click and deletes handles by Alt-click.
 #include "edit/actions/actions.h"
 #include "edit/tools/handle_tool.h"
 
@@ -51,23 +52,24 @@ class SelectTool final : public HandleTool {
 
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
-      return needs_a_cage(workspace, "What bends is inside a cage");
-    if (drag_.active()) return "Shift keeps the axis";
+      return needs_a_cage(workspace, "Bending needs a cage");
+    if (drag_.active()) return "Hold Shift to move along one axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
-    if (ring_.active()) return "Shift snaps to 15 degrees";
+    if (ring_.active()) return "Hold Shift for steps of 15 degrees";
     if (ring_.hovered() && !hover_)
-      return "Drag the ring to turn the picture around the pin, scroll on it to scale";
+      return "Drag the ring to rotate the picture around the pin; scroll on it to scale";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
-      return "Drag to move; S bends and redraws strokes; Alt-click deletes";
-    if (hover_ && hover_->control > 0) return "Drag to bend; Alt breaks a smooth point's tangents";
+      return "Drag to move; Alt-click to delete; the Stroke tool bends and redraws it";
+    if (hover_ && hover_->control > 0)
+      return "Drag to bend the curve; hold Alt to break the tangents of a smooth point";
     if (hover_)
-      return "Drag to move, with Ctrl to record motion; Shift-click adds; Alt-click deletes; "
-             "Ctrl-click: smooth or corner";
+      return "Drag to move; Ctrl-drag to record motion; Shift-click to select more; Alt-click to "
+             "delete; Ctrl-click for smooth or corner";
     return workspace.mode == EditMode::rest
-               ? "Rest: drag points, the pose stays; double-click an edge inserts; " +
+               ? "Drag points of the rest shape; the pose stays; double-click an edge to insert; " +
                      workspace.actions.key_of("cage.rest") + " returns to the pose"
-               : "Drag points or pins; drag a box to select; double-click an edge inserts; " +
-                     workspace.actions.key_of("cage.rest") + " shows the rest";
+               : "Drag points or pins; drag a box to select; double-click an edge to insert; " +
+                     workspace.actions.key_of("cage.rest") + " shows the rest shape";
   }
 
  private:

@@ -1,23 +1,24 @@
-// Both coordinates are looked at by themselves: a handle may line up with two things.
+// The two coordinates snap independently, so a handle can line up with two things.
 #include "edit/tools/snapping.h"
 
 namespace holomorph {
 
 Complex snapped(const Deformation& deformation, const Selection& dragged, Handle pressed,
                 Complex by, EditMode mode, const Snapping& snapping, std::vector<Guide>& guides) {
-  Points places{position_of(deformation, pressed, EditMode::rest)};
+  Points candidates{position_of(deformation, pressed, EditMode::rest)};
   for (const Handle& handle : handles_of(deformation, mode))
     if (!dragged.contains(handle) && handle.control == 0)
-      places.push_back(position_of(deformation, handle, mode));
+      candidates.push_back(position_of(deformation, handle, mode));
   if (snapping.picture) {
     const Box& box = *snapping.picture;
-    places.insert(places.end(), {{box.left, box.bottom}, {box.right, box.top}, box.center()});
+    candidates.insert(candidates.end(),
+                      {{box.left, box.bottom}, {box.right, box.top}, box.center()});
   }
   const Complex start = position_of(deformation, pressed, mode), free = start + by;
   const auto nearest = [&](auto coordinate) {
     const Complex* found = nullptr;
     double least = snapping.distance;
-    for (const Complex& z : places) {
+    for (const Complex& z : candidates) {
       const double off = std::abs(coordinate(z) - coordinate(free));
       if (off >= least) continue;
       found = &z;

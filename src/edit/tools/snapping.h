@@ -1,23 +1,24 @@
-// Dragged handles stop where they line up with something.
+// Snapping: dragged handles stop where they line up with something.
 #pragma once
 
 #include "edit/edits/edits.h"
 
 namespace holomorph {
 
-/// A line that a handle was stopped at, from what it lines up with to where the handle is.
+/// A guide line from the point that a handle lines up with to the handle.
 struct Guide {
   Complex from, to;
 };
 
-/// Where handles may line up, with what lies within `distance` along x or y: handles that are not
-/// dragged, the handle's own place at rest, and the picture's edges and middle.
+/// What a handle can line up with within `distance` along x or y: handles that are not dragged, its
+/// own rest position, and the edges and the center of the picture.
 struct Snapping {
-  double distance = 0;
+  double distance = 0;  ///< plane units
   std::optional<Box> picture;
 };
 
-/// A drag of handles, changed so that the pressed one lines up; appends what it lines up with.
+/// The displacement `by` of a drag, adjusted so that the pressed handle lines up. Appends the guide
+/// lines.
 Complex snapped(const Deformation& deformation, const Selection& dragged, Handle pressed,
                 Complex by, EditMode mode, const Snapping& snapping, std::vector<Guide>& guides);
 

@@ -1,4 +1,4 @@
-// S: lines drawn on the picture; dragged, pulled or redrawn they take it along.
+// Key S. Draws strokes on the picture. The picture follows when they are moved, bent or redrawn.
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +11,7 @@ namespace holomorph {
 namespace {
 
 constexpr double kStepPx = 6, kShortestPx = 12;
-constexpr double kReach = 0.25, kEndReach = 1;  ///< of a pull, in lengths of the stroke
+constexpr double kReach = 0.25, kEndReach = 1;  ///< reach of a pull, in lengths of the stroke
 
 class StrokeTool final : public HandleTool {
  public:
@@ -49,12 +49,13 @@ class StrokeTool final : public HandleTool {
   }
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
-      return needs_a_cage(workspace, "Strokes act inside a cage");
-    if (drawing_.active()) return "Let go to end the stroke; Esc gives it up";
+      return needs_a_cage(workspace, "Strokes need a cage");
+    if (drawing_.active()) return "Release to end the stroke; Esc cancels";
     if (hover_ && hover_->kind == Handle::Kind::stroke)
-      return "Drag to move, at an end or with Ctrl to bend; Alt-click deletes";
-    return selected_stroke(workspace) ? "Shift-drag redraws the stroke; drag draws another one"
-                                      : "Drag on the picture to draw a stroke, then drag it";
+      return "Drag to move; drag an end or Ctrl-drag to bend; Alt-click to delete";
+    return selected_stroke(workspace)
+               ? "Shift-drag to redraw the stroke; drag to draw another one"
+               : "Drag on the picture to draw a stroke, then drag the stroke";
   }
 
  private:
@@ -74,15 +75,15 @@ class StrokeTool final : public HandleTool {
 
   void start_drawing(const Input& input, Workspace& workspace) {
     if (!workspace.shown.deformation().has_cage())
-      return workspace.messages.say(needs_a_cage(workspace, "Strokes act inside a cage"));
+      return workspace.messages.say(needs_a_cage(workspace, "Strokes need a cage"));
     if (input.mods.shift && !selected_stroke(workspace) &&
         !workspace.shown.deformation().strokes.empty())
-      return workspace.messages.say("Click a stroke first: Shift-drag draws its new place.");
+      return workspace.messages.say("Click a stroke first. Then Shift-drag to redraw it.");
     redrawn_ = input.mods.shift ? selected_stroke(workspace) : std::nullopt;
     if (!redrawn_ && !rest_at(workspace, input.position))
       return workspace.messages.say(workspace.map().busy()
-                                        ? "One moment, the map is being prepared."
-                                        : "A stroke starts on the picture.");
+                                        ? "The map is being prepared. Try again in a moment."
+                                        : "Start the stroke on the picture, inside the cage.");
     drawing_.start(input);
   }
 
@@ -90,7 +91,7 @@ class StrokeTool final : public HandleTool {
     const Points drawn = drawing_.finish(false, kStepPx, kShortestPx, workspace.display.viewport);
     const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
     if (drawn.empty()) {
-      workspace.selection.clear();  // a click beside everything
+      workspace.selection.clear();  // a click on nothing
       return;
     }
     if (redrawn_stroke) {
@@ -106,22 +107,21 @@ class StrokeTool final : public HandleTool {
       pose.push_back(workspace.at_rest() ? posed_at(workspace.map(), *at) : z);
     }
     if (rest.size() < 2)
-      return workspace.messages.say("A stroke goes on the picture, inside the cage.");
+      return workspace.messages.say("Draw the stroke on the picture, inside the cage.");
     const bool clipped = rest.size() < drawn.size();
     const bool switches = !method_named(workspace.shown.deformation().method).uses_strokes;
     if (!workspace.commit("Draw stroke", with_stroke(workspace.shown.deformation(), rest, pose,
-                                                     workspace.in_keyframes(rest))))
+                                                     workspace.keyframe_images(rest))))
       return;
     workspace.selection = {{Handle::Kind::stroke,
                             static_cast<Index>(workspace.shown.deformation().strokes.size()) - 1,
                             0}};
-    if (clipped) workspace.messages.say("What was drawn beside the picture was left out.");
+    if (clipped) workspace.messages.say("The part of the stroke outside the picture was left out.");
     if (switches)
-      workspace.messages.say(
-          "The method is \"Strokes\": strokes, pins and cage points act together.");
+      workspace.messages.say("Switched to Strokes. Strokes, pins and cage points act together.");
   }
 
-  /// At an end, or anywhere with Ctrl, a stroke is bent instead of moved.
+  /// A drag at an end of a stroke, or anywhere on it with Ctrl, bends it instead of moving it.
   bool start_gesture(const Input& input, Workspace& workspace) override {
     if (hover_->kind != Handle::Kind::stroke) return false;
     const Points& curve = curve_of(workspace.shown.deformation(), hover_->index, workspace.mode);

@@ -1,4 +1,4 @@
-// The gestures that tools share.
+// The gestures that several tools share.
 #include "edit/tools/tool.h"
 #include "edit/actions/actions.h"
 
@@ -66,7 +66,7 @@ void HandleDrag::finish(Workspace& workspace) {
   if (amends_)
     workspace.amend(*workspace.shown.preview);
   else
-    workspace.commit(workspace.mode == EditMode::rest ? "Move at rest"
+    workspace.commit(workspace.mode == EditMode::rest ? "Move rest shape"
                      : kind_of(what_) == "point"      ? "Move"
                                                       : "Move " + kind_of(what_),
                      *workspace.shown.preview);
@@ -79,10 +79,10 @@ void toggle_corners(Workspace& workspace) {
   for (const Handle& handle : workspace.selection)
     smooth = smooth || (handle.kind == Handle::Kind::cage && handle.control == 0 &&
                         is_smooth(after, handle.index, workspace.mode));
-  workspace.commit(smooth ? "Smooth point" : "Corner", after);
+  workspace.commit(smooth ? "Make smooth" : "Make corner", after);
 }
 
-bool erases(const Input& input, Handle handle, Workspace& workspace) {
+bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace) {
   if (!input.mods.alt || is_tangent(handle)) return false;
   workspace.erase({handle});
   return true;
@@ -124,7 +124,7 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
 void PinRing::follow(const Input& input, Workspace& workspace) {
   const double before = start_deformation_.pins[*pin_].angle.value_or(0);
   double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
-  // Unwrapped from frame to frame, so that more than half a turn can be dragged.
+  // Unwrapped from frame to frame, so that a drag can exceed half a turn.
   const double last =
       workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
@@ -133,14 +133,14 @@ void PinRing::follow(const Input& input, Workspace& workspace) {
     workspace.shown.preview = turned(start_deformation_, *pin_, angle);
   if (input.down && !input.released) return;
   active_ = false;
-  if (workspace.shown.preview) workspace.commit("Turn pin", *workspace.shown.preview);
+  if (workspace.shown.preview) workspace.commit("Rotate pin", *workspace.shown.preview);
 }
 
 bool PinRing::scroll(const Input& input, Workspace& workspace) {
   hover(input, workspace);
   if (!hovered_) return false;
   const double factor = std::pow(1.05, input.wheel);
-  workspace.commit_or_amend("Scale at pin", scaled(workspace.shown.deformation(), *pin_, factor));
+  workspace.commit_or_amend("Scale pin", scaled(workspace.shown.deformation(), *pin_, factor));
   return true;
 }
 
@@ -150,8 +150,8 @@ void PinRing::cancel(Workspace& workspace) {
 }
 
 std::string needs_a_cage(const Workspace& workspace, const std::string& what) {
-  return what + ": draw one with " + workspace.actions.key_of("tool.pen") +
-         ", or make one from the picture";
+  return what + ". Draw one with " + workspace.actions.key_of("tool.pen") +
+         ", or use Make from picture.";
 }
 
 }  // namespace holomorph

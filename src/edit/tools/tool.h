@@ -1,4 +1,4 @@
-// Tools turn input into a changed deformation: nothing, a preview, or a commit.
+// Tools turn pointer input into edits: previews during a gesture, and one commit at its end.
 #pragma once
 
 #include <memory>
@@ -11,54 +11,59 @@
 
 namespace holomorph {
 
-/// What a tool wants drawn besides the deformation.
+/// What a tool draws in addition to the deformation.
 struct ToolOverlay {
-  Points line;                      ///< what is being drawn, as a polyline in the plane
-  Points line_points;               ///< the points that were set
-  std::optional<Complex> line_end;  ///< where its next point would be
-  bool closes = false;              ///< the next click closes it
+  Points line;                      ///< the line being drawn, as a polyline in the plane
+  Points line_points;               ///< the points that the user set
+  std::optional<Complex> line_end;  ///< the position of the line's next point
+  bool closes = false;              ///< the next click closes the line
   std::optional<Box> marquee;       ///< in window px
   std::optional<Handle> hover;
   std::optional<Complex> insertion;  ///< where a click inserts a point
-  std::optional<Index> ring;         ///< the pin that shows its rotation ring
+  std::optional<Index> ring;         ///< the pin that has the rotation ring
   bool ring_hovered = false;
-  std::optional<CornerMark> corner;  ///< the cage vertex that shows its ring and arms
+  std::optional<CornerMark> corner;  ///< ring and arms of a corner
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
-  std::optional<BoxMark> box;        ///< around what is selected
-  std::vector<Guide> guides;         ///< what is lined up with
-  bool shows_dabs = false;           ///< what is painted: `dabs`, or the deformation's
+  std::optional<BoxMark> box;        ///< around the selection
+  std::vector<Guide> guides;         ///< guide lines of snapping
+  bool shows_dabs = false;           ///< draw the painted stiffness: `dabs`, or the deformation's
   std::optional<std::vector<BrushDab>> dabs;
-  std::optional<Complex> brush;  ///< where the brush is
+  std::optional<Complex> brush;  ///< the position of the brush
 };
 
 inline constexpr double kDragThresholdPx = 3;
 inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
 
-/// One way of using the pointer. Objects live as long as the editor; state is an unfinished
-/// gesture.
+/// A tool gives the pointer its function on the canvas. Tools live as long as the editor; their
+/// only state is that of an unfinished gesture.
 class Tool {
  public:
   virtual ~Tool() = default;
   virtual ToolId id() const = 0;
   virtual void input(const Input& input, Workspace& workspace) = 0;
-  /// A key that the tool uses itself (Enter, Backspace, Escape); false leaves it to the actions.
+  /// Handles a key that the tool uses itself (Enter, Backspace, Escape). Returns false for all
+  /// other keys, which are left to the actions.
   virtual bool key(Key key, Workspace& workspace) {
     return key == Key::escape && escape(workspace);
   }
-  /// Drops an unfinished gesture; without one, tools that select clear the selection. Returns
-  /// whether there was anything to do for Escape.
+  /// Cancels an unfinished gesture. If there is none, a tool that selects clears the selection.
+  /// Returns whether the tool used the Escape key.
   bool escape(Workspace& workspace);
+  /// Whether the tool selects handles.
   virtual bool selects() const { return false; }
-  /// Drops an unfinished gesture.
+  /// Cancels an unfinished gesture.
   virtual void cancel(Workspace& workspace) = 0;
+  /// Whether a gesture is unfinished.
   virtual bool busy() const = 0;
-  /// Uses the wheel at the pointer's place; false leaves it to zooming.
+  /// Handles the wheel at the pointer's position. Returns false to let it zoom.
   virtual bool scroll(const Input&, Workspace&) { return false; }
   virtual ToolOverlay overlay() const = 0;
+  /// The text of the status bar: what the pointer does at its position.
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
-/// "Pins act inside a cage: draw one with P, or make one from the picture".
+/// "Pins need a cage. Draw one with P, or use Make from picture.", where `what` is the first
+/// sentence without its period.
 std::string needs_a_cage(const Workspace& workspace, const std::string& what);
 
 std::unique_ptr<Tool> select_tool();
@@ -69,17 +74,17 @@ std::unique_ptr<Tool> outline_tool();
 std::unique_ptr<Tool> angle_tool();
 std::unique_ptr<Tool> brush_tool();
 
-/// Moving handles with the pointer: threshold, axis constraint, preview and one commit. With Ctrl,
-/// a drag of the pose is recorded as motion, and a click makes a vertex smooth or a corner. Shared
-/// by the tools that drag.
+/// A drag of handles with the pointer: threshold, axis constraint, preview and one commit. With
+/// Ctrl, a drag in the pose is recorded as motion, and a click makes a vertex smooth or a corner.
+/// Shared by the tools that drag handles.
 class HandleDrag {
  public:
-  /// A drag that carries the last step on, which set or inserted what is dragged.
+  /// Starts a drag that amends the last step, which added the dragged handle.
   void start_amending(const Input& input, const Selection& what, const Deformation& deformation) {
     start(input, *what.begin(), what, deformation);
     amends_ = true;
   }
-  /// `pressed` is the one of them that is under the pointer.
+  /// Starts a drag of `what`. `pressed` is the handle under the pointer.
   void start(const Input& input, Handle pressed, Selection what, const Deformation& deformation) {
     amends_ = false;
     pressed_ = pressed;
@@ -93,9 +98,9 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
-  /// What the drag lines up with now.
+  /// The guide lines of what the pressed handle lines up with.
   const std::vector<Guide>& guides() const { return guides_; }
-  /// Follows the pointer; on release commits. Returns true when the drag has ended.
+  /// Follows the pointer and commits on release. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace) {
     if (active_) workspace.shown.preview.reset();
@@ -117,32 +122,33 @@ class HandleDrag {
   bool active_ = false, moving_ = false, amends_ = false, with_ctrl_ = false;
 };
 
-/// A new outline as one step, with its convergence played; refused with a toast when it is none.
-/// With the surface whose boundary it is, that is shown. Returns whether it was taken.
-bool take_outline(Workspace& workspace, const std::string& label, Points outline,
-                  std::optional<SurfaceReference> surface = {});
+/// Sets the outline in one step, plays the iterations of the method, and displays the surface whose
+/// boundary it is, if any. Refuses an invalid outline with a toast. Returns whether the outline was
+/// set.
+bool set_outline(Workspace& workspace, const std::string& label, Points outline,
+                 std::optional<SurfaceReference> surface = {});
 
-/// Makes the selected vertices smooth, or corners when all of them are smooth, as one step.
+/// Makes the selected vertices smooth, or corners if all of them are smooth, in one step.
 void toggle_corners(Workspace& workspace);
 
-/// Presses with Alt delete a vertex, pin or stroke instead of picking it. Returns whether it was
-/// one.
-bool erases(const Input& input, Handle handle, Workspace& workspace);
+/// Deletes the handle under the pointer if Alt is held and it is a vertex, pin or stroke. Returns
+/// whether that is so.
+bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace);
 
-/// The ring around the one selected pin: dragging it turns the picture around the pin, the wheel
-/// scales it there.
+/// The ring around a single selected pin. A drag of the ring rotates the picture around the pin;
+/// the wheel on the ring scales it.
 class PinRing {
  public:
-  /// Finds the ring and whether the pointer is on it.
+  /// Updates which pin has the ring and whether the pointer is on the ring.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return hovered_; }
   bool active() const { return active_; }
   std::optional<Index> pin() const { return pin_; }
   void start(const Input& input, const Workspace& workspace);
-  /// Follows the pointer; on release commits.
+  /// Follows the pointer and commits on release.
   void follow(const Input& input, Workspace& workspace);
-  /// The wheel over the ring enlarges or shrinks the picture around the pin: one step of the
-  /// history as long as it goes on.
+  /// Scales the picture around the pin if the pointer is on the ring. Consecutive scrolls are one
+  /// step of the history. Returns whether the ring used the wheel.
   bool scroll(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 

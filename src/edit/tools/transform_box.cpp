@@ -1,4 +1,4 @@
-// Grips lie a little outside of the handles, so that both can be picked.
+// Grips lie slightly outside the handles, so that both can be picked.
 #include "edit/tools/transform_box.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ constexpr double kMargin = 1.8, kKnob = 2.6, kPick = 0.8;  // in picking distanc
 constexpr int kKnobNumber = 8, kInside = 9;
 constexpr double kLeastScale = 0.02;
 
-/// Where a grip is on a box from -1 to 1.
-Complex way_of(int grip) {
-  constexpr std::array<std::array<int, 2>, 8> kWays{
+/// The position of a grip on the box [-1, 1] x [-1, 1].
+Complex direction_of(int grip) {
+  constexpr std::array<std::array<int, 2>, 8> kDirections{
       {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}};
-  const auto& way = kWays[static_cast<size_t>(grip)];
-  return {static_cast<double>(way[0]), static_cast<double>(way[1])};
+  const auto& direction = kDirections[static_cast<size_t>(grip)];
+  return {static_cast<double>(direction[0]), static_cast<double>(direction[1])};
 }
 
 double at_least(double scale) {
@@ -54,7 +54,7 @@ Deformation transformed(Deformation deformation, const Selection& selection, con
                         double turn, EditMode mode) {
   Selection all = selection;
   for (const Handle& handle : selection)
-    for (const Handle& tangent : tangents_beside(cage_of(deformation, mode), handle))
+    for (const Handle& tangent : adjacent_tangents(cage_of(deformation, mode), handle))
       all.insert(tangent);
   const double size = std::sqrt(std::abs(std::norm(map.a) - std::norm(map.b)));
   for (const Handle& handle : all) {
@@ -104,12 +104,13 @@ void TransformBox::hover(const Input& input, const Workspace& workspace) {
 }
 
 std::string TransformBox::hint() const {
-  if (grip_ == kInside && active_) return "Shift keeps the axis";
-  if (inside_) return "Drag inside the box to move what is selected; Shift-drag selects more";
+  if (grip_ == kInside && active_) return "Hold Shift to move along one axis";
+  if (inside_) return "Drag inside the box to move the selection; Shift-drag to select more";
   if (!mark_ || !mark_->hovered) return "";
-  if (*mark_->hovered == kKnobNumber) return "Drag to turn; Shift snaps to 15 degrees";
-  return *mark_->hovered % 2 == 0 ? "Drag to scale; Shift scales freely, Alt about the middle"
-                                  : "Drag to scale one way; Alt about the middle";
+  if (*mark_->hovered == kKnobNumber) return "Drag to rotate; hold Shift for steps of 15 degrees";
+  return *mark_->hovered % 2 == 0
+             ? "Drag to scale; hold Shift to scale freely, Alt to scale about the middle"
+             : "Drag to scale in one direction; hold Alt to scale about the middle";
 }
 
 void TransformBox::start(const Input& input, const Workspace& workspace) {
@@ -135,20 +136,20 @@ Affine TransformBox::map(const Input& input) {
     if (input.mods.shift) turn_ = std::round(turn_ / (kPi / 12)) * (kPi / 12);
     return Affine::turning(turn_, center);
   }
-  // What is opposite stays, which is the handles', not the box': handles in line have the box
-  // alone.
+  // The opposite side of the handles' bounding box stays fixed. If that box is degenerate because
+  // the handles lie on one line, the drawn box takes its place.
   const bool flat = std::min(content_.width(), content_.height()) < 1e-6 * box_.diagonal();
   const Box& scaled = flat ? box_ : content_;
-  const Complex way = way_of(grip_),
-                half(0.5 * scaled.width() * way.real(), 0.5 * scaled.height() * way.imag());
+  const Complex direction = direction_of(grip_), half(0.5 * scaled.width() * direction.real(),
+                                                      0.5 * scaled.height() * direction.imag());
   const Complex about = input.mods.alt ? center : center - half, from = center + half - about,
                 to = from + input.position - start_;
-  if (way.real() != 0 && way.imag() != 0 && !input.mods.shift) {
+  if (direction.real() != 0 && direction.imag() != 0 && !input.mods.shift) {
     const double scale = at_least((to * std::conj(from)).real() / std::norm(from));
     return Affine::scaling(scale, scale, about);
   }
-  return Affine::scaling(way.real() != 0 ? at_least(to.real() / from.real()) : 1,
-                         way.imag() != 0 ? at_least(to.imag() / from.imag()) : 1, about);
+  return Affine::scaling(direction.real() != 0 ? at_least(to.real() / from.real()) : 1,
+                         direction.imag() != 0 ? at_least(to.imag() / from.imag()) : 1, about);
 }
 
 void TransformBox::follow(const Input& input, Workspace& workspace) {
@@ -163,7 +164,7 @@ void TransformBox::follow(const Input& input, Workspace& workspace) {
   if (input.down && !input.released) return;
   active_ = false;
   if (workspace.shown.preview)
-    workspace.commit(grip_ == kKnobNumber ? "Turn"
+    workspace.commit(grip_ == kKnobNumber ? "Rotate"
                      : grip_ == kInside   ? "Move"
                                           : "Scale",
                      *workspace.shown.preview);

@@ -1,4 +1,4 @@
-// A box around several selected handles, which moves, turns and scales them.
+// A box around several selected handles, which moves, rotates and scales them.
 #pragma once
 
 #include <array>
@@ -8,28 +8,31 @@
 
 namespace holomorph {
 
-/// z -> a z + b conj(z) + c: turns, scales along both axes, moves.
+/// The real-affine map z -> a z + b conj(z) + c: a rotation, a scaling along both axes and a
+/// translation.
 struct Affine {
   Complex a{1}, b{0}, c{0};
   Complex operator()(Complex z) const { return a * z + b * std::conj(z) + c; }
 
-  /// By these factors along x and y, or by an angle, about a place that stays.
+  /// Scales by factors along x and y, with `about` as the fixed point.
   static Affine scaling(double x, double y, Complex about);
+  /// Rotates by an angle in radians around `about`.
   static Affine turning(double angle, Complex about);
 };
 
-/// Handles taken along; tangents beside vertices go with these, pins that turn are turned and
-/// scaled by `turn` radians and what the map does to lengths.
+/// Applies a map to handles. The control points next to a vertex move with it. In the pose, pins
+/// that prescribe rotation and scale are also rotated by `turn` radians and scaled by the square
+/// root of the map's area scale.
 Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
                         double turn, EditMode mode);
 
-/// What is drawn of the box, in window px: corners from the lower left, counter-clockwise.
+/// The box as it is drawn, in window px. Corners run counter-clockwise from the lower left one.
 struct BoxMark {
   std::array<Complex, 4> corners;
-  Complex knob;  ///< turns it
+  Complex knob;  ///< rotates the box
   std::optional<int>
-      hovered;  ///< 0 to 7: grips from the lower left, counter-clockwise; 8: the knob
-  /// Corners and the middles of edges, as they are counted.
+      hovered;  ///< 0 to 7: grips, counter-clockwise from the lower left; 8: the knob
+  /// The position of a grip: even numbers are corners, odd ones midpoints of edges, 8 is the knob.
   Complex grip(int number) const {
     const Complex corner = corners[static_cast<size_t>(number / 2)],
                   next = corners[static_cast<size_t>((number / 2 + 1) % 4)];
@@ -39,17 +42,18 @@ struct BoxMark {
 
 class TransformBox {
  public:
-  /// Finds the box and what is under the pointer.
+  /// Updates the box, and what is under the pointer.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return mark_ && mark_->hovered; }
-  /// Whether the pointer is inside of it, beside its grips: a drag from there moves.
+  /// Whether the pointer is inside the box and not on a grip. A drag from there moves the handles.
   bool inside() const { return inside_; }
   bool active() const { return active_; }
   const std::optional<BoxMark>& mark() const { return mark_; }
   std::string hint() const;
   void start(const Input& input, const Workspace& workspace);
-  /// Follows the pointer; on release commits. Shift lets corners go freely, turns by 15 degrees and
-  /// moves along an axis, Alt scales about the middle. A click inside selects nothing any more.
+  /// Follows the pointer and commits on release. With Shift, corners scale freely, the knob rotates
+  /// in steps of 15 degrees, and moves are along one axis. With Alt, scaling is about the center. A
+  /// click inside the box clears the selection.
   void follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 
@@ -57,8 +61,8 @@ class TransformBox {
   Affine map(const Input& input);
   BoxMark mark_of(const Workspace& workspace, const Affine& map) const;
 
-  Box content_, box_;  ///< around the handles, and as it is drawn; in the plane
-  double knob_ = 0;    ///< how far above it the knob is
+  Box content_, box_;  ///< bounding box of the handles, and the box with its margin; in the plane
+  double knob_ = 0;    ///< distance of the knob above the box
   std::optional<BoxMark> mark_;
   int grip_ = 0;
   bool active_ = false, moving_ = false, inside_ = false;

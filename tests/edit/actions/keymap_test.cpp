@@ -1,4 +1,4 @@
-// Keys: each has a name that leads back to it, and what the user changes is all that changes.
+// Keys: names of keys can be parsed again, and only the user's changes are stored.
 #include "edit/actions/keymap.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ constexpr Modifiers kCtrl{true, false, false};
 
 }  // namespace
 
-TEST_CASE("Every key of the table has a name that is that key") {
+TEST_CASE("The name of every key in the table parses to that key") {
   const ActionTable actions;
   for (const Action& action : actions.rows())
     for (const Shortcut& key : action.keys) {
@@ -30,7 +30,7 @@ TEST_CASE("Every key of the table has a name that is that key") {
     CHECK_FALSE(shortcut_named(none));
 }
 
-TEST_CASE("A key that is given to an action is its own, and no other's") {
+TEST_CASE("A key that is assigned to an action is removed from all others") {
   TestWorkspace desk(shapes::rectangle(100, 100));
   ActionTable& actions = desk.workspace.actions;
   desk.workspace.commit("Move", with_cage(Deformation{}, shapes::rectangle(200, 100)));
@@ -55,7 +55,7 @@ TEST_CASE("A key that is given to an action is its own, and no other's") {
   CHECK_FALSE(actions.has_own_keys(actions.named("edit.undo")));
 }
 
-TEST_CASE("Keys survive a file, and what is not known there is left out and said") {
+TEST_CASE("Keys survive a file; unknown actions and keys are skipped and reported") {
   ActionTable actions;
   actions.set_keys("tool.pen", {'J'});
   const KeyNames keys = actions.all_keys();
@@ -63,7 +63,7 @@ TEST_CASE("Keys survive a file, and what is not known there is left out and said
   actions.use_keys({});
   CHECK(actions.use_keys(keys_of_json(json_of_keys(keys), "keys.json")).empty());
   CHECK(actions.changed_keys() == KeyNames{{"tool.pen", {"J"}}});
-  // A key that another action has by the table goes over to the one that the file gives it.
+  // A built-in key moves to the action to which the file assigns it.
   actions.use_keys({{"tool.pen", {"V"}}});
   CHECK(actions.named("tool.select").keys.empty());
   CHECK(actions.use_keys({{"tool.lasso", {"L"}}, {"tool.pen", {"Hyper+P"}}}) ==
@@ -72,7 +72,7 @@ TEST_CASE("Keys survive a file, and what is not known there is left out and said
     CHECK_THROWS_AS(keys_of_json(text, "keys.json"), Error);
 }
 
-TEST_CASE("The list of keys names every key") {
+TEST_CASE("The list of keys contains every key") {
   const ActionTable actions;
   const std::string list = keys_markdown(actions);
   for (const Action& action : actions.rows()) {
@@ -86,7 +86,7 @@ TEST_CASE("The list of keys names every key") {
   for (const Gesture& gesture : gestures()) CHECK(list.find(gesture.what) != std::string::npos);
 }
 
-TEST_CASE("One thing at a time gets the keys: what lies on top of the others") {
+TEST_CASE("Only the topmost part of the window gets the keys") {
   const std::vector<std::pair<bool WindowFocus::*, KeyFocus>> from_top{
       {&WindowFocus::assigns_key, KeyFocus::assignment},
       {&WindowFocus::edits_field, KeyFocus::field},
@@ -96,7 +96,7 @@ TEST_CASE("One thing at a time gets the keys: what lies on top of the others") {
       {&WindowFocus::menu_was_open, KeyFocus::menu},
       {&WindowFocus::panel, KeyFocus::panel}};
   CHECK(key_focus({}) == KeyFocus::canvas);
-  // Every combination of what can be open.
+  // Every combination of parts that can be open.
   for (unsigned set = 1; set < 1u << from_top.size(); ++set) {
     WindowFocus window;
     std::optional<KeyFocus> top;
@@ -112,7 +112,7 @@ TEST_CASE("One thing at a time gets the keys: what lies on top of the others") {
   }
 }
 
-TEST_CASE("A panel keeps the keys that move through it and type into it") {
+TEST_CASE("A panel keeps the keys that move through it or type into it") {
   const ActionTable actions;
   const Action &undo = actions.named("edit.undo"), &next = actions.named("view.next_panel");
   for (const Shortcut key : {Shortcut('Z'), Shortcut(Key::left), Shortcut(Key::enter),
@@ -125,7 +125,7 @@ TEST_CASE("A panel keeps the keys that move through it and type into it") {
     CHECK(acts_from_panel(key, undo));
 }
 
-TEST_CASE("Actions that act during a gesture change the view alone") {
+TEST_CASE("Actions that run during a gesture change only the view") {
   const ActionTable actions;
   int count = 0;
   for (const Action& action : actions.rows()) {

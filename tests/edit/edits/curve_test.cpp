@@ -1,4 +1,4 @@
-// Curved segments in the hand: tangents, smooth points, degrees, drawing.
+// Editing curved segments: tangents, smooth points, degrees, drawing.
 #include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
@@ -15,8 +15,8 @@ Deformation smooth_square() {
   return deformation;
 }
 
-/// Largest distance between two posed cages at the same parameters.
-double apart(const Cage& a, const Cage& b) {
+/// The largest distance between two posed cages at the same parameters.
+double largest_distance(const Cage& a, const Cage& b) {
   double most = 0;
   for (Index e = 0; e < a.size(); ++e)
     for (double t = 0; t < 1; t += 0.05)
@@ -27,7 +27,7 @@ double apart(const Cage& a, const Cage& b) {
 
 }  // namespace
 
-TEST_CASE("Smooth points have tangents in line with their neighbours; corners have none") {
+TEST_CASE("Smooth points have tangents on one line; corners do not") {
   const Deformation deformation = smooth_square();
   for (Index v = 0; v < 4; ++v) {
     CHECK(is_smooth(deformation, v, EditMode::pose));
@@ -38,13 +38,14 @@ TEST_CASE("Smooth points have tangents in line with their neighbours; corners ha
   CHECK_FALSE(is_smooth(corner, 1, EditMode::pose));
   CHECK(is_smooth(corner, 0, EditMode::pose));
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 1, 0}};
-  corner = toggled_corners(corner, two, EditMode::pose);  // one of them is a corner: both smooth
+  corner = toggled_corners(corner, two, EditMode::pose);  // one is a corner: makes both smooth
   CHECK(is_smooth(corner, 1, EditMode::pose));
   corner = toggled_corners(corner, two, EditMode::pose);
   CHECK_FALSE(is_smooth(corner, 0, EditMode::pose));
 }
 
-TEST_CASE("A tangent turns its opposite along, keeping its length, and Alt breaks them") {
+TEST_CASE(
+    "Moving a tangent rotates the opposite one and keeps its length, unless Alt breaks them") {
   const Deformation deformation = smooth_square();
   const auto [before, after] = tangents_of(deformation, 1, EditMode::pose);
   const Complex z = deformation.pose.vertex(1);
@@ -61,15 +62,15 @@ TEST_CASE("A tangent turns its opposite along, keeping its length, and Alt break
   CHECK_FALSE(is_smooth(broken, 1, EditMode::pose));
 }
 
-TEST_CASE("Raising a degree keeps the curve, lowering it again gives it back") {
+TEST_CASE("Raising the degree keeps the curve, and lowering it again restores the curve") {
   const Deformation deformation = smooth_square();
   Deformation high = deformation;
   for (int i = 0; i < 9; ++i) high = raised(std::move(high), {}, EditMode::pose);
   CHECK(high.pose.degree(0) == kHighestDegree);
-  CHECK(apart(high.pose, deformation.pose) < 1e-10);
+  CHECK(largest_distance(high.pose, deformation.pose) < 1e-10);
   for (int i = 0; i < 5; ++i) high = lowered(std::move(high), {}, EditMode::pose);
   CHECK(high.pose.degree(0) == 3);
-  CHECK(apart(high.pose, deformation.pose) < 1e-8);
+  CHECK(largest_distance(high.pose, deformation.pose) < 1e-8);
   const Deformation one = raised(deformation, {{Handle::Kind::cage, 2, 0}}, EditMode::pose);
   CHECK(one.pose.degree(2) == 4);
   CHECK(one.pose.degree(1) == 3);
@@ -78,7 +79,7 @@ TEST_CASE("Raising a degree keeps the curve, lowering it again gives it back") {
   CHECK(straight.pose.degree(0) == 1);
 }
 
-TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle") {
+TEST_CASE("Dragging a tangent is one step; Ctrl-click and C toggle smooth points") {
   TestWorkspace desk(shapes::rectangle(200, 200));
   desk.click({200, 0}, {true, false, false});
   REQUIRE(is_smooth(desk.deformation(), 1, EditMode::pose));
@@ -100,7 +101,7 @@ TEST_CASE("Dragging tangents: one step, opposite along; Ctrl-click and C toggle"
   CHECK_FALSE(desk.workspace.map().error());
 }
 
-TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curved at rest") {
+TEST_CASE("Pen: dragging makes smooth points, and the drawn cage is curved at rest") {
   TestWorkspace desk;
   desk.workspace.tools.active = ToolId::pen;
   desk.click({0, 0});
@@ -124,7 +125,7 @@ TEST_CASE("Pen: dragging makes smooth points, and the cage that is drawn is curv
     CHECK(f[static_cast<Index>(i)] == mesh.vertices[i]);  // the identity at rest
 }
 
-TEST_CASE("Pins become a posed cage that shows the same picture and can be edited on") {
+TEST_CASE("Pins can be applied to the posed cage, which gives the same map") {
   TestWorkspace desk(shapes::rectangle(200, 200));
   run("cage.raise", desk.workspace);
   run("cage.raise", desk.workspace);
@@ -134,7 +135,7 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
     desk.drag(z, z + Complex(9, -6) * (z.real() / 100));
   }
   run("cage.bake", desk.workspace);
-  CHECK(desk.deformation().method == "pins");  // refused, with the reason
+  CHECK(desk.deformation().method == "pins");  // refused, and a toast says why
   REQUIRE_FALSE(desk.workspace.messages.toasts.empty());
   Deformation deformation = desk.deformation();
   deformation.parameters["own_controls"] = 1;
@@ -147,7 +148,7 @@ TEST_CASE("Pins become a posed cage that shows the same picture and can be edite
   CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 1e-2);  // single precision
 }
 
-TEST_CASE("Rest curves are edited like posed ones, and the pose stays") {
+TEST_CASE("Curves of the rest shape are edited like posed ones, and the pose stays") {
   TestWorkspace desk(shapes::rectangle(200, 200));
   run("cage.rest", desk.workspace);
   desk.click({200, 0}, {true, false, false});

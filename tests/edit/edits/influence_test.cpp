@@ -1,4 +1,4 @@
-// Drags that take more along: softly, mirrored, and by the box around what is selected.
+// Drags that move more than one handle: soft selection, symmetry, and the box around the selection.
 #include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
@@ -17,7 +17,8 @@ Handle vertex(Index i) {
 
 }  // namespace
 
-TEST_CASE("Soft drags take less along the farther it is, and nothing beyond their reach") {
+TEST_CASE(
+    "Soft selection: handles follow less the farther away they are, and not beyond the radius") {
   TestWorkspace desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {0, 200}});
   run("edit.soft", desk.workspace);
   desk.workspace.tools.drag.reach = 200;
@@ -33,13 +34,13 @@ TEST_CASE("Soft drags take less along the farther it is, and nothing beyond thei
   run("edit.soft_less", desk.workspace);
   CHECK(desk.workspace.tools.drag.reach == Approx(160));
   for (int i = 0; i < 100; ++i) run("edit.soft_less", desk.workspace);
-  CHECK(desk.workspace.tools.drag.reach == kLeastReach);
+  CHECK(desk.workspace.tools.drag.reach == kMinReach);
   run("edit.soft", desk.workspace);
   desk.drag({0, 0}, {0, -60});
   CHECK(desk.deformation().pose.vertex(1) == Complex(100, 0));
 }
 
-TEST_CASE("With symmetry the other side goes the mirrored way, what is on the line stays on it") {
+TEST_CASE("Symmetry: the other side makes the mirrored move, and points on the axis stay on it") {
   TestWorkspace desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
@@ -55,19 +56,19 @@ TEST_CASE("With symmetry the other side goes the mirrored way, what is on the li
   desk.drag({100, 240}, {130, 260});
   CHECK(desk.deformation().pose.vertex(3) == Complex(100, 260));
   CHECK(counterparts_of(desk.deformation()).at(vertex(2)) == vertex(4));
-  // Both together: soft on both sides.
+  // Both together: soft selection on both sides.
   desk.workspace.tools.drag.soft = true;
   desk.workspace.tools.drag.reach = 150;
-  const Displacements ways = displacements(at_rest(desk.deformation()), {vertex(0)}, {10, 0},
-                                           EditMode::pose, desk.workspace.tools.drag);
-  CHECK(ways.at(vertex(0)) == Complex(10, 0));
-  CHECK(ways.at(vertex(1)) == Complex(-10, 0));
+  const Displacements displacement_of = displacements(
+      at_rest(desk.deformation()), {vertex(0)}, {10, 0}, EditMode::pose, desk.workspace.tools.drag);
+  CHECK(displacement_of.at(vertex(0)) == Complex(10, 0));
+  CHECK(displacement_of.at(vertex(1)) == Complex(-10, 0));
   const Handle pin{Handle::Kind::pin, 0, 0}, other{Handle::Kind::pin, 1, 0};
-  CHECK(ways.at(pin).real() > 0);
-  CHECK(ways.at(other) == Complex(-ways.at(pin).real(), 0));
+  CHECK(displacement_of.at(pin).real() > 0);
+  CHECK(displacement_of.at(other) == Complex(-displacement_of.at(pin).real(), 0));
 }
 
-TEST_CASE("A drag without symmetry at rest moves one side") {
+TEST_CASE("Symmetry: where the rest shape is not symmetric, a drag moves one side") {
   TestWorkspace desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
   run("edit.symmetry", desk.workspace);
   desk.drag({230, 170}, {260, 200});
@@ -75,7 +76,7 @@ TEST_CASE("A drag without symmetry at rest moves one side") {
   CHECK(desk.deformation().pose.vertex(3) == Complex(0, 200));
 }
 
-TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
+TEST_CASE("Snap: drags stop where they line up with columns and rows") {
   TestWorkspace desk({{0, 0}, {100, 0}, {203, 7}, {200, 200}, {0, 200}});
   run("edit.snap", desk.workspace);
   desk.press({100, 0});
@@ -86,7 +87,7 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   desk.move({150, 90});
   CHECK(desk.deformation().pose.vertex(1) == Complex(150, 90));  // nothing is near
   CHECK(desk.tool().overlay().guides.empty());
-  desk.move({150, 6});  // the third point's row, though rest's is near, too
+  desk.move({150, 6});  // the third point's row; the row of its own rest position is farther away
   CHECK(desk.deformation().pose.vertex(1) == Complex(150, 7));
   desk.release({97, 60});
   CHECK(desk.deformation().pose.vertex(1) == Complex(100, 60));  // its own column at rest
@@ -102,7 +103,7 @@ TEST_CASE("Snapping drags stop where they line up, by columns and rows") {
   CHECK(guides.size() == 2);
 }
 
-TEST_CASE("The box scales about the other side, by its corners evenly") {
+TEST_CASE("The box scales about the opposite side, and corner grips scale uniformly") {
   TestWorkspace desk(kSquare);
   desk.workspace.selection = {vertex(1), vertex(2), vertex(3), vertex(0)};
   desk.hover({100, 100});
@@ -121,7 +122,7 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
   CHECK(desk.deformation().pose.vertex(2).imag() == Approx(200));
   run("edit.undo", desk.workspace);
   CHECK(desk.deformation().pose == desk.deformation().rest);
-  // A corner evenly, about the opposite one; freely with Shift; about the middle with Alt.
+  // A corner scales uniformly about the opposite one; freely with Shift; about the center with Alt.
   const Complex corner = plane(4), half(100, 100);
   desk.drag(corner, corner - half);
   CHECK(desk.deformation().pose.vertex(2).real() - desk.deformation().pose.vertex(0).real() ==
@@ -140,7 +141,7 @@ TEST_CASE("The box scales about the other side, by its corners evenly") {
   CHECK(std::abs(desk.deformation().pose.vertex(0) - Complex(50, 50)) < 1e-9);
 }
 
-TEST_CASE("A drag inside the box moves what is selected, and a click there lets go of it") {
+TEST_CASE("A drag inside the box moves the selection, and a click there clears it") {
   TestWorkspace desk(kSquare);
   const Selection all{vertex(0), vertex(1), vertex(2), vertex(3)};
   desk.workspace.selection = all;
@@ -153,7 +154,7 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
   desk.drag({60, 70}, {90, 80}, kShift);
   CHECK(desk.deformation().pose.vertex(0) - desk.deformation().rest.vertex(0) == Complex(30, 0));
   run("edit.undo", desk.workspace);
-  desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift from the start it selects
+  desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift held from the start, it selects
   CHECK(desk.deformation().pose == desk.deformation().rest);
   CHECK(desk.workspace.selection == all);
   const size_t steps = desk.workspace.document.history().index();
@@ -162,7 +163,7 @@ TEST_CASE("A drag inside the box moves what is selected, and a click there lets 
   CHECK(desk.workspace.document.history().index() == steps);
 }
 
-TEST_CASE("The box' knob turns, pins that turn included, as far around as it is dragged") {
+TEST_CASE("The knob of the box rotates handles, and the angles of pins, by more than half a turn") {
   TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
@@ -174,17 +175,17 @@ TEST_CASE("The box' knob turns, pins that turn included, as far around as it is 
   const auto mark = desk.tool().overlay().box;
   REQUIRE(mark);
   const Complex knob = desk.workspace.display.viewport.plane_at_px(mark->knob), center(100, 100);
-  Points way;
+  Points path;
   for (int i = 0; i <= 18; ++i)
-    way.push_back(center + (knob - center) * std::polar(1.0, kPi / 12 * i));
-  desk.draw(way);
+    path.push_back(center + (knob - center) * std::polar(1.0, kPi / 12 * i));
+  desk.draw(path);
   CHECK(std::abs(desk.deformation().pins[0].pose - Complex(100, 150)) < 1e-6);  // 270 degrees
   CHECK(std::abs(desk.deformation().pins[1].pose - Complex(100, 50)) < 1e-6);
   CHECK(desk.deformation().pins[0].angle == Approx(0.25 + 1.5 * kPi));
   CHECK_FALSE(desk.deformation().pins[1].angle);
   run("edit.undo", desk.workspace);
   CHECK(desk.deformation() == deformation);
-  // Escape drops it.
+  // Escape cancels the drag.
   desk.hover({100, 60});
   desk.press(knob);
   desk.move(knob + Complex(60, -40));
@@ -193,7 +194,7 @@ TEST_CASE("The box' knob turns, pins that turn included, as far around as it is 
   CHECK(desk.deformation() == deformation);
 }
 
-TEST_CASE("Tangents and strokes go with the box") {
+TEST_CASE("The box transforms tangents and strokes, too") {
   TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.pose.segments[0] = {{0, 0}, {60, -30}, {140, -30}};
@@ -213,7 +214,7 @@ TEST_CASE("Tangents and strokes go with the box") {
   CHECK(turned.strokes[0].rest == deformation.strokes[0].rest);
 }
 
-TEST_CASE("The brush paints what is under it at rest, as one step, in the method that knows it") {
+TEST_CASE("The brush paints rest positions in one step and switches to a method with stiffness") {
   TestWorkspace desk(kSquare);
   Workspace& w = desk.workspace;
   desk.drag({200, 200}, {260, 200});
@@ -251,7 +252,7 @@ TEST_CASE("The brush paints what is under it at rest, as one step, in the method
   CHECK(w.shown.deformation().stiffness.empty());
 }
 
-TEST_CASE("Pins go up and down together") {
+TEST_CASE("Pins are brought forward and sent back, and repeated changes are one step") {
   TestWorkspace desk(kSquare);
   Deformation deformation = desk.deformation();
   deformation.method = "pins";

@@ -1,5 +1,5 @@
-// Tool A: corners are picked, turned, opened; edges get tensions; structure edits take corners
-// along.
+// The tool Angles (key A): selecting, turning and opening corners, tensions of edges, and corners
+// after edits of the structure.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -15,7 +15,7 @@ namespace {
 
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
-void take_tool(TestWorkspace& desk) {
+void choose_angle_tool(TestWorkspace& desk) {
   desk.workspace.tools.active = ToolId::angle;
 }
 
@@ -25,9 +25,9 @@ Index listed(const Deformation& deformation) {
 
 }  // namespace
 
-TEST_CASE("Tool A: a ring turns its corner as far around as it is dragged") {
+TEST_CASE("Tool A: the ring turns its corner by more than a full turn") {
   TestWorkspace desk(kBar);
-  take_tool(desk);
+  choose_angle_tool(desk);
   desk.click({300, 0});
   REQUIRE(desk.workspace.selection.size() == 1);
   const Complex center(300, 0);
@@ -43,9 +43,9 @@ TEST_CASE("Tool A: a ring turns its corner as far around as it is dragged") {
   CHECK(desk.steps() == 3);  // cage, and one turn
 }
 
-TEST_CASE("Tool A: selected corners turn together, and an arm opens them both ways") {
+TEST_CASE("Tool A: a drag of an arm opens all selected corners on both sides") {
   TestWorkspace desk(kBar);
-  take_tool(desk);
+  choose_angle_tool(desk);
   desk.drag({250, -40}, {340, 140});
   REQUIRE(desk.workspace.selection.size() == 2);
   desk.hover({300, 0});
@@ -67,22 +67,22 @@ TEST_CASE("Tool A: selected corners turn together, and an arm opens them both wa
 
 TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
   TestWorkspace desk(kBar);
-  take_tool(desk);
+  choose_angle_tool(desk);
   desk.press({150, 0});
   desk.move({150, -40});
-  desk.release({150, -75});  // down by half of the way
+  desk.release({150, -75});  // down by half of the length for a tension of 0
   CHECK(corner_at(desk.deformation(), 0).tension == Approx(0.5));
   CHECK(corner_at(desk.deformation(), 1).tension == 1);
   desk.settle();
   CHECK((desk.workspace.map().map().f -
          Eigen::Map<const VectorXc>(desk.workspace.map().prepared()->mesh->vertices.data(),
                                     desk.workspace.map().map().f.size()))
-            .isZero(0));  // no corner wants anything
+            .isZero(0));  // without turns, the map is still the identity
 }
 
-TEST_CASE("Tool A: points are made corners and none, but three stay") {
+TEST_CASE("Tool A: clicks make points corners or plain points, but three corners stay") {
   TestWorkspace desk(kBar);
-  take_tool(desk);
+  choose_angle_tool(desk);
   desk.click({300, 0}, {false, false, true});
   CHECK(listed(desk.deformation()) == 3);
   CHECK_FALSE(is_corner(desk.deformation(), 1));
@@ -94,7 +94,7 @@ TEST_CASE("Tool A: points are made corners and none, but three stay") {
   CHECK(is_corner(desk.deformation(), 1));
 }
 
-TEST_CASE("Corners: a new one is turned as its edge is, so that nothing moves") {
+TEST_CASE("Corners: an added corner gets the turn of its edge, so that nothing moves") {
   Deformation deformation = with_method(with_cage(Deformation{}, kBar), "angles");
   deformation = without_corner(deformation, 1);
   deformation = corner_turned(deformation, 0, 0.3);
@@ -111,7 +111,7 @@ TEST_CASE("Corners: a new one is turned as its edge is, so that nothing moves") 
   CHECK((posed(deformation) - posed(more)).cwiseAbs().maxCoeff() <= 0.3);
 }
 
-TEST_CASE("Corners: their numbers follow inserted and deleted points") {
+TEST_CASE("Corners: numbers of corners are updated after inserting and deleting points") {
   Deformation deformation = with_all_corners(with_method(with_cage(Deformation{}, kBar), "angles"));
   deformation = corner_turned(deformation, 2, 0.5);
   deformation = inserted(deformation, 0, 0.5);
@@ -126,7 +126,7 @@ TEST_CASE("Corners: their numbers follow inserted and deleted points") {
   CHECK(again == deformation);
 }
 
-TEST_CASE("Corners: a clockwise cage opens its corners, too") {
+TEST_CASE("Corners: opening works for a clockwise cage, too") {
   Points clockwise(kBar.rbegin(), kBar.rend());
   Deformation deformation = with_method(with_cage(Deformation{}, clockwise), "angles");
   deformation = corner_opened(deformation, 1, 0.2);

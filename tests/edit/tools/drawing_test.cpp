@@ -1,4 +1,4 @@
-// Strokes and outlines: drawn, bent, followed, and what is told of the map.
+// Strokes and outlines: drawing and bending them, how the map follows, and how folds are reported.
 #include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
@@ -13,7 +13,7 @@ constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 
 }  // namespace
 
-TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
+TEST_CASE("Stroke: drawing, moving, bending, redrawing and deleting are one step each") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   size_t steps = desk.steps();
@@ -29,7 +29,7 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   CHECK(std::abs(rest.front() - line.front()) < 1e-9);
   CHECK(std::abs(rest.back() - line.back()) < 1e-9);
 
-  desk.drag({100, 75}, {120, 135});  // by its middle: as a whole
+  desk.drag({100, 75}, {120, 135});  // a drag of the middle moves the whole stroke
   CHECK(desk.steps() == ++steps);
   for (size_t i = 0; i < rest.size(); ++i)
     CHECK(std::abs(desk.deformation().strokes[0].pose[i] - rest[i] - Complex(20, 60)) < 1e-9);
@@ -38,12 +38,12 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   const Complex middle{100, 75};
   CHECK(std::abs(posed_at(desk.workspace.map(), middle) - middle - Complex(20, 60)) < 1);
 
-  desk.drag({200, 135}, {210, 175});  // by its end: bent, the other end stays
+  desk.drag({200, 135}, {210, 175});  // a drag of an end bends it; the other end stays
   CHECK(desk.steps() == ++steps);
   CHECK(std::abs(desk.deformation().strokes[0].pose.back() - Complex(210, 175)) < 1e-9);
   CHECK(std::abs(desk.deformation().strokes[0].pose.front() - Complex(40, 135)) < 1e-9);
 
-  // Redrawn from the other end it does not turn around.
+  // Redrawing from the other end does not reverse the stroke.
   desk.draw({{200, 40}, {120, 60}, {30, 40}}, kShift);
   CHECK(desk.steps() == ++steps);
   CHECK(std::abs(desk.deformation().strokes[0].pose.front() - Complex(30, 40)) < 1e-9);
@@ -60,7 +60,7 @@ TEST_CASE("Stroke: drawn, moved, bent, redrawn and deleted, one step each") {
   CHECK(desk.deformation().strokes.size() == 1);
 }
 
-TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
+TEST_CASE("Stroke: a Ctrl-drag bends the stroke only near the pointer") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   desk.draw({{20, 75}, {180, 75}});
@@ -72,20 +72,20 @@ TEST_CASE("Stroke: with Ctrl only what is near is pulled along") {
   desk.release({100, 105});
   const Points& after = desk.deformation().strokes[0].pose;
   double most = 0;
-  int far = 0;
+  int unmoved = 0;
   for (size_t i = 0; i < after.size(); ++i) {
     const Complex by = after[i] - before[i];
     CHECK(std::abs(by.real()) < 1e-12);
     most = std::max(most, by.imag());
     if (std::abs(before[i].real() - 100) < 45) continue;
     CHECK(by == Complex(0));
-    ++far;
+    ++unmoved;
   }
   CHECK(most > 29.9);
-  CHECK(far > 8);
+  CHECK(unmoved > 8);
 }
 
-TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape leave nothing") {
+TEST_CASE("Stroke: parts outside the picture are clipped; clicks and Escape draw nothing") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::stroke;
   const size_t steps = desk.steps();
@@ -97,12 +97,12 @@ TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape le
   desk.click({50, 50});
   desk.draw({{300, 75}, {400, 75}});
   CHECK(desk.steps() == steps);
-  CHECK(desk.workspace.messages.toasts.size() == 1);  // it starts on the picture
+  CHECK(desk.workspace.messages.toasts.size() == 1);  // a stroke must start on the picture
   desk.draw({{100, 75}, {300, 75}});
   REQUIRE(desk.deformation().strokes.size() == 1);
   CHECK(desk.deformation().strokes[0].rest.back().real() <= 200);
   CHECK_THAT(desk.workspace.messages.toasts[1].text, Catch::Contains("left out"));
-  // At rest it is drawn where the picture rests, and nothing moves by it.
+  // At rest, a stroke is drawn on the picture at rest, and nothing moves.
   desk.workspace.mode = EditMode::rest;
   desk.settle();
   desk.draw({{30, 30}, {100, 30}});
@@ -111,7 +111,7 @@ TEST_CASE("Stroke: what lies beside the picture is clipped, clicks and Escape le
   CHECK(std::abs(desk.deformation().strokes[1].pose.front() - Complex(30, 30)) < 1e-6);
 }
 
-TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like other handles") {
+TEST_CASE("Select: strokes are clicked, selected with a box and deleted like other handles") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.commit("Stroke", with_stroke(desk.deformation(), {{40, 75}, {160, 75}},
                                               {{40, 75}, {100, 75}, {160, 75}}));
@@ -128,7 +128,7 @@ TEST_CASE("Select: strokes are picked, boxed, moved by arrows and deleted like o
   CHECK(desk.workspace.document.history().entries().back().label == "Delete stroke");
 }
 
-TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's target, as one step") {
+TEST_CASE("Outline: a freehand line is closed and smoothed and becomes the outline in one step") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const size_t before = desk.steps();
@@ -143,7 +143,7 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   REQUIRE(desk.deformation().outline.size() >= 24);
   CHECK(desk.steps() == before + 1);
   CHECK(desk.deformation().method == "outline");
-  // The tremor is gone.
+  // The jitter is smoothed away.
   for (const Complex& z : desk.deformation().outline)
     CHECK(std::abs(std::abs(z - Complex(300, 300)) - 100.75) <= 0.75);
   desk.settle();
@@ -153,9 +153,9 @@ TEST_CASE("Outline: one stroke is closed, smoothed and becomes the method's targ
   CHECK(desk.deformation().outline.empty());
 }
 
-TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") {
+TEST_CASE("Outline: the iterations play once; they can be stopped, stepped and restarted") {
   TestWorkspace desk(shapes::rectangle(200, 150));
-  // With softness several steps are needed.
+  // With softness, the method needs several iterations.
   Deformation soft = desk.deformation();
   soft.other_parameters["outline"] = {{"softness", 0.8}, {"smoothness", 1e-4}};
   desk.workspace.commit("Soft", soft);
@@ -184,7 +184,7 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
     CHECK(map.map().iterations >= shown);
     shown = map.map().iterations;
   }
-  CHECK(now > 300);  // the first iteration is seen, too
+  CHECK(now > 300);  // the first iteration is displayed, too
   CHECK_FALSE(desk.workspace.actions.named("map.step").enabled(desk.workspace));
   CHECK(now < 4000);
   const VectorXc end = pose();
@@ -206,17 +206,17 @@ TEST_CASE("Outline: its convergence plays once, stops, steps and starts again") 
   CHECK_FALSE(playback.playing);
   for (int i = 1; i < last; ++i) run("map.step", desk.workspace);
   CHECK(pose() == end);
-  // What is edited is seen at its end.
+  // An edit shows the last iteration.
   run("map.restart", desk.workspace);
   run("edit.undo", desk.workspace);
   CHECK_FALSE(playback.iteration);
 }
 
-TEST_CASE("What folds is told with its places, and made fold-free by the method that is asked") {
+TEST_CASE("Folds are reported with their positions, and Make it fold-free removes them") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   CHECK_FALSE(desk.workspace.map().injectivity().folds());
   CHECK_FALSE(desk.workspace.map().injectivity().crossing);
-  // Two corners change places.
+  // Two corners are swapped.
   Deformation deformation = desk.deformation();
   std::swap(deformation.pose.segments[0], deformation.pose.segments[1]);
   desk.workspace.commit("Twist", deformation);
@@ -233,7 +233,7 @@ TEST_CASE("What folds is told with its places, and made fold-free by the method 
   CHECK_FALSE(desk.workspace.map().injectivity().folds());
 }
 
-TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it moves") {
+TEST_CASE("Outline: a drag of the outline bends it, and a Ctrl-drag moves all of it") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   Points round;
   for (int i = 0; i < 90; ++i)
@@ -254,14 +254,14 @@ TEST_CASE("Outline: a drag on it bends it where it is taken, with Ctrl all of it
   desk.release({180, 320});
   for (size_t i = 0; i < bent.size(); ++i)
     CHECK(std::abs(desk.deformation().outline[i] - bent[i] - Complex(-20, 20)) < 1e-9);
-  // Bent through itself it is refused.
+  // An outline that is bent through itself is refused.
   desk.drag({410, 320}, {-100, 320});
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
   CHECK(std::abs(desk.deformation().outline[45] - bent[45] - Complex(-20, 20)) < 1e-9);
   CHECK(desk.steps() == steps + 2);
 }
 
-TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") {
+TEST_CASE("Make it fold-free follows strokes and outlines with their parameters") {
   const auto followed = [](TestWorkspace& desk) {
     const VectorXc before = desk.workspace.map().map().f;
     run("map.fold_free", desk.workspace);
@@ -278,7 +278,7 @@ TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") 
   strokes.settle();
   CHECK(followed(strokes) < 3);
   CHECK(strokes.deformation().other_parameters.at("strokes").at("rigidity") == 0.2);
-  // Another stroke stays with the method that follows strokes.
+  // Adding a stroke keeps the method that follows strokes.
   CHECK(with_stroke(strokes.deformation(), {{20, 20}, {80, 20}}, {{20, 20}, {80, 20}}).method ==
         "bounded");
 
@@ -288,10 +288,10 @@ TEST_CASE("Made fold-free, strokes and outlines are followed as they were set") 
     oval.push_back(Complex(100 + 130 * std::cos(kPi * i / 40), 75 + 90 * std::sin(kPi * i / 40)));
   outline.workspace.commit("Outline", with_outline(outline.deformation(), oval));
   outline.settle();
-  CHECK(followed(outline) < 12);  // but for the corners, where the derivative vanishes
+  CHECK(followed(outline) < 12);  // large only at the corners, where the derivative vanishes
 }
 
-TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") {
+TEST_CASE("Outline: Escape, a click and a line that crosses itself do not change the scene") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const Deformation before = desk.deformation();
@@ -299,7 +299,7 @@ TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") 
   desk.move({400, 300});
   CHECK(desk.tool().key(Key::escape, desk.workspace));
   desk.release({400, 300});
-  desk.click({10, 10});  // the first of the points of a path
+  desk.click({10, 10});  // sets the first point of a path
   CHECK(desk.tool().key(Key::escape, desk.workspace));
   desk.press({300, 300});
   for (const Complex z : {Complex(400, 300), Complex(300, 400), Complex(400, 400)}) desk.move(z);
@@ -309,14 +309,14 @@ TEST_CASE("Outline: Escape, a click and a crossing line leave the scene alone") 
 }
 
 TEST_CASE(
-    "Outline: clicks set its points, a drag makes one smooth, Enter and the first point close") {
+    "Outline: clicks set points, a drag makes one smooth, Enter and the first point close it") {
   TestWorkspace desk(shapes::rectangle(200, 150));
   desk.workspace.tools.active = ToolId::outline;
   const size_t steps = desk.steps();
   desk.click({10, 10});
   CHECK(desk.tool().busy());
   desk.click({300, 10});
-  CHECK(desk.tool().key(Key::enter, desk.workspace));  // too few: said, and nothing is lost
+  CHECK(desk.tool().key(Key::enter, desk.workspace));  // too few points: a toast says so
   CHECK(desk.tool().busy());
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
   desk.click({300, 200});
@@ -331,7 +331,7 @@ TEST_CASE(
   CHECK(desk.deformation().method == "outline");
   const Points outline = desk.deformation().outline;
   CHECK(outline.size() > 8);  // two sides are curves
-  desk.press({600, 600});     // the next path does not begin where this one ended
+  desk.press({600, 600});     // the next path does not start at the last point of this one
   desk.release({600, 600});
   CHECK_FALSE(desk.tool().overlay().closes);
   CHECK(desk.tool().key(Key::escape, desk.workspace));
@@ -339,7 +339,8 @@ TEST_CASE(
   CHECK(std::ranges::count(outline, Complex(150, 280)) == 0);
   CHECK(desk.workspace.playback.playing);
 
-  // With the keyboard; a crossing one is refused and stays to be mended.
+  // Closed with Enter. A path that crosses itself is refused and stays, so that it can be
+  // corrected.
   for (const Complex z : {Complex(60, 50), {280, 180}, {280, 50}, {60, 180}}) desk.click(z);
   CHECK(desk.tool().key(Key::enter, desk.workspace));
   CHECK(desk.tool().busy());

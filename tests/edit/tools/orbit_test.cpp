@@ -1,4 +1,4 @@
-// The camera around a surface: motions, and what follows the pointer.
+// The orbit camera: rigid motions, and points that follow the pointer.
 #include "edit/tools/orbit.h"
 
 #include <Eigen/Geometry>
@@ -16,14 +16,14 @@ Surface slope() {
   return surface;
 }
 
-/// Clip coordinates after division.
+/// Normalized device coordinates: clip coordinates after the perspective division.
 Eigen::Vector3d shown(const OrbitCamera& camera, double aspect, const Eigen::Vector3d& p) {
   return (camera.to_clip(aspect) * camera.to_view() * p.homogeneous()).hnormalized();
 }
 
 }  // namespace
 
-TEST_CASE("Orbit: the view is a motion that keeps the target ahead and y up") {
+TEST_CASE("Orbit: the view is a rigid motion with the target straight ahead and y up") {
   OrbitCamera camera;
   camera.target = {3, -1, 2};
   for (const double yaw : {-2.0, 0.0, 0.7, 3.0})
@@ -42,10 +42,10 @@ TEST_CASE("Orbit: the view is a motion that keeps the target ahead and y up") {
   camera.yaw = camera.pitch = 0;
   CHECK(shown(camera, 1, camera.target + Eigen::Vector3d(0.1, 0, 0)).x() > 0);
   CHECK(shown(camera, 1, camera.target + Eigen::Vector3d(0, 0, 0.1)).z() <
-        shown(camera, 1, camera.target).z());  // nearer is smaller
+        shown(camera, 1, camera.target).z());  // a nearer point has a smaller depth
 }
 
-TEST_CASE("Orbit: at first all of a surface is seen, from its front") {
+TEST_CASE("Orbit: the initial view shows all of a surface from its front") {
   const Surface surface = slope();
   for (const double aspect : {0.3, 1.0, 2.5}) {
     const OrbitCamera camera = OrbitCamera::around(surface, aspect);
@@ -59,7 +59,8 @@ TEST_CASE("Orbit: at first all of a surface is seen, from its front") {
   }
 }
 
-TEST_CASE("Orbit: dragging turns what is in front along, and panning keeps it under the pointer") {
+TEST_CASE(
+    "Orbit: a drag rotates the front with the pointer, and panning keeps it under the pointer") {
   OrbitCamera camera = OrbitCamera::around(slope(), 1);
   camera.yaw = 0.4;
   camera.pitch = 0.3;
@@ -71,7 +72,7 @@ TEST_CASE("Orbit: dragging turns what is in front along, and panning keeps it un
   turned.turn_px({10, 0}, height);
   CHECK(shown(turned, 1, nearest).x() > before.x());
   turned = camera;
-  turned.turn_px({0, 10}, height);  // px go down
+  turned.turn_px({0, 10}, height);  // window px have y down
   CHECK(shown(turned, 1, nearest).y() < before.y());
   turned.turn_px({0, 1e5}, height);
   CHECK(turned.pitch < kPi / 2);
@@ -82,7 +83,7 @@ TEST_CASE("Orbit: dragging turns what is in front along, and panning keeps it un
   CHECK(at.x() * height / 2 == Approx(30));
   CHECK(at.y() * height / 2 == Approx(-50));
 
-  moved.pan_px({1e6, -1e6}, height);  // never beyond what can be seen from another side
+  moved.pan_px({1e6, -1e6}, height);  // the surface stays between the clipping planes
   moved.turn_px({200, 0}, height);
   for (const Eigen::Vector3d& p : slope().vertices) CHECK(std::abs(shown(moved, 1, p).z()) < 1);
 

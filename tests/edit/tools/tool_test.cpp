@@ -1,4 +1,4 @@
-// Tools and actions without a window: gestures as sequences of inputs.
+// Tools and actions without a window. Gestures are sequences of inputs.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -17,7 +17,7 @@ constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 }  // namespace
 
 TEST_CASE(
-    "Viewport: window and plane are inverse to each other, and zoom keeps the cursor's place") {
+    "Viewport: window and plane conversions are inverse, and zoom keeps the point at the pointer") {
   Viewport view{{30, 40}, 2.5, 10, 20, 800, 600};
   const Complex z{12, 99}, px{333, 222};
   CHECK(std::abs(view.plane_at_px(view.px_at_plane(z)) - z) < 1e-12);
@@ -29,7 +29,7 @@ TEST_CASE(
   for (const Complex& v : shapes::l_shape()) CHECK(view.contains_px(view.px_at_plane(v)));
 }
 
-TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis") {
+TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps it on one axis") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
@@ -45,7 +45,7 @@ TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps the axis
   CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
 }
 
-TEST_CASE("Select: Escape gives a drag up and leaves the scene") {
+TEST_CASE("Select: Escape cancels a drag and restores the scene") {
   TestWorkspace desk(shapes::l_shape());
   desk.press({0, 0});
   desk.move({50, 50});
@@ -55,7 +55,7 @@ TEST_CASE("Select: Escape gives a drag up and leaves the scene") {
   CHECK(desk.steps() == 2);
 }
 
-TEST_CASE("Select: marquee and Shift pick, dragging one moves all") {
+TEST_CASE("Select: a box and Shift select handles, and a drag of one moves all") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({150, -50}, {250, 150});
   CHECK(desk.workspace.selection.size() == 2);
@@ -67,7 +67,8 @@ TEST_CASE("Select: marquee and Shift pick, dragging one moves all") {
   CHECK(desk.deformation().pose.vertex(3) == Complex(100, 100));
 }
 
-TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay") {
+TEST_CASE(
+    "Inserting a point keeps rest shape and pose, and deleting leaves at least three points") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 0}, {200, -40});
   desk.press({100, -20}, {}, true);
@@ -84,7 +85,8 @@ TEST_CASE("Inserting keeps rest and pose, deleting asks for three points to stay
   CHECK(desk.workspace.messages.toasts.size() == 1);
 }
 
-TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its place") {
+TEST_CASE(
+    "Editing the rest shape keeps the pose; a self-crossing one is refused with its position") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 120});
   run("cage.rest", desk.workspace);
@@ -100,23 +102,24 @@ TEST_CASE("Editing the rest keeps the pose; a crossing rest is refused with its 
   CHECK(desk.workspace.messages.toasts[0].where);
 }
 
-TEST_CASE("Pen: draw, take back, close by the first point, by Enter and by double-click") {
-  for (const int way : {0, 1, 2}) {
+TEST_CASE(
+    "Pen: points can be taken back; the first point, Enter and a double-click close the cage") {
+  for (const int closing : {0, 1, 2}) {
     TestWorkspace desk;
     desk.workspace.tools.active = ToolId::pen;
     for (const Complex z : shapes::rectangle(200, 150)) desk.click(z);
     desk.click({-50, 60});
     CHECK(desk.tool().key(Key::backspace, desk.workspace));
-    if (way == 0) desk.click({0, 0});
-    if (way == 1) CHECK(desk.tool().key(Key::enter, desk.workspace));
-    if (way == 2) desk.press({0, 150}, {}, true);
+    if (closing == 0) desk.click({0, 0});
+    if (closing == 1) CHECK(desk.tool().key(Key::enter, desk.workspace));
+    if (closing == 2) desk.press({0, 150}, {}, true);
     REQUIRE(desk.deformation().rest.size() == 4);
     CHECK(desk.deformation().pose == desk.deformation().rest);
     CHECK(desk.workspace.tools.active == ToolId::select);
   }
 }
 
-TEST_CASE("Each method keeps its parameters, and none takes another's") {
+TEST_CASE("Each method keeps its own parameters") {
   Deformation deformation = with_cage(Deformation{}, shapes::rectangle(200, 150));
   deformation = with_method(deformation, "pins");
   deformation.parameters["pin_weight"] = 0.01;
@@ -128,7 +131,7 @@ TEST_CASE("Each method keeps its parameters, and none takes another's") {
   CHECK(with_method(with_method(soft, "bounded"), "outline").parameters == soft.parameters);
 }
 
-TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing stays to be mended") {
+TEST_CASE("Pen: Escape cancels only the drawing; a self-crossing drawing stays for correction") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   const Deformation before = desk.deformation();
@@ -146,7 +149,7 @@ TEST_CASE("Pen: Escape drops the drawing and nothing else; a crossing drawing st
   CHECK(desk.tool().busy());
 }
 
-TEST_CASE("Pen: a click on an edge inserts there") {
+TEST_CASE("Pen: a click on an edge inserts a point there") {
   TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pen;
   desk.hover({60, 3});
@@ -156,7 +159,8 @@ TEST_CASE("Pen: a click on an edge inserts there") {
 }
 
 TEST_CASE(
-    "Pin: a click sets a pin at the rest place under it and switches the method without a jump") {
+    "Pin: a click sets a pin at the rest position under it and switches the method without a "
+    "jump") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {240, 130});
   desk.settle();
@@ -175,12 +179,12 @@ TEST_CASE(
   desk.settle();
   CHECK(desk.deformation().pins[0].pose == image + Complex(20, 10));
   desk.click({-300, -300});
-  CHECK(desk.deformation().pins.size() == 1);  // outside the picture nothing is set
+  CHECK(desk.deformation().pins.size() == 1);  // outside the picture, no pin is set
   desk.click(image + Complex(20, 10), kAlt);
   CHECK(desk.deformation().pins.empty());
 }
 
-TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
+TEST_CASE("The ring of a selected pin rotates the picture by more than a full turn") {
   TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pin;
   desk.click({50, 50});
@@ -201,7 +205,7 @@ TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
     CHECK(desk.tool().scroll(input, desk.workspace));
   }
   CHECK(desk.deformation().pins[0].scale == Approx(std::pow(1.05, 10)));
-  CHECK(desk.steps() == steps + 1);  // one step however often the wheel clicks
+  CHECK(desk.steps() == steps + 1);  // consecutive scrolls are one step
   Input aside = desk.at({120, 50});
   aside.wheel = 2;
   CHECK_FALSE(desk.tool().scroll(aside, desk.workspace));
@@ -209,7 +213,7 @@ TEST_CASE("The ring of a selected pin turns the picture, beyond a full turn") {
   CHECK_FALSE(desk.deformation().pins[0].angle);
 }
 
-TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents") {
+TEST_CASE("Deleting a point refits curved neighbors, or with Shift keeps their tangents") {
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   deformation.pose.segments[1] = {{200, 0}, {230, 30}, {230, 70}};
   deformation.pose.segments[2] = {{200, 100}, {170, 130}, {130, 130}};
@@ -224,7 +228,7 @@ TEST_CASE("Deleting refits curved neighbours, with Shift it keeps their tangents
   CHECK(refitted.pose != kept.pose);
 }
 
-TEST_CASE("Resetting every handle of a curved pose gives the rest") {
+TEST_CASE("Resetting every handle of a curved pose gives the rest shape") {
   TestWorkspace desk(shapes::l_shape());
   Deformation deformation = desk.deformation();
   deformation.rest.segments[2] =
@@ -243,18 +247,18 @@ TEST_CASE("Resetting every handle of a curved pose gives the rest") {
   }
 }
 
-TEST_CASE("Drawing a cage over a picture that pins bend is done at rest") {
+TEST_CASE("Drawing another cage over a bent picture switches to the rest shape") {
   TestWorkspace desk(shapes::l_shape());
   desk.workspace.tools.active = ToolId::pin;
   desk.drag({50, 50}, {70, 60});
-  CHECK(desk.steps() == 3);  // setting a pin and dragging it on is one step
+  CHECK(desk.steps() == 3);  // setting and dragging a pin in one gesture is one step
   desk.settle();
   desk.workspace.tools.active = ToolId::pen;
   desk.click({400, 400});
   CHECK(desk.workspace.mode == EditMode::rest);
 }
 
-TEST_CASE("Nudges merge while they go on, and never into another's step") {
+TEST_CASE("Consecutive nudges of a selection merge into one step, and not into other steps") {
   TestWorkspace desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   desk.click({0, 0});
@@ -266,13 +270,14 @@ TEST_CASE("Nudges merge while they go on, and never into another's step") {
   desk.click({3, 0});
   w.go_to(2);
   run("edit.nudge_up", w);
-  CHECK(desk.steps() == 4);  // a step of its own, after the first nudges
+  CHECK(desk.steps() == 4);  // a separate step after the first nudges
   CHECK(desk.deformation().pose.vertex(0) == Complex(3, 1));
   run("edit.undo", w);
   CHECK(desk.deformation().pose.vertex(0) == Complex(3, 0));
 }
 
-TEST_CASE("A selection never means another point after undo, or a pin that the method hides") {
+TEST_CASE(
+    "A selection never refers to another point after undo, or to a pin that the method hides") {
   TestWorkspace desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   w.tools.active = ToolId::pen;
@@ -296,7 +301,7 @@ TEST_CASE("Hidden handles cannot be grabbed") {
   CHECK(handle_at(desk.workspace, desk.workspace.display.viewport.px_at_plane({0, 0})));
 }
 
-TEST_CASE("Several handles move together around their middle") {
+TEST_CASE("Moving several handles moves their center") {
   const Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 2, 0}};
   CHECK(center_of(deformation, two, EditMode::pose) == Complex(100, 50));
@@ -304,7 +309,7 @@ TEST_CASE("Several handles move together around their middle") {
         Complex(105, 47));
 }
 
-TEST_CASE("Nudging, resetting and methods act on the scene as named") {
+TEST_CASE("Nudging, resetting and switching methods change the scene as expected") {
   TestWorkspace desk(shapes::l_shape());
   desk.click({0, 0});
   for (const char* id : {"edit.nudge_right", "edit.nudge_up_10", "edit.nudge_left_fine"})
@@ -317,7 +322,7 @@ TEST_CASE("Nudging, resetting and methods act on the scene as named") {
   CHECK(with_method(deformation, "cage").parameters.empty());
 }
 
-TEST_CASE("The action table: ids and keys are unique, icons and labels are there") {
+TEST_CASE("The action table: ids and keys are unique, and every action has a label") {
   TestWorkspace desk(shapes::l_shape());
   std::set<std::string> ids, keys;
   for (const Action& action : desk.workspace.actions.rows()) {
