@@ -1,4 +1,4 @@
-// GLFW knows text alone, so that pictures go through the desktop's own tools.
+// GLFW's clipboard holds only text, so pictures go through the desktop's own tools.
 #include "app/clipboard.h"
 
 #include <cstdlib>
@@ -10,14 +10,14 @@
 namespace holomorph {
 namespace {
 
-/// The first of these tools that is installed and fits the display.
+/// The command that suits the display and is installed. Throws Error if there is none.
 std::vector<std::string> tool(std::vector<std::string> wayland, std::vector<std::string> x11) {
   const char* display = std::getenv("WAYLAND_DISPLAY");
   if (display && *display && has_program(wayland[0])) return wayland;
   if (has_program(x11[0])) return x11;
   throw Error(ErrorKind::failed,
-              "Pictures on the clipboard need the program xclip or, on Wayland, wl-clipboard; "
-              "neither is installed.");
+              "Copying and pasting pictures needs xclip or, on Wayland, wl-clipboard. Install one "
+              "of them.");
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void put_on_clipboard(const std::string& png, const std::function<bool()>& keep_
                        {"xclip", "-selection", "clipboard", "-target", "image/png", "-in"}),
                   png, keep_going);
   if (!finished || finished->status != 0)
-    throw Error(ErrorKind::failed, "The picture could not be put on the clipboard.");
+    throw Error(ErrorKind::failed, "Could not copy the picture to the clipboard.");
 }
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Pictures on the desktop's clipboard, by the programs wl-clipboard or xclip.
+// Pictures on the desktop's clipboard, through the programs xclip or wl-clipboard.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,10 @@
 
 namespace holomorph {
 
-/// The clipboard's picture as PNG bytes. Throws Error where there is none, or no such program.
+/// The clipboard's picture as the bytes of a PNG file. Throws Error if there is no picture or no
+/// such program.
 std::string picture_on_clipboard(const std::function<bool()>& keep_going);
-/// Puts the bytes of a PNG file there. Throws Error.
+/// Copies the bytes of a PNG file to the clipboard. Throws Error if that fails.
 void put_on_clipboard(const std::string& png, const std::function<bool()>& keep_going);
 
 }  // namespace holomorph

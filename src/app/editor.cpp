@@ -1,4 +1,4 @@
-// One frame, from the mouse to pixels, in the order of src/README.md.
+// One frame, from mouse input to pixels, in the order that src/README.md gives.
 #include "app/editor.h"
 
 #include <imgui.h>
@@ -59,7 +59,7 @@ class Editor {
     };
     if (!options.file.empty() && std::ranges::any_of(files_.recoverable(), is_other))
       workspace_.messages.say(
-          "There is unsaved work from an earlier session: File > New shows it.");
+          "There is unsaved work from an earlier session. Choose File > New to see it.");
   }
 
   int run() {
@@ -68,8 +68,8 @@ class Editor {
           workspace_.playback.playing || workspace_.shown.timeline.playing || files_.busy();
       const bool happened = window_.wait(playing ? 0.015 : toasts_.empty() ? 1.0 : 0.25);
       const double start = now_ms();
-      if (happened && canvas_.make_room())
-        window_.wake();  // and the frame is drawn in the next round
+      if (happened && canvas_.allocate_texture())
+        window_.wake();  // the frame is drawn in the next iteration
       else if (happened)
         frame();
       slowest_ms_ = std::max(slowest_ms_, now_ms() - start);
@@ -92,8 +92,8 @@ class Editor {
     window_.begin_frame(navigates_items(window_focus()));
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
-    take_events();
-    Input input = take_input();
+    handle_events();
+    Input input = read_input();
     if (input.wheel != 0 && current_tool().scroll(input, workspace_)) input.wheel = 0;
     drag_split(input);
     navigate(input);
@@ -150,8 +150,8 @@ class Editor {
     if (std::exchange(fit_, false)) view.fit(content_box(workspace_));
   }
 
-  /// How far the picture of an opened scene reaches is known with its map: unless the user has
-  /// begun, the view shows all of it.
+  /// The extent of an opened scene's picture is known only when its map is. Fits the view to all of
+  /// it then, unless the user has already started to work.
   void show_whole_map() {
     if (workspace_.document.history().can_undo()) opened_ = false;
     if (!opened_ || !workspace_.map().has_map() || workspace_.map().busy()) return;
@@ -165,13 +165,13 @@ class Editor {
       view.fit(all);
   }
 
-  void take_events() {
-    // One question at a time: what comes meanwhile waits.
+  void handle_events() {
+    // One question at a time: dropped files and a request to close wait meanwhile.
     if (!files_.asking()) {
       for (const Path& path : window_.take_drops()) files_.drop(path);
       if (window_.take_close()) workspace_.request = Request::quit;
     }
-    // What a panel previewed goes when nothing in it is being dragged any longer.
+    // A panel's preview ends when none of its items is being dragged any more.
     const bool active = ImGui::IsAnyItemActive();
     if (workspace_.shown.preview && !current_tool().busy() && !active && !was_active_)
       workspace_.shown.preview.reset();
@@ -180,14 +180,14 @@ class Editor {
     const KeyFocus focus = key_focus(window_focus());
     menu_was_open_ = has_popup();
     for (const auto& [key, repeats] : window_.take_keys()) {
-      if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key is meant once
-      if (focus == KeyFocus::panel) take_panel_key(key);
+      if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key counts once
+      if (focus == KeyFocus::panel) handle_panel_key(key);
       if (focus == KeyFocus::canvas) take_key(key);
     }
     const bool holds = focus == KeyFocus::canvas;
     workspace_.display.hide_overlays = holds && is_held("hold.overlays");
     workspace_.display.show_original = holds && is_held("hold.original");
-    window_.stand_in_for_alt(holds && is_held("hold.alt"));
+    window_.set_alt_override(holds && is_held("hold.alt"));
   }
 
   static bool has_popup() {
@@ -206,16 +206,16 @@ class Editor {
     return focus;
   }
 
-  void take_panel_key(const Shortcut& key) {
+  void handle_panel_key(const Shortcut& key) {
     if (key == Shortcut(Key::escape)) return panel_focus_.leave();
     const Action* action = workspace_.actions.for_key(key, workspace_);
     if (action && acts_from_panel(key, *action)) holomorph::run(*action, workspace_);
   }
 
-  /// Whether a key is down that does something while it is held.
+  /// Whether a key of this action is down. For actions that act while their key is held.
   bool is_held(const char* id) const {
     const ImGuiIO& io = ImGui::GetIO();
-    const Modifiers held{io.KeyCtrl, io.KeyShift, io.KeyAlt && !window_.stands_in_for_alt()};
+    const Modifiers held{io.KeyCtrl, io.KeyShift, io.KeyAlt && !window_.alt_override()};
     return std::ranges::any_of(workspace_.actions.named(id).keys, [&](const Shortcut& key) {
       return window_.is_down(key) && key.mods == held;
     });
@@ -227,20 +227,21 @@ class Editor {
     if ((key.mods == Modifiers{} || escapes) && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
       return;
-    if (current_tool().busy()) return take_key_in_gesture(key);
+    if (current_tool().busy()) return handle_key_in_gesture(key);
     if (const Action* action = workspace_.actions.for_key(key, workspace_))
       holomorph::run(*action, workspace_);
   }
 
-  /// A gesture is finished first; only the view may change meanwhile, and undo takes a part back.
-  void take_key_in_gesture(const Shortcut& key) {
+  /// During a gesture only those actions run that allow it, such as changes of the view. Undo takes
+  /// back a part of the gesture.
+  void handle_key_in_gesture(const Shortcut& key) {
     const Action* action = workspace_.actions.owner_of(key);
     if (!action) return;
     if (action->id == "edit.undo") current_tool().key(Key::backspace, workspace_);
     if (action->during_gesture) holomorph::run(*action, workspace_);
   }
 
-  Input take_input() {
+  Input read_input() {
     const ImGuiIO& io = ImGui::GetIO();
     Input input;
     input.px = {io.MousePos.x, io.MousePos.y};
@@ -257,7 +258,7 @@ class Editor {
     return input;
   }
 
-  /// The line between before and after.
+  /// Lets the user drag the line between before and after.
   void drag_split(Input& input) {
     std::optional<double>& split = workspace_.display.split;
     if (!split || !input.down) dragging_split_ = false;
@@ -273,7 +274,7 @@ class Editor {
     }
   }
 
-  /// What is before, in the left half, cannot be taken hold of.
+  /// Whether a position is in the "before" part on the left, where nothing can be grabbed.
   bool is_before(Complex px) const {
     const Viewport& view = workspace_.display.viewport;
     return workspace_.display.split &&
@@ -287,9 +288,9 @@ class Editor {
     if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
     if (panning_) workspace_.display.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
     if (space && !std::exchange(space_, true))
-      space_pans_ = key_focus(window_focus()) != KeyFocus::canvas;
-    space_pans_ = space_pans_ || panning_;
-    if (!space && std::exchange(space_, false) && !space_pans_ && !current_tool().busy())
+      space_used_ = key_focus(window_focus()) != KeyFocus::canvas;
+    space_used_ = space_used_ || panning_;
+    if (!space && std::exchange(space_, false) && !space_used_ && !current_tool().busy())
       if (const Action* action = workspace_.actions.for_key(Key::space, workspace_))
         holomorph::run(*action, workspace_);
     if (input.wheel != 0)
@@ -386,7 +387,7 @@ class Editor {
     StatusLine status;
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. " +
-                    workspace_.actions.key_of("help.keys") + " shows keys and mouse.";
+                    workspace_.actions.key_of("help.keys") + " lists keys and mouse gestures.";
       answer(draw_welcome(workspace_, preferences_, samples_.shown(), files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
@@ -398,7 +399,7 @@ class Editor {
       draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
       const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
       draw_missing_picture(workspace_, scale, offer);
-      // The offer is the first step.
+      // The offer of a cage takes the place of the first step.
       if (preferences_.hints && offer == 0 && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();
@@ -410,8 +411,8 @@ class Editor {
       if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
       if (panel_focus_.held())
         status.hint =
-            "Esc leads back to the canvas; arrows, Tab and Enter go through this panel; " +
-            workspace_.actions.key_of("view.next_panel") + " to the next one";
+            "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +
+            workspace_.actions.key_of("view.next_panel") + " for the next panel";
       if (workspace_.shown.timeline.recording)
         status.hint = recording_hint(workspace_.shown.timeline);
       if (input.inside) status.cursor = input.position;
@@ -443,7 +444,7 @@ class Editor {
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
        was_active_ = false, restyle_ = false, menu_was_open_ = false, goes_to_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
-  bool space_ = false, space_pans_ = false;  ///< the key is held, and not for playing
+  bool space_ = false, space_used_ = false;  ///< Space is held; releasing it does not play
   ComparisonPanel comparison_;
   SurfacePane surface_pane_{[this] { window_.wake(); }};
   TimelinePanel timeline_;
@@ -458,12 +459,12 @@ class Editor {
 
 int run_editor(const EditorOptions& options) {
   if (!options.file.empty() && !path_exists(options.file))
-    throw Error(ErrorKind::bad_input,
-                options.file.string() +
-                    ": there is no such file, and no such command; see 'holomorph --help'");
+    throw Error(
+        ErrorKind::bad_input,
+        options.file.string() + ": there is no such file or command. See 'holomorph --help'");
   if (!has_display())
     throw Error(ErrorKind::failed,
-                "no window can be opened here: there is no display. 'holomorph render SCENE --out "
+                "cannot open a window: there is no display. 'holomorph render SCENE --out "
                 "PICTURE.png' works without one");
   return Editor(options).run();
 }

@@ -6,13 +6,13 @@
 namespace holomorph {
 
 struct EditorOptions {
-  Path file;        ///< a scene or picture to open; empty: the welcome page
-  Path state_file;  ///< when set, what the editor shows is written here whenever it changes
-  bool allow_outside = false;  ///< scenes may show pictures that are not in their folder
+  Path file;                   ///< a scene or picture to open; empty: the welcome page
+  Path state_file;             ///< if set, the editor's state is written here whenever it changes
+  bool allow_outside = false;  ///< scenes may show pictures from outside their folder
 };
 
-/// Opens the window and runs until it is closed. Returns the exit status. Throws Error when there
-/// is no display or no such file; a file that cannot be read is a message in the window.
+/// Opens the window and runs until it is closed. Returns the exit status. Throws Error if there is
+/// no display or the file does not exist. A file that cannot be read is reported in the window.
 int run_editor(const EditorOptions& options);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Whatever would lose unsaved work goes through ask_then.
+// Everything that would lose unsaved work goes through ask_about_changes_then.
 #include "app/files.h"
 
 #include <imgui.h>
@@ -19,7 +19,7 @@
 namespace holomorph {
 namespace {
 
-/// A name from a file, on one line and not too long.
+/// A path as printable text, on one line and not too long.
 std::string short_name(const Path& path) {
   constexpr size_t kMost = 120;
   std::string text = printable(path.string());
@@ -30,11 +30,11 @@ std::string short_name(const Path& path) {
 }  // namespace
 
 Files::Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
-             const std::function<void()>& wake, bool everywhere)
+             const std::function<void()>& wake, bool allow_outside)
     : workspace_(workspace),
       preferences_(preferences),
       replaced_(std::move(replaced)),
-      everywhere_(everywhere),
+      allow_outside_(allow_outside),
       jobs_(workspace, wake),
       dialog_(wake),
       export_(workspace, jobs_, dialog_),
@@ -55,12 +55,12 @@ void Files::trust_folder_of(const Path& path) {
   keep_preferences();
 }
 
-void Files::ask_then(Then then) {
+void Files::ask_about_changes_then(Then then) {
   if (!workspace_.document.modified()) return then();
   questions_.ask(
       {"Unsaved changes",
-       "There are changes that are not saved.",
-       {{"Save", [this, then] { save(false, then); }}, {"Do not save", then}, {"Cancel", {}}}});
+       "Save changes to \"" + short_name(workspace_.document.name()) + "\" before closing?",
+       {{"Save", [this, then] { save(false, then); }}, {"Don't save", then}, {"Cancel", {}}}});
 }
 
 void Files::adopt(Document document) {
@@ -69,8 +69,8 @@ void Files::adopt(Document document) {
   export_.forget();
   questions_.withdraw();
   watch_.forget();
-  changing_.reset();
-  left_alone_.reset();
+  last_seen_change_.reset();
+  handled_change_.reset();
   replaced_();
 }
 
@@ -105,16 +105,16 @@ void Files::ask_about_unsaved(const std::vector<Recovery>& left) {
   };
   const auto ask_again = [this, discard_it] {
     questions_.ask({"Unsaved work",
-                    "Discard it for good?",
-                    {{"Discard it", discard_it}, {"Keep it", [this] { ask_about_withheld(); }}},
+                    "Discard it permanently?",
+                    {{"Discard", discard_it}, {"Keep", [this] { ask_about_withheld(); }}},
                     1});
   };
   questions_.ask({"Unsaved work",
-                  "There is unsaved work on this scene from an earlier session:\n" +
-                      left.front().label + "\nRecover it?",
-                  {{"Recover it", [this, autosave] { ask_recover(autosave); }},
+                  "An earlier session left unsaved work on this scene:\n" + left.front().label +
+                      "\nRecover it?",
+                  {{"Recover", [this, autosave] { ask_recover(autosave); }},
                    {"Leave it for later", [this] { ask_about_withheld(); }},
-                   {"Discard it...", ask_again}},
+                   {"Discard...", ask_again}},
                   0,
                   1});
 }
@@ -123,15 +123,15 @@ void Files::ask_about_withheld() {
   constexpr size_t kShown = 12;
   const std::vector<Path> withheld = workspace_.document.withheld();
   if (withheld.empty()) return;
-  std::string text = "This scene shows files that are not in its folder:\n";
+  std::string text = "This scene uses files from outside its folder:\n";
   for (size_t i = 0; i < std::min(kShown, withheld.size()); ++i)
     text += "    " + short_name(withheld[i]) + "\n";
   if (withheld.size() > kShown)
     text += "    and " + std::to_string(withheld.size() - kShown) + " more\n";
   text +=
-      "Show them only if you trust where the scene comes from. Scenes may then show files from "
-      "these folders without asking.";
-  questions_.ask({"Files from elsewhere",
+      "Show them only if you trust the source of this scene. After that, scenes may show files "
+      "from these folders without asking.";
+  questions_.ask({"Files from other folders",
                   text,
                   {{"Show them", [this] { show_withheld(); }}, {"Leave them out", {}}},
                   1});
@@ -161,7 +161,7 @@ void Files::show_withheld() {
   }));
 }
 
-/// The scene as its file is now: a step, so that undo brings back what was there.
+/// Reads the scene again from its file, as a step that can be undone.
 void Files::reload() {
   const auto opened = std::make_shared<std::optional<Document>>();
   const Path path = workspace_.document.path();
@@ -192,14 +192,14 @@ void Files::watch_scene() {
   std::error_code gone;
   const Time found = std::filesystem::last_write_time(document.path(), gone);
   const Time now = gone ? Time::min() : found;
-  if (left_alone_ == now || (!gone && !document.changed_on_disk())) return;
-  if (changing_ != now) {
-    changing_ = now;
+  if (handled_change_ == now || (!gone && !document.changed_on_disk())) return;
+  if (last_seen_change_ != now) {
+    last_seen_change_ = now;
     return;
   }
-  left_alone_ = now;
+  handled_change_ = now;
   const bool saved = !document.modified();
-  document.mark_unsaved();  // what is here is not in the file
+  document.mark_unsaved();  // the file no longer has this version
   if (gone)
     workspace_.messages.complain(
         document.title() +
@@ -208,11 +208,11 @@ void Files::watch_scene() {
     reload();
   else
     workspace_.messages.say("Another program has changed " + document.title() +
-                            ". Saving asks which version to keep.");
+                            ". When you save, choose which version to keep.");
 }
 
 void Files::ask_open(const Path& path) {
-  ask_then([this, path] { workspace_.messages.complain(open(path)); });
+  ask_about_changes_then([this, path] { workspace_.messages.complain(open(path)); });
 }
 
 void Files::drop(const Path& path) {
@@ -225,31 +225,29 @@ void Files::drop(const Path& path) {
   else if (kind == ".obj" && document.image())
     workspace_.messages.complain(
         path.filename().string() +
-        ": the picture needs a cage before it can go onto a surface. Make one and drop the "
-        "surface again");
+        ": a surface needs a picture with a cage. Make a cage, then drop the surface again.");
   else if (document.empty() || document.path() == path)
     ask_open(path);
   else
     ask_where(path);
 }
 
-/// A dropped picture or scene may go to several places.
+/// There are several uses for a dropped picture or scene: asks which one is wanted.
 void Files::ask_where(const Path& path) {
-  Question question{"A dropped picture", short_name(path.filename()), {}};
-  question.answers.push_back({"Add it as a layer", [this, path] {
-                                workspace_.messages.complain(imports_.add_layer(path));
-                              }});
+  Question question{"Dropped file", short_name(path.filename()), {}};
+  question.answers.push_back(
+      {"Add as a layer", [this, path] { workspace_.messages.complain(imports_.add_layer(path)); }});
   if (!is_scene_name(path))
-    question.answers.push_back({"Put it in place of this layer's picture", [this, path] {
+    question.answers.push_back({"Replace this layer's picture", [this, path] {
                                   workspace_.messages.complain(imports_.replace_picture(path));
                                 }});
-  question.answers.push_back({"Open it instead", [this, path] { ask_open(path); }});
+  question.answers.push_back({"Open instead", [this, path] { ask_open(path); }});
   question.answers.push_back({"Cancel", {}});
   questions_.ask(std::move(question));
 }
 
 void Files::copy_picture() {
-  if (const std::string problem = lacking(workspace_); !problem.empty())
+  if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
     return workspace_.messages.complain(problem);
   const Document& document = workspace_.document;
   const auto copy = [scene = document.scene(), pictures = document.pictures(),
@@ -259,17 +257,17 @@ void Files::copy_picture() {
       put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
   };
   workspace_.messages.complain(jobs_.run("Copying the picture", copy, [this] {
-    workspace_.messages.say("The picture is on the clipboard.");
+    workspace_.messages.say("Copied the picture to the clipboard.");
   }));
 }
 
-Path Files::beside_document(const std::string& name) const {
+Path Files::in_document_folder(const std::string& name) const {
   const Path& document = workspace_.document.path();
   return (document.empty() ? dialog_.folder() : document.parent_path()) / name;
 }
 
 void Files::ask_sample(const Path& scene) {
-  ask_then([this, scene] {
+  ask_about_changes_then([this, scene] {
     const auto opened = std::make_shared<std::optional<Document>>();
     workspace_.messages.complain(jobs_.run(
         "Opening " + scene.filename().string(),
@@ -279,13 +277,14 @@ void Files::ask_sample(const Path& scene) {
 }
 
 void Files::ask_recover(const Path& autosave) {
-  ask_then([this, autosave] { recover(autosave); });
+  ask_about_changes_then([this, autosave] { recover(autosave); });
 }
 
 void Files::recover(const Path& autosave) {
   if (!path_exists(autosave)) {
     recoverable_ = holomorph::recoverable(autosave_folder());
-    return workspace_.messages.complain("That work was recovered or discarded in another window.");
+    return workspace_.messages.complain(
+        "This work has already been recovered or discarded in another window.");
   }
   const auto recovered = std::make_shared<std::optional<Document>>();
   workspace_.messages.complain(jobs_.run(
@@ -294,7 +293,7 @@ void Files::recover(const Path& autosave) {
       [this, recovered, autosave] {
         adopt(std::move(**recovered));
         if (!workspace_.document.autosave(autosave_folder())) return;
-        discard(autosave);  // the document has written its own
+        discard(autosave);  // the document has its own autosave
         workspace_.messages.say(workspace_.document.path().empty()
                                     ? "Recovered. Save it under a name to keep it."
                                     : "Recovered. Save to keep it.");
@@ -332,12 +331,12 @@ void Files::ask_about_change(const Path& path, const Then& then) {
        short_name(path.filename()) +
            " has been changed by another program, or in another window, since it was opened here. "
            "Which version do you want to keep?",
-       {{"Save a copy under another name", [this, then] { save(true, then); }},
-        {"Overwrite it with this version",
+       {{"Save under another name", [this, then] { save(true, then); }},
+        {"Overwrite with this version",
          [this, path, then] {
            workspace_.messages.complain(save_to(path, then, Conflict::overwrite));
          }},
-        {"Reload what is on disk", [this] { reload(); }},
+        {"Reload the file", [this] { reload(); }},
         {"Cancel", {}}},
        3});
 }
@@ -348,18 +347,19 @@ void Files::save(bool as, const Then& then) {
     return workspace_.messages.complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.first_picture().empty())
-    start = beside_document(document.first_picture().stem().string() + ".json");
+    start = in_document_folder(document.first_picture().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
   dialog_.ask(
-      {FileQuestion::Mode::save, "Save the scene", "Save", {".json", ".holomorph"}, start, false},
+      {FileQuestion::Mode::save, "Save scene", "Save", {".json", ".holomorph"}, start, false},
       [this, then](const Path& path, double) { return save_to(path, then); });
 }
 
 void Files::ask_export_svg() {
   const Document& document = workspace_.document;
   const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const Path start = beside_document((source.empty() ? "cage" : source.stem().string()) + ".svg");
-  dialog_.ask({FileQuestion::Mode::save, "Export the cage", "Export", {".svg"}, start, false},
+  const Path start =
+      in_document_folder((source.empty() ? "cage" : source.stem().string()) + ".svg");
+  dialog_.ask({FileQuestion::Mode::save, "Export cage", "Export", {".svg"}, start, false},
               [this](const Path& path, double) -> std::string {
                 try {
                   check_may_write(path, workspace_.document.sources());
@@ -379,7 +379,7 @@ std::string Files::export_surface(const Path& path, double scale) {
     const Deformation& deformation = workspace_.shown.own();
     if (document.pictures().withheld().contains(deformation.surface->file))
       return Path(deformation.surface->file).filename().string() +
-             " is not in the scene's folder, and was left out.";
+             " is not in the scene's folder and was not read. Press Show it first.";
     const FlattenedSurface surface = flattened_surface_of(deformation);
     for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
     write_textured(path, surface, textured(surface, deformation, document.image(), scale));
@@ -394,26 +394,21 @@ std::string Files::export_surface(const Path& path, double scale) {
 void Files::ask_export_surface() {
   const Document& document = workspace_.document;
   const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const Path start =
-      beside_document(source.stem().string() + "-" +
-                      Path(document.scene().deformation().surface->file).stem().string() + ".obj");
-  dialog_.ask({FileQuestion::Mode::save,
-               "Export the surface with the picture on it",
-               "Export",
-               {".obj"},
-               start,
-               true},
-              [this](const Path& path, double scale) { return export_surface(path, scale); });
+  const Path start = in_document_folder(
+      source.stem().string() + "-" +
+      Path(document.scene().deformation().surface->file).stem().string() + ".obj");
+  dialog_.ask(
+      {FileQuestion::Mode::save, "Export textured surface", "Export", {".obj"}, start, true},
+      [this](const Path& path, double scale) { return export_surface(path, scale); });
 }
 
 void Files::autosave() {
   if (workspace_.document.autosave(autosave_folder())) return;
   if (!std::exchange(autosave_failed_, true))
     workspace_.messages.complain(Error(
-        ErrorKind::failed,
-        autosave_folder().empty()
-            ? "Autosave is off: this user has no home folder"
-            : "Autosave does not work: nothing can be written to " + autosave_folder().string()));
+        ErrorKind::failed, autosave_folder().empty()
+                               ? "Autosave is off: there is no home folder. Save often."
+                               : "Autosave failed: cannot write to " + autosave_folder().string()));
 }
 
 void Files::keep_recent(const Path& path) {
@@ -432,14 +427,14 @@ void Files::keep_preferences() {
 void Files::answer(Request request) {
   switch (request) {
     case Request::new_scene:
-      ask_then([this] {
+      ask_about_changes_then([this] {
         recoverable_ = holomorph::recoverable(autosave_folder());
         adopt(Document());
       });
       break;
     case Request::open:
-      ask_then([this] {
-        dialog_.ask_open("Open a picture or a scene", "Open",
+      ask_about_changes_then([this] {
+        dialog_.ask_open("Open a picture or scene", "Open",
                          and_pictures({".json", ".holomorph", ".obj"}),
                          [this](const Path& path) { return open(path); });
       });
@@ -469,7 +464,7 @@ void Files::answer(Request request) {
       ask_export_surface();
       break;
     case Request::quit:
-      ask_then([this] {
+      ask_about_changes_then([this] {
         workspace_.document.remove_autosave(autosave_folder());
         quit_ = true;
       });

@@ -1,5 +1,5 @@
-// The document's life as files: opening, saving, exporting, autosave and recovery, and what they
-// ask the user.
+// The document and its files: opening, saving, exporting, autosave and recovery, and the questions
+// that they ask the user.
 #pragma once
 
 #include "app/dialogs/export_dialog.h"
@@ -11,34 +11,37 @@
 
 namespace holomorph {
 
-/// Knows the document's path and picture, the dialogs and the recent files; asks before unsaved
-/// work is lost.
+/// Owns the dialogs and questions about files, and keeps the list of recent files. Asks before
+/// unsaved work is lost.
 class Files {
  public:
-  /// `replaced` is called whenever the workspace has got another document, `wake` on other threads
-  /// when something has ended there. With `everywhere`, scenes show pictures of any folder.
+  /// `replaced` is called whenever the workspace has got another document; `wake` is called on
+  /// other threads when their work has ended. With `allow_outside`, scenes show pictures from any
+  /// folder.
   Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
-        const std::function<void()>& wake, bool everywhere);
+        const std::function<void()>& wake, bool allow_outside);
 
-  /// Opens a scene or a picture at once, or after the user has decided about unsaved work. Returns
-  /// what is wrong, or "".
+  /// Opens a scene or a picture: open() immediately, ask_open() after the user has decided about
+  /// unsaved work. Returns what is wrong, or "".
   std::string open(const Path& path);
   void ask_open(const Path& path);
-  /// The same for a dropped file, but surfaces and SVG paths become the outline where there is a
-  /// cage, and a path the cage where there is none; where a picture should go is asked.
+  /// Takes a dropped file. If there is a cage, surfaces and SVG paths become its outline; if there
+  /// is none, an SVG path becomes the cage. If a document is open, asks what to do with a dropped
+  /// picture or scene; otherwise opens it.
   void drop(const Path& path);
-  /// Opens a copy of a scene, which has no file of its own yet.
+  /// Opens a copy of a scene, which has no file yet. Asks about unsaved work first.
   void ask_sample(const Path& scene);
-  /// Does what an action asked for, if it is about files.
+  /// Does what an action requests, if that is about files.
   void answer(Request request);
-  /// Recovers or deletes what an earlier session left.
+  /// Recovers or deletes the autosave of an earlier session.
   void ask_recover(const Path& autosave);
   void discard(const Path& autosave);
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
-  /// Reads pictures and the scene again that another program has changed; called now and then.
+  /// Reads pictures and the scene again if another program has changed them. To be called
+  /// regularly.
   void watch();
-  /// Keeps the autosave true; called once a frame.
+  /// Keeps the autosave up to date. To be called once per frame.
   void autosave();
   void keep_preferences();
   /// Draws the dialog or question that is open.
@@ -48,12 +51,12 @@ class Files {
   }
   /// The title of the question that is open, or "".
   std::string question() const { return questions_.title(); }
-  /// Whether something goes on that is to be seen though nothing happens.
+  /// Whether frames have to be drawn even without events, because a job is running.
   bool busy() const { return jobs_.running(); }
   Jobs& jobs() { return jobs_; }
   FileChooser& chooser() { return dialog_; }
   bool has_quit() const { return quit_; }
-  /// Whether the document as it is lies in a file, or a picture of it was exported.
+  /// Whether the document is saved in its present state, or was exported.
   bool has_kept() const {
     const Document& document = workspace_.document;
     return export_.has_exported() || (!document.path().empty() && !document.modified());
@@ -61,9 +64,9 @@ class Files {
 
  private:
   using Then = std::function<void()>;
-  Reach reach() const { return {everywhere_, preferences_.trusted}; }
+  Reach reach() const { return {allow_outside_, preferences_.trusted}; }
   void trust_folder_of(const Path& path);
-  void ask_then(Then then);
+  void ask_about_changes_then(Then then);
   void keep_recent(const Path& path);
   void adopt(Document document);
   void recover(const Path& autosave);
@@ -76,9 +79,9 @@ class Files {
   enum class Conflict { ask, overwrite };
   std::string save_to(const Path& path, const Then& then, Conflict conflict = Conflict::ask);
   void save(bool as, const Then& then = {});
-  /// A name in the folder of the document, or where files were chosen last.
-  Path beside_document(const std::string& name) const;
-  Path folder() const { return beside_document("").parent_path(); }
+  /// A file name in the document's folder or, if it has none, in the folder of the last dialog.
+  Path in_document_folder(const std::string& name) const;
+  Path folder() const { return in_document_folder("").parent_path(); }
   void ask_where(const Path& dropped);
   void copy_picture();
   void ask_export_svg();
@@ -88,7 +91,7 @@ class Files {
   Workspace& workspace_;
   Preferences& preferences_;
   std::function<void()> replaced_;
-  bool everywhere_;
+  bool allow_outside_;
   Jobs jobs_;
   Questions questions_;
   FileChooser dialog_;
@@ -96,9 +99,10 @@ class Files {
   Imports imports_;
   PictureWatch watch_;
   std::vector<Recovery> recoverable_;
-  /// When the scene's file was changed last, as two looks find it the same: it may still be being
-  /// written. And when it was as it could not be read, or is not to be.
-  std::optional<std::filesystem::file_time_type> changing_, left_alone_;
+  /// Change times of the scene's file. `last_seen_change_` is the one found last: the file is read
+  /// when two looks in a row find the same time, because until then it may still be written.
+  /// `handled_change_` is that of the version that has been dealt with.
+  std::optional<std::filesystem::file_time_type> last_seen_change_, handled_change_;
   bool quit_ = false, autosave_failed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Whatever takes long is a job; what comes of it is one step of the history.
+// Long work runs as a job. Its result becomes one step of the history.
 #include "app/imports.h"
 
 #include <map>
@@ -52,8 +52,8 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
         (added.scene.layers.size() > 1
              ? std::to_string(added.scene.layers.size()) + " layers were"
              : title_of_layer(document.scene(), document.scene().edited) + " was") +
-        " added above the layer that was edited. " + workspace_.actions.key_of("layer.above") +
-        " and " + workspace_.actions.key_of("layer.below") + " choose layers.");
+        " added above the current layer. Press " + workspace_.actions.key_of("layer.above") +
+        " and " + workspace_.actions.key_of("layer.below") + " to change layers.");
   return true;
 }
 
@@ -63,7 +63,7 @@ void Imports::paste_picture() {
     *pasted = scene_of_pasted(picture_on_clipboard([&] { return !progress.cancelled(); }));
   };
   workspace_.messages.complain(jobs_.run(
-      "Pasting a picture", paste, [this, pasted] { add_layers_of(*pasted, "Paste a picture"); }));
+      "Pasting a picture", paste, [this, pasted] { add_layers_of(*pasted, "Paste picture"); }));
 }
 
 std::string Imports::replace_picture(const Path& path) {
@@ -85,7 +85,7 @@ std::string Imports::replace_picture(const Path& path) {
         if (!workspace_.commit_layers("Replace picture", std::move(scene))) return;
         if (before && (before->width != now.width || before->height != now.height))
           workspace_.messages.say(
-              "The new picture has another size; cage, pins and strokes stay where they are.");
+              "The new picture has a different size. Cage, pins and strokes keep their positions.");
       });
 }
 
@@ -94,12 +94,12 @@ void Imports::ask_find_picture() {
   const std::vector<size_t> missing = document.layers_without_picture();
   if (missing.empty()) return;
   const std::string asked = document.scene().layers[missing.front()]->image->file;
-  chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Take this",
-                    and_pictures({}),
+  chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Choose", and_pictures({}),
                     [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
-/// The others that are missing may have been moved with it.
+/// Also looks next to the chosen file for the other missing pictures, which may have been moved
+/// with it.
 std::string Imports::find_picture(const Path& path, const std::string& asked) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
   const auto find = [found, path, asked, open = open_pixels(), scene = workspace_.document.scene(),
@@ -136,16 +136,16 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
     if (!workspace_.commit_layers("Find picture", std::move(scene))) return;
     const size_t still = document.layers_without_picture().size();
     workspace_.messages.say(
-        std::string(other ? "Found; it is not quite the picture that the scene was made "
+        std::string(other ? "Picture found. It differs from the one that the scene was made "
                             "with."
-                          : "Found.") +
-        (still > 0 ? " " + std::to_string(still) + " more are missing." : ""));
+                          : "Picture found.") +
+        (still > 0 ? " Still missing: " + std::to_string(still) + "." : ""));
   });
 }
 
 void Imports::ask_svg(bool pose) {
-  chooser_.ask_open(pose ? "Posed cage from an SVG path" : "Cage from an SVG path", "Open",
-                    {".svg"}, [this, pose](const Path& path) { return svg(path, pose); });
+  chooser_.ask_open(pose ? "Posed cage from SVG" : "Cage from SVG", "Open", {".svg"},
+                    [this, pose](const Path& path) { return svg(path, pose); });
 }
 
 std::string Imports::svg(const Path& path, bool pose) {
@@ -167,8 +167,8 @@ void Imports::take_cage(Cage cage, bool pose) {
   Deformation deformation = pose ? workspace_.shown.base() : workspace_.shown.own();
   if (pose && cage.size() != deformation.rest.size())
     throw Error(ErrorKind::bad_input,
-                "The path has " + std::to_string(cage.size()) + " segments and the cage " +
-                    std::to_string(deformation.rest.size()) + "; they must agree.");
+                "The path has " + std::to_string(cage.size()) + " segments, but the cage has " +
+                    std::to_string(deformation.rest.size()) + ". Both need the same number.");
   if (pose)
     deformation.pose = std::move(cage);
   else
@@ -203,8 +203,7 @@ void Imports::answer(Request request) {
       ask_svg(true);
       break;
     case Request::import_outline:
-      chooser_.ask_open("Outline from an SVG path, a picture's alpha or an OBJ surface", "Open",
-                        and_pictures({".svg", ".obj"}),
+      chooser_.ask_open("Outline from SVG, picture or OBJ", "Open", and_pictures({".svg", ".obj"}),
                         [this](const Path& path) { return outline(path); });
       break;
     case Request::add_layer:
@@ -213,7 +212,7 @@ void Imports::answer(Request request) {
                         [this](const Path& path) { return add_layer(path); });
       break;
     case Request::replace_picture:
-      chooser_.ask_open("The picture in place of the present one", "Replace", and_pictures({}),
+      chooser_.ask_open("Replace picture", "Replace", and_pictures({}),
                         [this](const Path& path) { return replace_picture(path); });
       break;
     case Request::find_picture:
@@ -223,7 +222,7 @@ void Imports::answer(Request request) {
       paste_picture();
       break;
     default:
-      break;  // not brought in
+      break;  // not an import
   }
 }
 

@@ -1,4 +1,4 @@
-// What comes into the open document: pictures as layers or in place of others, cages, outlines.
+// Imports into the open document: pictures as layers or in place of others, cages and outlines.
 #pragma once
 
 #include "app/dialogs/file_chooser.h"
@@ -6,14 +6,14 @@
 
 namespace holomorph {
 
-/// These extensions and those of pictures.
+/// These extensions, followed by those of pictures.
 std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 
 class Imports {
  public:
-  /// `reach` is what scenes may have read, `remember` is called with files that became layers,
-  /// `chosen` with all that the user has chosen and that could be read, `first` when the document
-  /// was empty before.
+  /// `reach` says which files scenes may read. `remember` is called with files that became layers,
+  /// `chosen` with all files that the user chose and that could be read, and `first` if the
+  /// document was empty before.
   Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<Reach()> reach,
           std::function<void(const Path&)> remember, std::function<void(const Path&)> chosen,
           std::function<void()> first)
@@ -25,7 +25,7 @@ class Imports {
         chosen_(std::move(chosen)),
         first_(std::move(first)) {}
 
-  /// Does what an action asked for, if it brings something in.
+  /// Does what an action requests, if that is an import.
   void answer(Request request);
 
   /// Each returns what is wrong, or "".

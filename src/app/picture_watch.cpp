@@ -1,4 +1,4 @@
-// A file counts as left alone when two looks find it equally changed.
+// A changed file is read when two looks in a row find the same change time.
 #include "app/picture_watch.h"
 
 #include <utility>
@@ -13,7 +13,7 @@ void PictureWatch::forget() {
 
 void PictureWatch::look() {
   if (reading_) {
-    if (reading_->ended()) take();
+    if (reading_->ended()) take_over();
     return;
   }
   Changed now = changed();
@@ -59,9 +59,9 @@ void PictureWatch::start(const Changed& changed) {
   });
 }
 
-void PictureWatch::take() {
+void PictureWatch::take_over() {
   const std::unique_ptr<Job> ended = std::move(reading_);
-  if (ended->cancelled()) return;  // it was another document's
+  if (ended->cancelled()) return;  // it belonged to another document
   bool resized = false, back = false;
   for (auto& [reference, picture] : *read_) {
     if (const Picture* known = workspace_.document.pictures().find(reference)) {
@@ -75,9 +75,9 @@ void PictureWatch::take() {
   if (const auto error = ended->error()) return workspace_.messages.complain(*error);
   workspace_.messages.say(
       Path(read_->front().first.file).filename().string() +
-      (back ? " is there again." : " was changed by another program and has been reloaded.") +
-      (resized ? " It has another size now; cage, pins and strokes stay where they "
-                 "are, in pixels."
+      (back ? " was found again." : " was changed by another program and has been reloaded.") +
+      (resized ? " It has a different size. Cage, pins and strokes keep their positions in "
+                 "pixels."
                : ""));
 }
 

@@ -1,4 +1,4 @@
-// Pictures that another program changes while they are open.
+// Watches for pictures that another program changes while they are open.
 #pragma once
 
 #include <map>
@@ -7,15 +7,16 @@
 
 namespace holomorph {
 
-/// Reads them again, beside the window, when their files are left alone, and what could not be read
-/// when its file is another one; what cannot be read stays as it was until it changes once more.
+/// Reads changed pictures again on another thread, once their files are no longer being written.
+/// Pictures that could not be read are tried again when their files change. A picture whose new
+/// file cannot be read stays as it was until the file changes again.
 class PictureWatch {
  public:
   explicit PictureWatch(Workspace& workspace) : workspace_(workspace) {}
 
-  /// Called now and then: looks at the files, and takes over what was read.
+  /// To be called regularly. Looks at the files, and takes over pictures that have been read.
   void look();
-  /// The workspace has another document.
+  /// To be called when the workspace has another document.
   void forget();
 
  private:
@@ -23,11 +24,11 @@ class PictureWatch {
   using Changed = std::vector<std::pair<ImageReference, Time>>;
   Changed changed();
   void start(const Changed& changed);
-  void take();
+  void take_over();
 
   Workspace& workspace_;
-  Changed changing_;                   ///< when it was looked last: it may still be being written
-  std::map<std::string, Time> tried_;  ///< when the files that could not be read were written
+  Changed changing_;                   ///< found by the last look: may still be being written
+  std::map<std::string, Time> tried_;  ///< change times of the files that could not be read
   std::shared_ptr<std::vector<std::pair<ImageReference, Picture>>> read_;
   std::unique_ptr<Job> reading_;
 };

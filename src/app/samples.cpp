@@ -1,4 +1,4 @@
-// Thumbnails are drawn by the raster, like every exported picture.
+// Thumbnails are drawn by the rasterizer, like exported pictures.
 #include "app/samples.h"
 
 #include <algorithm>
@@ -11,23 +11,23 @@
 namespace holomorph {
 namespace {
 
-struct Row {
+struct SampleRow {
   const char *name, *title, *text;
 };
-constexpr Row kRows[] = {
-    {"giraffe", "Giraffe",
-     "A cage around the whole animal; its neck is bent by a few cage points."},
-    {"gecko", "Gecko", "Pins hold and move feet, head and tail."},
-    {"fish", "Fish", "A curved cage with few points: bend its tangents."},
-    {"octopus", "Octopus", "Nothing folds, however you pull its pins: try to break it."},
-    {"snake", "Snake", "One stroke along its body: move, bend or redraw the line."},
-    {"heart", "Heart", "The fish's shape goes onto a drawn line: draw your own with U."},
-    {"tiger", "Tiger", "A painted face goes onto a mask in space: drag the mask to turn it."},
-    {"fern", "Fern", "Corners turn its tip more than once around, and it unrolls: Space plays."},
-    {"sunflower", "Sunflower", "A cage, and pins that turn leaves and head."}};
+constexpr SampleRow kRows[] = {
+    {"giraffe", "Giraffe", "A cage around the whole animal. A few cage points bend its neck."},
+    {"gecko", "Gecko", "Pins hold and move the feet, head and tail."},
+    {"fish", "Fish", "A curved cage with few points. Drag its tangent handles."},
+    {"octopus", "Octopus", "Nothing folds, however far you pull the pins. Try to break it."},
+    {"snake", "Snake", "One stroke along its body. Move, bend or redraw the line."},
+    {"heart", "Heart", "A fish in the shape of a heart. Press U to draw another outline."},
+    {"tiger", "Tiger", "A painted face on a mask in space. Drag the mask to turn it."},
+    {"fern", "Fern", "Corners curl its tip more than once around. Press Space to unroll it."},
+    {"sunflower", "Sunflower", "A cage, and pins that turn the leaves and the head."}};
 constexpr double kThumbnail = 320;  ///< pixels of the longer side
 
-/// Beside the installed program, wherever that is, or in the source it was built from.
+/// The folder of the samples: that of the installed program, or else that of the source tree it was
+/// built from.
 Path assets() {
   std::error_code error;
   const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -51,11 +51,11 @@ Image thumbnail_of(const Path& scene) {
 const std::vector<Sample>& Samples::shown() {
   if (!std::exchange(listed_, true)) {
     const Path folder = assets();
-    for (const Row& row : kRows)
+    for (const SampleRow& row : kRows)
       if (const Path scene = folder / (std::string(row.name) + ".json"); path_exists(scene))
         samples_.push_back({scene, row.title, row.text});
     done_.resize(samples_.size());
-    drawn_ = std::make_shared<Drawn>();
+    drawn_ = std::make_shared<DrawnThumbnails>();
   }
   std::vector<std::pair<size_t, Image>> ready;
   {

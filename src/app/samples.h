@@ -17,25 +17,25 @@ struct Sample {
   Path scene;
   std::string title, text;
   Texture thumbnail =
-      {};  ///< empty until it is drawn, and when the scene cannot be: opening says why
+      {};  ///< empty until it is drawn, or if the scene cannot be; opening it says why
 };
 
-/// The samples that are installed or lie in the source tree, drawn one by one as they are posed,
-/// beside the window.
+/// The samples that are installed or in the source tree. Their poses are drawn one by one on
+/// another thread.
 class Samples {
  public:
   /// `wake` is called on another thread when one has been drawn.
   explicit Samples(std::function<void()> wake) : wake_(std::move(wake)) {}
-  /// Starts drawing them if need be, and takes over what has been drawn. Needs a current OpenGL
-  /// context.
+  /// The samples, with the thumbnails drawn so far. Starts drawing if there are more to draw. Needs
+  /// a current OpenGL context.
   const std::vector<Sample>& shown();
-  /// Stops after the one that is being drawn; shown() goes on.
+  /// Stops after the thumbnail that is being drawn. shown() continues.
   void pause() {
     if (drawing_) drawing_->cancel();
   }
 
  private:
-  struct Drawn {
+  struct DrawnThumbnails {
     std::mutex mutex;
     std::vector<std::pair<size_t, Image>> images;
   };
@@ -45,7 +45,7 @@ class Samples {
   bool listed_ = false;
   std::vector<Sample> samples_;
   std::vector<char> done_;  ///< for each: whether it has been drawn, or cannot be
-  std::shared_ptr<Drawn> drawn_;
+  std::shared_ptr<DrawnThumbnails> drawn_;
   std::unique_ptr<Job> drawing_;
 };
 

@@ -1,4 +1,4 @@
-// Flat and small.
+// The state is one small, flat JSON object.
 #include "app/state_file.h"
 
 #include <nlohmann/json.hpp>
@@ -88,7 +88,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
   try {
     write_file(path_, last_);
   } catch (const Error&) {
-    // Whoever reads the file will notice that it is missing.
+    // The script that reads the file will notice that it is missing.
   }
 }
 

@@ -1,4 +1,4 @@
-// What the editor shows, as JSON, for scripts that drive it with real input.
+// The editor's state as JSON, for scripts that drive the editor with real input events.
 #pragma once
 
 #include "edit/workspace.h"
@@ -6,30 +6,30 @@
 
 namespace holomorph {
 
-/// What the editor's parts know besides the workspace.
+/// State of the editor's parts that is not in the workspace.
 struct PartsState {
-  bool gesture = false;  ///< a tool's
+  bool gesture = false;  ///< a tool is in use
   int compared_rows = 0;
   bool on_surface = false;       ///< the picture is on the surface in space
-  double yaw = 0, distance = 0;  ///< of the camera there
-  double slowest_ms = 0;         ///< frame so far, from its first event to its last pixel
+  double yaw = 0, distance = 0;  ///< of the camera of the surface
+  double slowest_ms = 0;         ///< longest frame so far, from its first event to its last pixel
   bool settling = false;         ///< the next frame shows another part of the plane
   bool pending = false;          ///< keys and clicks wait for the next frames
   int taken = 0;                 ///< keys and buttons that have gone down or up
   bool asking = false;           ///< a dialog takes the keys
-  std::string question = {};     ///< its title, where it asks about files
-  bool in_panel = false;         ///< a panel does
+  std::string question = {};     ///< title of the open question about files
+  bool in_panel = false;         ///< a panel takes the keys
   Theme theme = Theme::dark;
   double scale = 1;        ///< of the interface
-  bool exporting = false;  ///< a film
+  bool exporting = false;  ///< a job, such as an export, is running
 };
 
 class StateFile {
  public:
   explicit StateFile(Path path) : path_(std::move(path)) {}
-  /// Writes the state when it differs from what the file was last given. Plane points are found in
-  /// the window by  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y -
-  /// center_y) zoom.
+  /// Writes the state if it differs from what was written last. The plane point (x, y) is at window
+  /// position  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y - center_y)
+  /// zoom.
   void write(const Workspace& workspace, const PartsState& parts);
 
  private:

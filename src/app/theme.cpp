@@ -1,4 +1,4 @@
-// Quiet greys with one accent, so that the picture is the most colourful thing in the window.
+// Quiet grays with one accent, so that the picture is the most colorful thing in the window.
 #include "app/theme.h"
 
 #include <filesystem>
@@ -45,7 +45,7 @@ void add_fonts(float size) {
 
 namespace {
 
-/// White on black, every field with an edge, what is chosen in one bright colour.
+/// White on black, a border around every field, and one bright color for what is selected.
 void add_contrast(ImGuiStyle& style) {
   ImVec4* c = style.Colors;
   const unsigned accent = 0x00dcff;
@@ -174,7 +174,7 @@ std::string fitted_text(const std::string& text, float width) {
     fitted.resize(end == std::string::npos ? 0 : end);
   }
   if (!fitted.empty() || text.empty()) return fitted;
-  // Not even the first clause: as much of it as fits, whole characters.
+  // Not even the first clause fits: keep as many whole characters as do.
   size_t kept = std::min(text.find_first_of(",;"), text.size());
   if (kept == 0) return "";
   do {

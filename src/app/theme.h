@@ -1,4 +1,4 @@
-// Fonts, sizes and colours.
+// Fonts, sizes and colors.
 #pragma once
 
 #include <imgui.h>
@@ -13,16 +13,17 @@ namespace holomorph {
 /// Sets ImGui's fonts and style.
 void apply_theme(double scale, Theme theme);
 
-/// The large font of titles.
+/// The large font for titles.
 ImFont* title_font();
 
-/// Text on as many lines as it needs; ImGui's own wrapping breaks within numbers like 1.6, too.
+/// Draws text on as many lines as it needs. It breaks only at white space, whereas ImGui's own
+/// wrapping also breaks within numbers such as 1.6.
 void wrapped_text(const std::string& text);
-/// As many clauses of a text, which commas and semicolons end, as fit into a width; where not even
-/// the first one does, its beginning and "...".
+/// Shortens a text to as many of its clauses, which commas and semicolons end, as fit into a width
+/// in px. If not even the first clause fits, returns its beginning and "...".
 std::string fitted_text(const std::string& text, float width);
 
-/// Colours of what is drawn over the canvas.
+/// Colors of the canvas and of what is drawn over it.
 struct CanvasColors {
   Color canvas, backdrop;
   ImU32 pose, rest, pin, selected, hover, outline, text, panel, warning, accent;

@@ -1,4 +1,5 @@
-// Callbacks queue what happened and owe three frames for it: ImGui needs two to settle a layout.
+// Callbacks queue events. Three frames follow each event, because ImGui needs two to settle a
+// layout.
 #include "app/window.h"
 
 #define GLFW_INCLUDE_NONE
@@ -24,7 +25,7 @@ Window* self(GLFWwindow* window) {
   return static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-/// The key as the user's layout prints it.
+/// The key that the user's keyboard layout prints on a key.
 int printed_key(int key, int scancode) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -63,8 +64,8 @@ int printed_key(int key, int scancode) {
   }
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
     return static_cast<int>(Key::f1) + key - GLFW_KEY_F1;
-  // The number row is digits whatever it prints without Shift (French layouts), and letters of
-  // other alphabets are the keys of GLFW's own.
+  // Keys of the number row are digits, whatever they print without Shift (French layouts). Keys
+  // that print letters of other alphabets keep GLFW's code.
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;
   const char* name = glfwGetKeyName(key, scancode);
   const bool ascii = name && name[0] > ' ' && name[0] < 127 && name[1] == 0;
@@ -83,17 +84,16 @@ bool has_display() {
 Window::Window(int width, int height, double ui_scale, Theme theme) {
   std::string reason = "unknown reason";
   glfwSetErrorCallback(nullptr);
-  if (!glfwInit())
-    throw Error(ErrorKind::failed, "no window can be opened here: there is no display");
+  if (!glfwInit()) throw Error(ErrorKind::failed, "cannot open a window: there is no display");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_STENCIL_BITS, 8);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfwWindowHintString(GLFW_X11_CLASS_NAME, "holomorph");  // as the desktop file says
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "holomorph");  // the name in the desktop file
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "holomorph");
   for (const int samples :
-       {4, 0}) {  // some drivers have no multisampling; on a processor it is too slow
+       {4, 0}) {  // some drivers have no multisampling; software drivers are too slow for it
     glfwWindowHint(GLFW_SAMPLES, samples);
     window_ = glfwCreateWindow(width, height, "Holomorph", nullptr, nullptr);
     if (!window_) continue;
@@ -106,7 +106,7 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
     glfwGetError(&text);
     reason = text ? text : reason;
     glfwTerminate();
-    throw Error(ErrorKind::failed, "the window with OpenGL 3.3 cannot be opened: " + reason);
+    throw Error(ErrorKind::failed, "cannot open a window with OpenGL 3.3: " + reason);
   }
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
@@ -175,7 +175,7 @@ void Window::set_style(double ui_scale, Theme theme) {
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
   theme_ = theme;
   apply_theme(scale_, theme);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made again from the new fonts with the next frame
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // rebuilt from the changed fonts
   ImGui_ImplOpenGL3_CreateFontsTexture();
   wake();
 }
@@ -203,14 +203,14 @@ void Window::begin_frame(bool navigates) {
   pump_events();
   ImGuiIO& io = ImGui::GetIO();
   const bool presses = is_down(Key::enter) || is_down(Key::space);
-  held_over_ = presses && (held_over_ || !navigates);
+  held_before_navigation_ = presses && (held_before_navigation_ || !navigates);
   if (!navigates) enter_activates_ = false;
-  navigates = navigates && !held_over_;
+  navigates = navigates && !held_before_navigation_;
   io.ConfigFlags = navigates ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
-  // Tab goes from one field to the next while one is being typed into, too; else it is an action's.
+  // Tab also moves between fields while the user types into one. Otherwise actions get it.
   const bool tabs = (io.WantTextInput || navigates) && !io.KeyCtrl;
   io.KeyMap[ImGuiKey_Tab] = tabs ? GLFW_KEY_TAB : -1;
-  // ImGui presses buttons with Space alone.
+  // By itself, ImGui activates buttons only with Space.
   if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
   io.KeyAlt = io.KeyAlt || alt_;
   ImGui::NewFrame();
@@ -233,8 +233,9 @@ void Window::add(const Event& event) {
   wake();
 }
 
-/// Hands events to ImGui until the next one would overwrite something that it has not seen yet: a
-/// second change of a button, a move after one, the release of a key pressed in this frame.
+/// Passes events to ImGui until the next one would overwrite something that ImGui has not seen yet:
+/// a second change of a button, a move after such a change, or the release of a key that was
+/// pressed in this frame.
 void Window::pump_events() {
   ImGuiIO& io = ImGui::GetIO();
   bool button_changed = false;
@@ -270,7 +271,7 @@ void Window::pump_events() {
       take_key(event);
     } else if (event.kind == Event::Type::character) {
       ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned>(event.code));
-      take_character(static_cast<unsigned>(event.code));
+      queue_character(static_cast<unsigned>(event.code));
     } else {
       ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
     }
@@ -284,7 +285,7 @@ void Window::take_key(const Event& event) {
   if (event.action == GLFW_RELEASE) return;
   const int printed = printed_key(event.code, event.scancode);
   const bool ctrl = (event.mods & GLFW_MOD_CONTROL) != 0;
-  // Without Ctrl these come as characters, wherever the layout has them.
+  // Without Ctrl, + and ? arrive as characters, wherever the layout has them.
   if (printed == 0 || (!ctrl && (printed == '+' || printed == '?'))) return;
   Shortcut shortcut;
   shortcut.key = printed;
@@ -292,7 +293,7 @@ void Window::take_key(const Event& event) {
   keys_.push_back({shortcut, event.action == GLFW_REPEAT});
 }
 
-void Window::take_character(unsigned code) {
+void Window::queue_character(unsigned code) {
   if (code == '?' || code == '+') keys_.push_back({Shortcut(static_cast<char>(code)), false});
 }
 

@@ -1,4 +1,4 @@
-// The GLFW window and ImGui's life in it: events in, frames out, sleep when nothing happens.
+// The GLFW window and the ImGui context in it: takes events, draws frames, sleeps when idle.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ namespace holomorph {
 
 struct KeyPress {
   Shortcut key;
-  bool repeats = false;  ///< because it is held
+  bool repeats = false;  ///< sent by auto-repeat, because the key is held
 };
 
-/// Owns the window, its OpenGL context and ImGui. Throws Error{failed} without a display or
-/// OpenGL 3.3.
+/// Owns the window, its OpenGL context and the ImGui context. The constructor throws Error{failed}
+/// if there is no display or no OpenGL 3.3.
 class Window {
  public:
   Window(int width, int height, double ui_scale, Theme theme);
@@ -29,19 +29,21 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Waits until there is something to draw: an event, a wake(), or a frame that is owed after one;
-  /// at most `longest` seconds. Returns whether a frame should be drawn.
+  /// Waits until a frame has to be drawn: after an event, after wake(), or because some of the
+  /// frames that follow an event are still to be drawn. Waits at most `longest` seconds. Returns
+  /// whether to draw a frame.
   bool wait(double longest);
-  /// From any thread: makes wait() return.
+  /// Makes wait() return. May be called from any thread.
   void wake();
-  /// Starts and ends a frame of the user interface; draw with OpenGL in between. A frame sees at
-  /// most one change of the mouse buttons, at the place where it happened, however slow frames are.
-  /// In a frame that `navigates`, arrows, Tab, Space and Enter go through the items of the dialog
-  /// or panel that has ImGui's focus; Enter and Space once they were let go of.
+  /// Starts a frame of the user interface; draw with OpenGL until end_frame(). A frame sees at most
+  /// one change of the mouse buttons, at the position where it happened, however slow frames are.
+  /// If the frame `navigates`, the arrow keys, Tab, Space and Enter move through the items of the
+  /// dialog or panel that has ImGui's focus. If Enter or Space was held before, navigation starts
+  /// when it is released.
   void begin_frame(bool navigates);
   void end_frame();
 
-  /// Fonts and sizes for a scale (0: the display's) and colours for a theme.
+  /// Sets fonts and sizes for a scale (0: the display's scale) and the colors of a theme.
   void set_style(double ui_scale, Theme theme);
   double scale() const { return scale_; }
   Theme theme() const { return theme_; }
@@ -50,17 +52,18 @@ class Window {
   std::vector<KeyPress> take_keys();
   /// Files dropped on the window since the last call.
   std::vector<Path> take_drops();
-  /// Whether the user asked to close the window; asked once, answered by the program.
+  /// Whether the user has asked to close the window since the last call. The program decides; the
+  /// window stays open.
   bool take_close();
-  /// Whether a key is held, by what the layout prints on it.
+  /// Whether a key is held, identified by what the keyboard layout prints on it.
   bool is_down(const Shortcut& key) const;
-  /// Whether events wait for later frames.
+  /// Whether events are queued for later frames.
   bool has_events() const { return !events_.empty(); }
-  /// How often keys and buttons have gone down or up so far.
+  /// Number of presses and releases of keys and mouse buttons handled so far.
   int taken() const { return taken_; }
-  /// Whether Alt counts as held from the next frame on, besides when it is.
-  void stand_in_for_alt(bool held) { alt_ = held; }
-  bool stands_in_for_alt() const { return alt_; }
+  /// From the next frame on, Alt counts as held if it is, or if `held` says so.
+  void set_alt_override(bool held) { alt_ = held; }
+  bool alt_override() const { return alt_; }
   void set_title(const std::string& title);
 
   int width() const;  ///< in window px
@@ -75,11 +78,11 @@ class Window {
     int code = 0, scancode = 0, action = 0, mods = 0;
   };
   void add(const Event& event);
-  /// The pointer in window px, as the events so far have it.
+  /// Position of the pointer after the latest event, in window px.
   std::pair<double, double> pointer() const;
   void pump_events();
   void take_key(const Event& event);
-  void take_character(unsigned code);
+  void queue_character(unsigned code);
 
   GLFWwindow* window_ = nullptr;
   std::atomic<bool> woken_{false};
@@ -87,18 +90,18 @@ class Window {
   double scale_ = 1, wanted_scale_ = 0;
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;
-  bool enter_activates_ = false;  ///< held since it was pressed outside a text field
-  bool held_over_ = false;        ///< Enter or Space, since before frames navigate
+  bool enter_activates_ = false;         ///< Enter is held, and was pressed outside a text field
+  bool held_before_navigation_ = false;  ///< Enter or Space has been held since before navigation
   std::vector<KeyPress> keys_;
-  std::map<int, int> held_;  ///< GLFW's code of each key that is down, and what is printed on it
+  std::map<int, int> held_;  ///< from the GLFW code of each held key to what is printed on it
   std::deque<Event> events_;
-  std::optional<std::pair<double, double>> pointer_;  ///< in window px, at the last event
+  std::optional<std::pair<double, double>> pointer_;  ///< at the latest event, in window px
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};
   std::vector<Path> drops_;
 };
 
-/// Whether a window can be opened at all (a display is set).
+/// Whether a display is set, without which no window can be opened.
 bool has_display();
 
 }  // namespace holomorph

@@ -74,10 +74,14 @@ std::vector<Path> Document::withheld() const {
   return {pictures_.withheld().begin(), pictures_.withheld().end()};
 }
 
-std::string Document::title() const {
+std::string Document::name() const {
   if (!path_.empty()) return path_.filename().string();
   const Path source = first_picture();
-  return source.empty() ? "Untitled" : source.stem().string() + " (not saved)";
+  return source.empty() ? "Untitled" : source.stem().string();
+}
+
+std::string Document::title() const {
+  return name() + (path_.empty() && name() != "Untitled" ? " (not saved)" : "");
 }
 
 Path Document::first_picture() const {

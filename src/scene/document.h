@@ -41,6 +41,9 @@ class Document {
   /// Whether another program has changed the file since it was read or saved. False if the file is
   /// gone.
   bool changed_on_disk();
+  /// The name of its file, or of its lowest picture.
+  std::string name() const;
+  /// The name, and whether there is no file yet.
   std::string title() const;
   bool modified() const { return unsaved_ || scene() != saved_; }
   bool empty() const {

@@ -65,7 +65,7 @@ class EditorWindowTest(WindowCase):
             self.wait_color(editor, (75, 100), RED, "the lower layer")
             editor.drop(blue, 400, 400)
             time.sleep(0.5)
-            self.press_in_dialog(editor, -19)  # Add it as a layer
+            self.press_in_dialog(editor, -19)  # Add as a layer
             editor.wait(lambda s: s["layers"] == 2 and s["edited_layer"] == 1, "a second layer")
             self.wait_color(editor, (75, 100), BLUE, "the upper layer")
             self.wait_color(editor, (225, 100), RED, "the lower one next to it")
@@ -192,7 +192,7 @@ class EditorWindowTest(WindowCase):
             editor.key("j")
             editor.wait(lambda s: s["view"] == "checker", "the new key in the next session")
 
-    def test_the_first_steps_are_ticked_and_go(self):
+    def test_the_first_steps_are_shown_one_by_one_and_closed(self):
         home = self.preferences(native_dialogs=False)
         with Editor(PROGRAM, [self.picture], home=home) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
@@ -481,13 +481,13 @@ class EditorWindowTest(WindowCase):
             json.dump(scene, file)
         os.replace(path + ".new", path)
 
-    def test_pictures_from_elsewhere_are_shown_when_the_user_agrees(self):
+    def test_pictures_from_other_folders_are_shown_when_the_user_agrees(self):
         folder = os.path.join(self.work, "in")
         os.mkdir(folder)
         scene = self.square_scene(folder, "../gecko.png")
         home = self.home_of_tests()
         with Editor(PROGRAM, [scene], home=home) as editor:
-            editor.wait(lambda s: s["question"] == "Files from elsewhere", "the question")
+            editor.wait(lambda s: s["question"] == "Files from other folders", "the question")
             self.screenshot(editor, "elsewhere")
             editor.key("Return")  # leaves the picture out
             editor.wait(lambda s: not s["asking"] and not s["pictured"], "the scene without it")
@@ -495,7 +495,7 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
         with Editor(PROGRAM, [scene], home=home) as editor:
-            editor.wait(lambda s: s["question"] == "Files from elsewhere", "the question again")
+            editor.wait(lambda s: s["question"] == "Files from other folders", "the question again")
             time.sleep(0.3)
             self.press_in_dialog(editor, 30)  # Show them
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
@@ -531,7 +531,7 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
             time.sleep(0.3)
-            self.press_in_dialog(editor, 22)  # Overwrite it
+            self.press_in_dialog(editor, 22)  # Overwrite with this version
             editor.wait(lambda s: not s["modified"], "the saved scene")
             self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 180)
             editor.key("Right")
@@ -553,7 +553,7 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
             time.sleep(0.3)
-            self.press_in_dialog(editor, 22)  # Overwrite it
+            self.press_in_dialog(editor, 22)  # Overwrite with this version
             editor.wait(lambda s: not s["modified"], "the saved scene")
             os.remove(scene)
             editor.wait(lambda s: s["modified"], "unsaved work")

@@ -300,7 +300,7 @@ class WindowTest(WindowCase):
             editor.key("ctrl+z")
             editor.wait(lambda s: s["outline_points"] == 0 and s["cage_points"] == 4, "the cage alone")
 
-    def test_a_fold_is_shown_and_taken_out(self):
+    def test_a_fold_is_shown_and_removed(self):
         scene = os.path.join(self.work, "folded.json")
         subprocess.run([PROGRAM, "new", self.picture, "--out", scene, "--vertices", "12"], check=True, capture_output=True)
         values = load(scene)
@@ -324,7 +324,7 @@ class WindowTest(WindowCase):
             editor.wait(lambda s: s["method"] == "bounded" and not s["folds"] and s["status"] == "certified",
                         "a map without folds", 30)
 
-    def test_others_projections_are_compared_side_by_side(self):
+    def test_projections_of_other_methods_are_compared(self):
         for name in ("octopus.json", "octopus.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
         with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
@@ -344,7 +344,7 @@ class WindowTest(WindowCase):
         editor.key("Return")
         editor.wait(lambda s: s["cage_points"] == 4 and not s["busy"], "a cage")
 
-    def test_a_drawn_outline_takes_the_picture_along(self):
+    def test_the_picture_follows_a_drawn_outline(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             self.draw_square_cage(editor)
             editor.key("u")
@@ -526,7 +526,7 @@ class WindowTest(WindowCase):
         turns = [corner["before"] for corner in saved["keyframes"][1]["pose"]["corners"]]
         self.assertEqual([turn > 1 for turn in turns], [False, True, True, False])
 
-    def test_the_box_turns_and_drags_reach_farther(self):
+    def test_the_box_rotates_and_drags_are_symmetric_or_soft(self):
         scene = self.caged((320, 320), [[60, 60], [160, 60], [260, 60], [260, 260], [60, 260]])
 
         def pose(editor, name):
@@ -576,7 +576,7 @@ class WindowTest(WindowCase):
             self.assertTrue(31 < soft[1][1] < 59.5, soft)
             self.assertEqual(soft[0][1], 60)
 
-    def test_motion_is_recorded_and_its_keys_are_seen_around(self):
+    def test_motion_is_recorded_and_its_keyframes_are_shown_by_the_onion_skin(self):
         scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
@@ -767,7 +767,7 @@ class WindowTest(WindowCase):
             editor.drop(self.picture, 500, 300)
             time.sleep(0.5)
             self.screenshot(editor, "drop-question")
-            self.press_in_dialog(editor, 47)  # Open it instead
+            self.press_in_dialog(editor, 47)  # Open instead
             self.screenshot(editor, "drop-unsaved")
             self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")
             editor.key("Return")  # Save

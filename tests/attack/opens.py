@@ -32,7 +32,7 @@ with Editor(options.program, [scenes[0]]) as editor:
         editor.drop(scene, 400, 300)
         editor.wait(lambda s: s["asking"] or s["first_point"] != before, "the question of where it goes")
         if editor.state()["asking"]:
-            editor.press(640, 400 + 20)  # Open it instead
+            editor.press(640, 400 + 20)  # Open instead
         editor.wait(lambda s: s["first_point"] != before and s["pictured"] and not s["busy"], "the next scene", 30)
         sizes.append(megabytes(editor.process))
 early = sorted(sizes[len(sizes) // 10:][:len(scenes) * 3])

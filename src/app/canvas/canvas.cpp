@@ -1,4 +1,4 @@
-// From the bottom to the top; the first one drawn clears the canvas.
+// Layers are drawn from bottom to top. The first one drawn clears the canvas.
 #include "app/canvas/canvas.h"
 
 #include <utility>
@@ -6,7 +6,8 @@
 namespace holomorph {
 namespace {
 
-/// Texture px per plane unit: a power of two, so that a box a pixel larger has the same.
+/// Texture px per plane unit: a power of two, so that it stays the same when the box grows by a
+/// pixel.
 double texture_zoom(const Box& box) {
   const double most = is_software_driver() ? 1024 : 2048;
   return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
@@ -27,7 +28,7 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   return frame;
 }
 
-/// What a background of one colour puts in place of the theme's.
+/// The color of a background of one color, which replaces the theme's.
 Color color_of(const Background& background) {
   Color color;
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;
@@ -46,18 +47,18 @@ LayerPainter& Canvas::painter_of(const Layer& layer) {
   return *painter;
 }
 
-void Canvas::take_picture(Workspace& workspace, const Layer& layer) {
-  const int factor = painter_of(layer).take_picture(workspace.document.pictures().shared(layer));
-  if (painter_of(layer).grows()) wake_();
+void Canvas::update_picture(Workspace& workspace, const Layer& layer) {
+  const int factor = painter_of(layer).update_picture(workspace.document.pictures().shared(layer));
+  if (painter_of(layer).is_uploading()) wake_();
   if (factor > 1)
     workspace.messages.say(
-        "The picture is larger than this driver's textures: the canvas shows it reduced " +
-        std::to_string(factor) + " times. Export uses all pixels.");
+        "The picture is too large for the graphics driver. The canvas shows it at 1/" +
+        std::to_string(factor) + " of its size; export uses all pixels.");
 }
 
-bool Canvas::make_room() {
+bool Canvas::allocate_texture() {
   for (auto& [id, painter] : painters_)
-    if (painter->make_room()) return true;
+    if (painter->allocate_texture()) return true;
   return false;
 }
 
@@ -75,12 +76,13 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
 void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
                        bool original) {
   const Scene& scene = workspace.document.scene();
-  // The views of a map are about the edited layer's, and so is its rest.
-  const bool alone = workspace.display.view != View::image || workspace.mode == EditMode::rest;
+  // Views of a map, and the rest shape, show the edited layer alone.
+  const bool edited_only =
+      workspace.display.view != View::image || workspace.mode == EditMode::rest;
   RenderFrame frame = frame_at(workspace.display.viewport, at);
   frame.from = from;
   frame.to = to;
-  // As in exports it is everywhere.
+  // The color fills the whole canvas, as in exports.
   if (scene.background.fill == Background::Fill::color)
     frame.background = frame.backdrop = color_of(scene.background);
   const Layer& edited = scene.layer();
@@ -88,12 +90,12 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   std::vector<const Layer*> drawn;
   for (const SharedLayer& shared : scene.layers) {
     const Layer& layer = *shared;
-    if (&layer != &edited && (alone || !layer.visible)) continue;
-    take_picture(workspace, layer);
-    if (&layer == &edited && !alone && !layer.visible) continue;
-    painter_of(layer).take_map(workspace.maps.of(layer.id),
-                               &layer == &edited ? workspace.display.view : View::image,
-                               workspace.display.automatic_range);
+    if (&layer != &edited && (edited_only || !layer.visible)) continue;
+    update_picture(workspace, layer);
+    if (&layer == &edited && !edited_only && !layer.visible) continue;
+    painter_of(layer).update_map(workspace.maps.of(layer.id),
+                                 &layer == &edited ? workspace.display.view : View::image,
+                                 workspace.display.automatic_range);
     drawn.push_back(&layer);
   }
   const auto draw = [&](const Layer& layer, RenderFrame drawing) {
@@ -106,7 +108,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     frame.content = Content::nothing;
     return draw(edited, frame);
   }
-  if (scene.background.fill == Background::Fill::original && !alone) {
+  if (scene.background.fill == Background::Fill::original && !edited_only) {
     RenderFrame as_it_was = frame;
     as_it_was.content = Content::original;
     for (const Layer* layer : drawn) {

@@ -1,4 +1,4 @@
-// Corners are squares, other vertices of the cage small dots.
+// Corners are drawn as squares, other vertices of the cage as small dots.
 #include "app/canvas/corner_overlay.h"
 
 #include "edit/edits/corner_edits.h"

@@ -1,4 +1,5 @@
-// Values are compared with what the renderer has: a preparation's number, a picture's address.
+// To upload only what has changed, the number of the preparation and the address of the picture are
+// compared with those of the last upload.
 #include "app/canvas/layer_painter.h"
 
 #include <utility>
@@ -7,25 +8,25 @@ namespace holomorph {
 
 namespace {
 
-/// What takes no time that anyone could notice.
+/// Amounts that are uploaded within a frame without a noticeable delay.
 constexpr size_t kSmallPixels = 1'500'000;
 constexpr size_t kBytesPerFrame = 8 << 20;
 
 }  // namespace
 
-int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
+int LayerPainter::update_picture(std::shared_ptr<const Image> picture) {
   if (picture == picture_) {
-    grows_ = grows_ && renderer_.upload_more(kBytesPerFrame);
+    uploading_ = uploading_ && renderer_.upload_more(kBytesPerFrame);
     return std::exchange(factor_, 0);
   }
   picture_ = std::move(picture);
-  making_ready_.reset();
-  grows_ = false;
+  preparing_.reset();
+  uploading_ = false;
   if (!picture_) return renderer_.set_picture(0, 0, nullptr);
   if (static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height) <= kSmallPixels)
     return renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
   ready_ = std::make_shared<TextureLevels>();
-  making_ready_ = std::make_unique<Job>(
+  preparing_ = std::make_unique<Job>(
       "Texture",
       [picture = picture_, ready = ready_,
        largest = Renderer::largest_side()](Job::Progress& progress) {
@@ -36,12 +37,12 @@ int LayerPainter::take_picture(std::shared_ptr<const Image> picture) {
   return 0;
 }
 
-bool LayerPainter::make_room() {
-  if (!making_ready_ || !making_ready_->ended()) return false;
-  making_ready_.reset();
+bool LayerPainter::allocate_texture() {
+  if (!preparing_ || !preparing_->ended()) return false;
+  preparing_.reset();
   factor_ = ready_->factor;
   renderer_.begin_picture(std::exchange(ready_, nullptr));
-  return grows_ = true;
+  return uploading_ = true;
 }
 
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {
@@ -53,7 +54,7 @@ void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_ran
   heat_scale_ = holomorph::heat_scale(view, heat_values_, automatic_range);
 }
 
-void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range) {
+void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_range) {
   update_heat(map, view, automatic_range);
   if (!map.has_map()) {
     renderer_.set_mesh(nullptr);
@@ -63,13 +64,13 @@ void LayerPainter::take_map(const LiveMap& map, View view, bool automatic_range)
   const bool timed = map.timed().has_value();
   if (uploaded_ != map.preparation() || timed_ != timed) {
     if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
-    // On a processor-driven OpenGL the shader's sum is the slower one; in-betweens are no sum.
+    // With OpenGL in software, the shader's sum would be slower. In-betweens are not such a sum.
     by_operator_ = renderer_.set_operator(
         is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
     uploaded_ = map.preparation();
     timed_ = timed;
   }
-  if (mesh_ != map.drawn()) {  // other depths: the same vertices in another order
+  if (mesh_ != map.drawn()) {  // depths have changed: the same triangles in another order
     renderer_.set_triangles((mesh_ = map.drawn())->triangles);
   }
   if (by_operator_ && map.posed())

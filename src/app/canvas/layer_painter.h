@@ -1,4 +1,4 @@
-// One layer on the graphics processor.
+// Draws one layer with OpenGL.
 #pragma once
 
 #include <memory>
@@ -10,30 +10,30 @@
 
 namespace holomorph {
 
-/// Owns a renderer and what it was last given. Needs a current OpenGL context.
+/// Owns a renderer and remembers what was uploaded to it. Needs a current OpenGL context.
 class LayerPainter {
  public:
   /// `wake` is called on another thread when there is something new to draw.
   explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// The picture as it is now, or null. Large ones are made ready on another thread and appear bit
-  /// by bit. Returns how many times it had to be reduced for this driver, 1 when not at all; 0 when
-  /// that has been said or is not known yet.
-  int take_picture(std::shared_ptr<const Image> picture);
-  /// Makes room for a picture that has been made ready, which takes as long as a frame may. Returns
+  /// Takes the current picture, or null. Large pictures are prepared on another thread and appear
+  /// bit by bit. Returns the factor by which the picture was reduced for this driver: 1 if it was
+  /// not reduced, 0 if the factor is not known yet or was returned before.
+  int update_picture(std::shared_ptr<const Image> picture);
+  /// Makes room for a picture that has been prepared, which can take as long as a frame. Returns
   /// whether there was one.
-  bool make_room();
+  bool allocate_texture();
   /// Whether the next frame will show more of the picture.
-  bool grows() const { return grows_; }
-  /// The map as it is now, and its heat map if `view` is one.
-  void take_map(const LiveMap& map, View view, bool automatic_range);
-  /// Draws; view and placement are chosen here from the map that was taken.
+  bool is_uploading() const { return uploading_; }
+  /// Takes the current map, and computes its heat map if `view` is one.
+  void update_map(const LiveMap& map, View view, bool automatic_range);
+  /// Draws the layer. Sets view and placement of `frame` to suit the map that was taken.
   void draw(const LiveMap& map, View view, RenderFrame frame);
 
   const HeatScale& heat_scale() const { return heat_scale_; }
-  /// Per mesh vertex; empty without a heat map.
+  /// One value for each mesh vertex; empty without a heat map.
   const Eigen::VectorXd& heat_values() const { return heat_values_; }
-  /// Whether the shader places the vertices itself.
+  /// Whether the shader computes the positions of the vertices.
   bool by_operator() const { return by_operator_; }
 
  private:
@@ -41,16 +41,16 @@ class LayerPainter {
 
   std::function<void()> wake_;
   Renderer renderer_;
-  std::shared_ptr<TextureLevels> ready_;  ///< what making_ready_ makes
-  std::unique_ptr<Job> making_ready_;
-  bool grows_ = false;
-  int factor_ = 0;  ///< not said yet
+  std::shared_ptr<TextureLevels> ready_;  ///< result of preparing_
+  std::unique_ptr<Job> preparing_;
+  bool uploading_ = false;
+  int factor_ = 0;  ///< not returned yet; 0: none
   std::shared_ptr<const Image> picture_;
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;
-  unsigned uploaded_ = 0;  ///< a preparation's number
-  bool timed_ = false;     ///< what was uploaded is no sum of controls
+  unsigned uploaded_ = 0;  ///< number of the preparation; 0: none
+  bool timed_ = false;     ///< the uploaded map is an in-between, not a sum of controls
   bool by_operator_ = false;
 };
 

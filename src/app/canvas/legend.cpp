@@ -1,4 +1,4 @@
-// What the colours of a heat map stand for, and where it is worst.
+// The legend of a heat map: what its colors mean, and where it is worst.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -47,9 +47,9 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
   const ImVec2 p = px(workspace, at);
   char text[48];
   if (std::isfinite(values[worst]))
-    std::snprintf(text, sizeof text, "worst %.3g", values[worst]);
+    std::snprintf(text, sizeof text, "Worst: %.3g", values[worst]);
   else
-    std::snprintf(text, sizeof text, "folded here");
+    std::snprintf(text, sizeof text, "Folded here");
   list.AddCircle(p, 9 * s, IM_COL32_BLACK, 0, 4 * s);
   list.AddCircle(p, 9 * s, IM_COL32_WHITE, 0, 2 * s);
   const ImVec2 size = ImGui::CalcTextSize(text);

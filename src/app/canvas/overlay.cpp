@@ -1,4 +1,4 @@
-// Every stroke has a dark edge under it, so that it shows on any picture.
+// Every line has a dark edge, so that it is visible on any picture.
 #include "app/canvas/overlay.h"
 
 #include "app/canvas/canvas.h"
@@ -23,11 +23,12 @@ void stroke(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU3
   list.AddPolyline(line.data(), static_cast<int>(line.size()), color, flags, 1.8f * width);
 }
 
-/// What is at rest is dashed: colours alone tell it to not everyone.
+/// Draws a dashed line. Rest shapes are dashed because not everyone can tell them from poses by
+/// their color.
 void dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
             const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), period = 12 * s, drawn = 8 * s;
-  float at = 0;  // along the dashes' period
+  float at = 0;  // position within the period of the dashes
   for (size_t i = 0; i < line.size(); ++i) {
     const ImVec2 a = line[i], b = line[(i + 1) % line.size()];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
@@ -55,7 +56,8 @@ void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, I
   dashes(list, line, color, style);
 }
 
-/// From each vertex to its tangents; all of the control polygon for higher degrees.
+/// Draws lines from each vertex to its tangent handles. Segments whose degree is not 3 show their
+/// whole control polygon.
 void draw_tangents(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                    const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -87,7 +89,7 @@ void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, b
   }
 }
 
-/// A ring around a smooth vertex: corners have none.
+/// Draws the ring around a smooth vertex. Corners have none.
 void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   list.AddCircle(at, 8.5f * s, style.colors.outline, 0, 2.6f * s);
@@ -120,7 +122,7 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
   }
 }
 
-/// A line from a pin to where the picture went instead, when that is visibly elsewhere.
+/// Draws a line from a pin to the point that the picture reached, if the gap is visible.
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;
@@ -130,7 +132,7 @@ void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& s
   list.AddCircleFilled(place, 3 * s, style.colors.warning);
 }
 
-/// A zero of the derivative of the map that is being kept from folding: a diamond around a dot.
+/// Draws a zero of the derivative of the map that is being kept from folding: a diamond with a dot.
 void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const auto diamond = [&](float r, ImU32 color) {
@@ -142,7 +144,7 @@ void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   list.AddCircleFilled(at, 2 * s, style.colors.outline);
 }
 
-/// The box around what is selected, its grips and its knob.
+/// Draws the box around the selection, with its grips and its knob.
 void draw_box(ImDrawList& list, const BoxMark& mark, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const auto at = [](Complex z) {
@@ -213,7 +215,7 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
 }
 
-/// A stroke with its start as a dot and its end as a ring.
+/// Draws a stroke. Its start is a dot, its end a ring.
 void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
   const EditMode mode = workspace.mode;
@@ -233,7 +235,7 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
 }
 
-/// How far a drag reaches softly, and what goes along mirrored.
+/// Draws the radius of a soft drag, and marks the handles that make the mirrored move.
 void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   Selection dragged = workspace.selection;
@@ -261,8 +263,8 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   }
 }
 
-/// What is painted: plus signs where the picture is stiff, rings where it is soft, the larger the
-/// more; and the brush.
+/// Draws the painted stiffness and the brush. Plus signs mark stiff parts and rings soft ones; they
+/// are larger where the paint is stronger.
 void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -301,7 +303,8 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
 }
 
-/// The cages of the keys before and after the time, in the colours of their pictures.
+/// Draws the outlines of the keyframes before and after the current time, in the colors of their
+/// pictures.
 void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   for (const OnionSkin& skin : workspace.onion_skins()) {
@@ -316,7 +319,7 @@ void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle
   }
 }
 
-/// The line between before and after, on top of what lies there.
+/// Draws the line between before and after, on top of the rest of the overlay.
 void draw_split(const Workspace& workspace, const OverlayStyle& style) {
   if (!workspace.display.split) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -348,8 +351,8 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
   draw_onion(list, workspace, style);
   if (workspace.display.show_cage && gesture.line.empty()) {
     const ImU32 color = mode == EditMode::rest ? style.colors.rest : style.colors.pose;
-    // With pins or strokes the posed cage is only the start of the map: it steps back behind the
-    // picture.
+    // With pins or strokes, the posed cage is only where the map starts from, so it is drawn
+    // faintly.
     const Pose used = pose_of(deformation);
     const bool turned = std::ranges::any_of(used.corners, [](const PoseCorner& corner) {
       return corner.before != 0 || corner.after != 0;
@@ -430,7 +433,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   if (!workspace.display.hide_overlays && !workspace.display.show_original &&
       workspace.document.scene().layer().visible) {
-    // What is posed belongs to the half that is: after, not before.
+    // The overlay belongs to the posed part, "after".
     const Viewport& view = workspace.display.viewport;
     const double from = view.left + workspace.display.split.value_or(0) * view.width;
     list.PushClipRect(

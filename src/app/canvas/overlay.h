@@ -1,4 +1,4 @@
-// Cage, pins and gestures drawn over the canvas.
+// The overlay of the canvas: cage, pins and gestures.
 #pragma once
 
 #include "app/theme.h"
@@ -11,17 +11,17 @@ struct OverlayStyle {
   double scale = 1;  ///< of the display
 };
 
-/// Where a place of the plane is in the window.
+/// The position of a point of the plane in the window.
 ImVec2 px(const Workspace& workspace, Complex z);
 
-/// Draws the shown mode's cage and pins and the tool's gesture into ImGui's background.
+/// Draws the cage and pins of the current mode, and the tool's gesture, into ImGui's background.
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
 
-/// Marks a place that a message is about.
+/// Marks the point that a message is about.
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style);
 
-/// The colour bar of a heat map, and a marker at its worst place.
+/// Draws the color bar of a heat map, and a marker at its worst point.
 void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen::VectorXd& values,
                  const OverlayStyle& style);
 

@@ -1,5 +1,5 @@
-// The picture is drawn flat into one texture, the surface with that texture into another, which
-// ImGui shows.
+// The flat picture is drawn into one texture. The surface with that texture is drawn into
+// another one, which ImGui shows.
 #include "app/canvas/surface_pane.h"
 
 #include <imgui.h>
@@ -14,14 +14,15 @@ namespace {
 
 constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 
-/// Whether the surface is not to be read before the user agrees.
+/// Whether the surface must not be read until the user agrees.
 bool is_withheld(const Workspace& workspace) {
   return workspace.document.pictures().withheld().contains(
       workspace.shown.deformation().surface->file);
 }
 
-/// The surface again from its file, its boundary where the outline is.
-void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
+/// Flattens the surface in its file, fits its boundary into the outline's box and makes that
+/// boundary the outline.
+void fit_to_outline(Workspace& workspace, const std::string& label, Flattening how) {
   const Deformation& deformation = workspace.shown.own();
   if (is_withheld(workspace)) return;
   SurfaceReference surface = *deformation.surface;
@@ -37,7 +38,7 @@ void lay_out(Workspace& workspace, const std::string& label, Flattening how) {
       });
 }
 
-/// When a file was last changed; the same for all that are missing.
+/// The time of a file's last change; the same value for all missing files.
 std::filesystem::file_time_type time_of(const Path& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
@@ -46,7 +47,7 @@ std::filesystem::file_time_type time_of(const Path& file) {
 
 }  // namespace
 
-/// The file is read on another thread; until that has ended there is no surface.
+/// The file is read on another thread. Until that has ended, there is no surface.
 void SurfacePane::read(const Workspace& workspace) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool withheld = is_withheld(workspace);
@@ -56,7 +57,7 @@ void SurfacePane::read(const Workspace& workspace) {
     shown_ = deformation.surface;
     read_ = time;
     flat_.reset();
-    laid_.reset();
+    fitted_surface_.reset();
     problem_.clear();
     fitted_ = 0;
     outline_.clear();
@@ -64,14 +65,15 @@ void SurfacePane::read(const Workspace& workspace) {
       reading_->cancel();
       abandoned_.push_back(std::move(reading_));
     }
-    found_ = std::make_shared<FlattenedSurface>();
+    read_surface_ = std::make_shared<FlattenedSurface>();
     if (withheld) {
-      problem_ = shown_->file + " is not in the scene's folder. The picture goes onto its outline.";
+      problem_ = shown_->file +
+                 " is not in the scene's folder, so it was not read. The outline still works.";
       return;
     }
     reading_ = std::make_unique<Job>(
         "Reading a surface",
-        [found = found_, reference = *shown_](Job::Progress&) {
+        [found = read_surface_, reference = *shown_](Job::Progress&) {
           found->surface = surface_of_obj(read_file(reference.file), reference.file).surface;
           found->plane = flattened(found->surface, reference.flattening);
         },
@@ -80,10 +82,9 @@ void SurfacePane::read(const Workspace& workspace) {
   std::erase_if(abandoned_, [](const auto& job) { return job->ended(); });
   if (!reading_ || !reading_->ended()) return;
   if (const auto error = reading_->error())
-    problem_ = std::string(about(shown_->file, *error).what()) +
-               ". The picture still goes onto its outline.";
+    problem_ = std::string(about(shown_->file, *error).what()) + ". The outline still works.";
   else
-    flat_ = std::move(*found_);
+    flat_ = std::move(*read_surface_);
   reading_.reset();
   if (flat_) drawing_->renderer.set_surface(flat_->surface);
 }
@@ -93,18 +94,18 @@ void SurfacePane::follow(const Workspace& workspace) {
   const Deformation& deformation = workspace.shown.deformation();
   if (!flat_ || outline_ == deformation.outline) return;
   outline_ = deformation.outline;
-  laid_.reset();
+  fitted_surface_.reset();
   problem_.clear();
   try {
-    laid_ = aligned_with_outline(*flat_, outline_);
-    box_ = Canvas::whole_pixels(box_of(laid_->plane));
+    fitted_surface_ = aligned_with_outline(*flat_, outline_);
+    box_ = Canvas::whole_pixels(box_of(fitted_surface_->plane));
     Points coordinates;
-    for (const Complex& z : laid_->plane)
+    for (const Complex& z : fitted_surface_->plane)
       coordinates.push_back(
           {(z.real() - box_.left) / box_.width(), (z.imag() - box_.bottom) / box_.height()});
     drawing_->renderer.set_coordinates(coordinates);
   } catch (const Error&) {
-    problem_ = "The outline is not the surface's boundary: one of the two was changed.";
+    problem_ = "The outline no longer matches the surface's boundary: one of them was changed.";
   }
 }
 
@@ -124,7 +125,7 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
     follow(workspace);
     draw_header(workspace, s);
     if (flat_) draw_surface(workspace, canvas, style);
-  } catch (const Error& error) {  // of the driver: the rest of the window does without
+  } catch (const Error& error) {  // from the driver: the rest of the window still works
     ImGui::TextWrapped("%s", error.what());
   }
   ImGui::End();
@@ -138,7 +139,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
-  // In a narrow pane the choice has a row of its own.
+  // In a narrow pane, the choice gets its own row.
   const bool one_row = ImGui::CalcTextSize(name.c_str()).x + combo + 2 * gap < right;
   if (one_row) {
     ImGui::SameLine(right - combo - gap);
@@ -148,15 +149,15 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
   if (ImGui::Button("\uf00d", {button, 0})) run("view.surface", workspace);
   ImGui::PopStyleVar();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close; View > Surface in space brings it back");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close. View > Surface in space opens it again.");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
   if (reading_) ImGui::TextDisabled("Reading the surface...");
   if (problem_.empty()) return;
   ImGui::TextWrapped("%s", problem_.c_str());
   if (is_withheld(workspace) && ImGui::Button("Show it..."))
     workspace.request = Request::show_withheld;
-  if (flat_ && ImGui::Button("Lay it out again"))
-    lay_out(workspace, "Lay out surface", shown_->flattening);
+  if (flat_ && ImGui::Button("Restore the outline"))
+    fit_to_outline(workspace, "Restore outline", shown_->flattening);
 }
 
 void SurfacePane::choose_flattening(Workspace& workspace, float width) {
@@ -165,12 +166,11 @@ void SurfacePane::choose_flattening(Workspace& workspace, float width) {
     for (const Flattening how : {Flattening::lscm, Flattening::circle})
       if (ImGui::Selectable(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
           how != shown_->flattening)
-        lay_out(workspace, "Flatten surface", how);
+        fit_to_outline(workspace, "Flatten surface", how);
     ImGui::EndCombo();
   }
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "How the surface is flattened: its boundary finds its own shape, or is a circle");
+    ImGui::SetTooltip("How to flatten the surface: with a free boundary, or onto a circle");
 }
 
 void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
@@ -184,13 +184,14 @@ void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
     moved_ = false;
   }
   const Color clay{0.72f, 0.70f, 0.67f};
-  if (laid_) canvas.draw_map(workspace, box_, drawing_->flat, clay);
-  // Twice the pixels each way, which the display averages.
+  if (fitted_surface_) canvas.draw_map(workspace, box_, drawing_->flat, clay);
+  // Twice the pixels in each direction, which are averaged on display.
   const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
   drawing_->space.bind(width, height);
-  drawing_->renderer.draw({width, height, camera_.to_view(), camera_.to_clip(aspect),
-                           laid_ && workspace.map().has_map() ? drawing_->flat.texture() : 0,
-                           style.colors.canvas, clay});
+  drawing_->renderer.draw(
+      {width, height, camera_.to_view(), camera_.to_clip(aspect),
+       fitted_surface_ && workspace.map().has_map() ? drawing_->flat.texture() : 0,
+       style.colors.canvas, clay});
   drawing_->space.release();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("space", room,

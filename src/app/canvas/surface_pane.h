@@ -1,4 +1,4 @@
-// The surface in space beside the canvas, with the posed picture on it.
+// The surface in space next to the canvas, with the posed picture on it.
 #pragma once
 
 #include "app/canvas/canvas.h"
@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Follows the scene's surface and outline; owns the camera and what draws. Needs a current OpenGL
-/// context once it is drawn.
+/// Shows the scene's surface and follows its outline; owns the camera and the renderer. Drawing
+/// needs a current OpenGL context.
 class SurfacePane {
  public:
   /// `wake` is called on another thread when a surface has been read.
@@ -19,13 +19,13 @@ class SurfacePane {
   void draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style);
   bool hovered() const { return hovered_; }
   static const char* hint() {
-    return "Drag turns, right drag moves, the wheel comes nearer; double-click shows all";
+    return "Drag to turn; right-drag to move; wheel to zoom; double-click to see all of it";
   }
   const OrbitCamera& camera() const { return camera_; }
-  bool has_picture() const { return laid_.has_value(); }
+  bool has_picture() const { return fitted_surface_.has_value(); }
 
  private:
-  /// What GL needs, made with the first drawing.
+  /// OpenGL objects, created when the pane is drawn for the first time.
   struct Drawing {
     SurfaceRenderer renderer;
     Framebuffer flat, space;
@@ -40,19 +40,19 @@ class SurfacePane {
 
   std::function<void()> wake_;
   std::unique_ptr<Drawing> drawing_;
-  std::shared_ptr<FlattenedSurface> found_;  ///< what is being read
+  std::shared_ptr<FlattenedSurface> read_surface_;  ///< result of reading_
   std::unique_ptr<Job> reading_;
-  std::vector<std::unique_ptr<Job>> abandoned_;  ///< cancelled; they end when they notice
+  std::vector<std::unique_ptr<Job>> abandoned_;  ///< canceled, but not ended yet
   std::optional<SurfaceReference> shown_;
-  std::filesystem::file_time_type read_;  ///< its file's time when it was read
-  Points outline_;                        ///< that `laid_` was laid along
-  std::optional<FlattenedSurface> flat_;  ///< as it was flattened; none when it cannot be read
-  std::optional<FlattenedSurface> laid_;
-  Box box_;  ///< of the plane, that the texture shows
+  std::filesystem::file_time_type read_;  ///< change time of its file when it was read
+  Points outline_;                        ///< that laid_ was fitted to
+  std::optional<FlattenedSurface> flat_;  ///< as flattened; none if it cannot be read
+  std::optional<FlattenedSurface> fitted_surface_;
+  Box box_;  ///< the part of the plane that the texture shows
   OrbitCamera camera_;
-  double fitted_ = 0;    ///< aspect of the view that the camera shows all in; 0: it is to be fitted
+  double fitted_ = 0;    ///< aspect ratio that the camera was fitted to; 0: to be fitted
   bool moved_ = false;   ///< the user has moved the camera
-  std::string problem_;  ///< why there is no picture on it
+  std::string problem_;  ///< why the surface shows no picture
   bool hovered_ = false;
 };
 

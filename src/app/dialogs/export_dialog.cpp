@@ -1,4 +1,4 @@
-// Settings stay as they were from one export to the next one of the same document.
+// The settings are kept from one export of a document to the next.
 #include "app/dialogs/export_dialog.h"
 
 #include <imgui.h>
@@ -13,10 +13,10 @@
 namespace holomorph {
 namespace {
 
-constexpr const char* kRegions[] = {"All of it", "The picture's rectangle",
+constexpr const char* kRegions[] = {"Everything", "The picture's rectangle",
                                     "What the canvas shows"};
 
-/// The extension, and whether it is a film's.
+/// A file format: its name, its extension, and whether it is for films.
 struct Format {
   std::string label, extension;
   bool film = false;
@@ -32,15 +32,15 @@ std::vector<Format> formats(bool plays) {
   return all;
 }
 
-/// Whether an extension is that of pictures or films that somebody writes; what else stands behind
-/// a dot belongs to the name.
-bool is_a_format(const std::string& extension) {
+/// Whether an extension belongs to a known format of pictures or films. Anything else that follows
+/// a dot is a part of the name.
+bool is_known_extension(const std::string& extension) {
   const auto is = [&](const std::string& each) { return each == extension; };
   return std::ranges::any_of(picture_extensions(), is) ||
          std::ranges::any_of(film_formats(), is, &FilmFormat::extension);
 }
 
-bool is_of(const ExportSettings& settings, const Format& format) {
+bool uses_format(const ExportSettings& settings, const Format& format) {
   return settings.film == format.film && format_extension(settings.path) == format.extension;
 }
 
@@ -54,15 +54,15 @@ PictureOptions as_shown(const Workspace& workspace) {
   return options;
 }
 
-std::string lacking(const Workspace& workspace) {
+std::string missing_picture_message(const Workspace& workspace) {
   const Document& document = workspace.document;
   if (as_shown(workspace).view != View::image) return "";
   for (const size_t i : document.layers_without_picture())
     if (const Layer& layer = *document.scene().layers[i]; layer.visible)
       return Path(layer.image->file).filename().string() +
              (document.pictures().withheld().contains(layer.image->file)
-                  ? " is not in the scene's folder: show it, or hide its layer."
-                  : " could not be read: find it (menu File), or hide its layer.");
+                  ? " is not in the scene's folder. Press Show it, or hide its layer."
+                  : " could not be read. Press Find it, or hide its layer.");
   return "";
 }
 
@@ -94,14 +94,14 @@ void ExportDialog::ask(bool film, const Path& folder) {
 
 void ExportDialog::again(const Path& folder) {
   if (!last_) return ask(false, folder);
-  ExportSettings once_more = *last_;
+  ExportSettings repeated = *last_;
   const int last = last_frame_of(workspace_.document.scene());
-  once_more.last = last_all_ ? last : std::min(once_more.last, last);
-  once_more.first = std::min(once_more.first, once_more.last);
-  workspace_.messages.complain(start(once_more));
+  repeated.last = last_all_ ? last : std::min(repeated.last, last);
+  repeated.first = std::min(repeated.first, repeated.last);
+  workspace_.messages.complain(start(repeated));
 }
 
-/// The part of the plane that is exported; none where it follows from the maps.
+/// The part of the plane to export; none if it depends on the maps.
 std::optional<Box> ExportDialog::region_box() const {
   if (settings_.region == ExportSettings::Region::canvas) {
     const Viewport& view = workspace_.display.viewport;
@@ -130,7 +130,7 @@ std::string ExportDialog::result_text() const {
   if (settings_.film) {
     const double rate = workspace_.document.scene().animation.frames_per_second;
     std::snprintf(text + used, sizeof text - static_cast<size_t>(used),
-                  ", %d frame%s, %.2f s at %.5g a second", frames, frames == 1 ? "" : "s",
+                  ", %d frame%s, %.2f s at %.5g frames per second", frames, frames == 1 ? "" : "s",
                   frames / rate, rate);
   }
   std::string result = text;
@@ -138,7 +138,7 @@ std::string ExportDialog::result_text() const {
       settings_.background ? *settings_.background : workspace_.document.scene().background;
   if (format_extension(settings_.path) == ".jpg" &&
       background.fill == Background::Fill::transparent)
-    result += "; what is transparent becomes white";
+    result += "; transparent parts become white";
   return result;
 }
 
@@ -156,7 +156,8 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     else
       picture_format_of(settings.path);
     for (const Path& file : files()) check_may_write(file, document.sources());
-    if (const std::string problem = lacking(workspace_); !problem.empty()) return problem;
+    if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
+      return problem;
   } catch (const Error& error) {
     return error.what();
   }
@@ -209,7 +210,8 @@ Path ExportDialog::in_folder(const Path& path) const {
   return path.is_relative() ? folder_ / path : path;
 }
 
-/// What can be written, the extension of what is chosen now first: it is the one to be added.
+/// The extensions of all formats. The chosen format's comes first, because it is added to names
+/// without an extension.
 std::vector<std::string> ExportDialog::extensions() const {
   std::vector<std::string> all{format_extension(settings_.path)};
   for (const Format& format : formats(plays(workspace_.document.scene())))
@@ -217,7 +219,8 @@ std::vector<std::string> ExportDialog::extensions() const {
   return all;
 }
 
-/// Its extension says the format; one that pictures and films have leaves which of them it is.
+/// The extension decides the format. If pictures and films share it, the choice between them stays.
+/// Returns false if the extension is unknown.
 bool ExportDialog::take_path(const Path& path) {
   const std::vector<Format> known = formats(plays(workspace_.document.scene()));
   const std::string extension = format_extension(path);
@@ -232,12 +235,12 @@ bool ExportDialog::take_path(const Path& path) {
 }
 
 void ExportDialog::accept() {
-  opening_ = true;  // unless it is closed: the name is typed again
+  opening_ = true;  // if the dialog stays open, the name has the focus
   if (name_.empty()) return;
   Path path = in_folder(name_);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    message_ = path.string() + " is a folder; add a name.";
+    message_ = path.string() + " is a folder. Add a file name.";
     return;
   }
   if (!std::filesystem::is_directory(path.parent_path(), error)) {
@@ -245,9 +248,9 @@ void ExportDialog::accept() {
     return;
   }
   const std::vector<std::string> written = extensions();
-  if (!is_a_format(format_extension(path))) path += settings_.path.extension();
+  if (!is_known_extension(format_extension(path))) path += settings_.path.extension();
   if (!take_path(path)) {
-    message_ = path.extension().string() + " is not written here; choose one of";
+    message_ = path.extension().string() + " is not a supported format. Choose one of";
     for (const std::string& extension : written) message_ += " " + extension;
     return;
   }
@@ -258,10 +261,10 @@ void ExportDialog::accept() {
     if (!there.empty()) {
       confirming_ = true;
       message_ = there[0].filename().string() +
-                 (there.size() == 1 ? " exists already. Enter or Replace puts this in its place."
+                 (there.size() == 1 ? " already exists. Press Enter or Replace to overwrite it."
                                     : " and " + std::to_string(there.size() - 1) +
-                                          " more exist already. Enter or Replace puts these in "
-                                          "their places.");
+                                          " more files already exist. Press Enter or Replace to "
+                                          "overwrite them.");
       return;
     }
   }
@@ -279,16 +282,16 @@ void ExportDialog::draw_file(double scale) {
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemEdited()) {
     confirming_ = false;
-    take_path(in_folder(name_));  // the list of formats goes along
+    take_path(in_folder(name_));  // updates the chosen format
   }
   ImGui::SameLine();
   if (ImGui::Button("Choose...", {-1, 0})) {
     chooser_.ask(
-        {FileQuestion::Mode::save, "Export into", "Choose", extensions(), Path(name_), false},
+        {FileQuestion::Mode::save, "Export to", "Choose", extensions(), Path(name_), false},
         [this](const Path& path, double) {
           name_ = path.string();
           take_path(path);
-          confirming_ = files() == std::vector{path};  // then it was asked
+          confirming_ = files() == std::vector{path};  // the chooser has asked about it
           return std::string();
         });
   }
@@ -299,11 +302,11 @@ void ExportDialog::draw_format(float s) {
   std::string preview = settings_.path.extension().string();
   const std::vector<Format> known = formats(plays(workspace_.document.scene()));
   for (const Format& format : known)
-    if (is_of(settings_, format)) preview = format.label;
+    if (uses_format(settings_, format)) preview = format.label;
   ImGui::SetNextItemWidth(300 * s);
-  if (!ImGui::BeginCombo("format", preview.c_str())) return;
+  if (!ImGui::BeginCombo("Format", preview.c_str())) return;
   for (const Format& format : known)
-    if (ImGui::Selectable(format.label.c_str(), is_of(settings_, format))) {
+    if (ImGui::Selectable(format.label.c_str(), uses_format(settings_, format))) {
       settings_.film = format.film;
       settings_.path = Path(name_).replace_extension(format.extension);
       name_ = settings_.path.string();
@@ -315,17 +318,17 @@ void ExportDialog::draw_format(float s) {
 void ExportDialog::draw_look(float s) {
   float percent = static_cast<float>(100 * settings_.scale);
   ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::SliderFloat("scale", &percent, 10, 400, "%.0f %%",
+  if (ImGui::SliderFloat("Scale", &percent, 10, 400, "%.0f %%",
                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
     settings_.scale = std::round(percent) / 100;
   int region = static_cast<int>(settings_.region);
   ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::Combo("region", &region, kRegions, 3))
+  if (ImGui::Combo("Region", &region, kRegions, 3))
     settings_.region = static_cast<ExportSettings::Region>(region);
   int background = settings_.background ? 1 + static_cast<int>(settings_.background->fill) : 0;
   ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::Combo("background", &background,
-                   "As in the scene\0Transparent\0A colour\0The original\0")) {
+  if (ImGui::Combo("Background", &background,
+                   "As in the scene\0Transparent\0Color\0Original picture\0")) {
     if (background == 0)
       settings_.background.reset();
     else
@@ -338,7 +341,7 @@ void ExportDialog::draw_look(float s) {
   for (size_t k = 0; k < 3; ++k)
     color[k] = static_cast<float>(settings_.background->color[k]) / 255;
   ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::ColorEdit3("colour", color, ImGuiColorEditFlags_DisplayHex))
+  if (ImGui::ColorEdit3("Color", color, ImGuiColorEditFlags_DisplayHex))
     for (size_t k = 0; k < 3; ++k)
       settings_.background->color[k] =
           static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
@@ -348,17 +351,17 @@ void ExportDialog::draw_frames(float s) {
   const int last = last_frame_of(workspace_.document.scene());
   int range[2] = {settings_.first, settings_.last};
   ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::DragIntRange2("frames", &range[0], &range[1], 0.2f, 0, last, "from %d", "to %d",
+  if (ImGui::DragIntRange2("Frames", &range[0], &range[1], 0.2f, 0, last, "from %d", "to %d",
                            ImGuiSliderFlags_AlwaysClamp)) {
     confirming_ = false;
     settings_.first = std::clamp(range[0], 0, last);
     settings_.last = std::clamp(range[1], settings_.first, last);
   }
-  ImGui::Checkbox("loops", &settings_.loops);
+  ImGui::Checkbox("Loop", &settings_.loops);
 }
 
 void ExportDialog::draw(double scale) {
-  if (!open_ || chooser_.open()) return;  // while a file is chosen this waits behind
+  if (!open_ || chooser_.open()) return;  // hidden while a file is being chosen
   const float s = static_cast<float>(scale);
   ImGui::OpenPopup("Export###export");
   const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -1,4 +1,4 @@
-// One dialog for pictures and films: what is exported, how large, and into which file.
+// One dialog for pictures and films: what to export, at which size, and to which file.
 #pragma once
 
 #include "app/dialogs/file_chooser.h"
@@ -7,11 +7,11 @@
 
 namespace holomorph {
 
-/// What is asked for; the same again with "Export again".
+/// Settings of an export, which "Export again" uses again.
 struct ExportSettings {
   enum class Region { all, picture, canvas };
-  Path path;          ///< its extension says the format
-  bool film = false;  ///< .png and .webp are pictures, or with this films
+  Path path;          ///< its extension decides the format
+  bool film = false;  ///< whether .png and .webp mean films
   double scale = 1;   ///< output pixels per image pixel
   Region region = Region::all;
   std::optional<Background> background;  ///< none: the scene's
@@ -19,21 +19,22 @@ struct ExportSettings {
   bool loops = true;
 };
 
-/// What the canvas shows, as a picture: its view, its range and its time.
+/// Options for a picture of what the canvas shows: its view, its color range and its time.
 PictureOptions as_shown(const Workspace& workspace);
-/// Says which picture such a picture would lack; "" for none.
-std::string lacking(const Workspace& workspace);
+/// A message about a picture that would be missing from such an export, or "".
+std::string missing_picture_message(const Workspace& workspace);
 
 class ExportDialog {
  public:
   ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser)
       : workspace_(workspace), jobs_(jobs), chooser_(chooser) {}
 
-  /// Opens for a picture or a film, to be written beside `folder` unless one was before.
+  /// Opens the dialog for a picture or a film. Proposes a file in `folder`, or in the folder of the
+  /// last export if there was one.
   void ask(bool film, const Path& folder);
-  /// What was exported last once more, or the dialog where there was nothing.
+  /// Repeats the last export, or opens the dialog if there was none.
   void again(const Path& folder);
-  /// Another document: nothing was exported yet.
+  /// To be called for another document: nothing of it was exported yet.
   void forget() { last_.reset(); }
   bool has_exported() const { return last_.has_value(); }
   bool open() const { return open_; }
@@ -50,7 +51,7 @@ class ExportDialog {
   /// Returns what is wrong, or "".
   std::string start(const ExportSettings& settings);
   std::vector<std::string> extensions() const;
-  /// What is typed without a folder lies in the one that was last.
+  /// The path of a typed name; a relative one lies in the last folder.
   Path in_folder(const Path& path) const;
   bool take_path(const Path& path);
   void accept();
@@ -59,8 +60,8 @@ class ExportDialog {
   Jobs& jobs_;
   FileChooser& chooser_;
   ExportSettings settings_;
-  std::optional<ExportSettings> last_;  ///< what was exported
-  bool last_all_ = true;                ///< with all frames
+  std::optional<ExportSettings> last_;  ///< settings of the last export
+  bool last_all_ = true;                ///< the last export had all frames
   Path folder_;
   std::string name_, message_;
   bool open_ = false, opening_ = false, confirming_ = false;

@@ -1,5 +1,5 @@
-// The desktop's dialog is a program of its own (zenity or kdialog), so that this one needs no
-// toolkit, and a desktop's dialog cannot take it down.
+// The desktop's dialog is a separate program (zenity or kdialog). So Holomorph needs no GUI
+// toolkit, and survives a crash of the dialog.
 #include "app/dialogs/file_chooser.h"
 
 #include <imgui.h>
@@ -24,16 +24,17 @@ std::string patterns(const std::vector<std::string>& extensions) {
   return text;
 }
 
-/// The command of the desktop's dialog; empty where there is none.
+/// The command of the desktop's dialog; empty if there is none.
 std::vector<std::string> native_command(const FileQuestion& question, const Path& start) {
   const bool saves = question.mode == FileQuestion::Mode::save;
   if (has_program("zenity")) {
-    std::vector<std::string> words{"zenity",
-                                   "--file-selection",
-                                   "--title=" + question.title,
-                                   "--filename=" + start.string(),
-                                   "--file-filter=Known kinds | " + patterns(question.extensions),
-                                   "--file-filter=All files | *"};
+    std::vector<std::string> words{
+        "zenity",
+        "--file-selection",
+        "--title=" + question.title,
+        "--filename=" + start.string(),
+        "--file-filter=Supported files | " + patterns(question.extensions),
+        "--file-filter=All files | *"};
     if (saves) words.insert(words.end(), {"--save", "--confirm-overwrite"});
     return words;
   }
@@ -65,9 +66,9 @@ void FileChooser::ask(FileQuestion question, Answer answer) {
       wake_);
 }
 
-/// What the desktop's dialog said. What it does not ask, the browser does: whether to replace a
-/// file whose extension was added, and what to do where the answer cannot be used.
-void FileChooser::take_native() {
+/// Uses the answer of the desktop's dialog. The browser asks what that dialog does not: whether to
+/// replace a file whose extension was added, and for another file if the answer cannot be used.
+void FileChooser::use_native_answer() {
   native_.reset();
   if (chosen_->empty()) return;
   // The answer may ask another question.
@@ -98,11 +99,11 @@ void FileChooser::take_native() {
 
 void FileChooser::draw(double scale) {
   if (!native_) return browser_.draw(scale);
-  // The window goes on drawing, but what is behind the desktop's dialog must wait for it.
+  // The window is still drawn, but takes no input until the desktop's dialog is closed.
   ImGui::OpenPopup("###native");
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal("Another window asks for a file###native", nullptr,
+  if (!ImGui::BeginPopupModal("Choose a file in the other window###native", nullptr,
                               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
     return;
   ImGui::TextUnformatted(question_.title.c_str());
@@ -114,7 +115,7 @@ void FileChooser::draw(double scale) {
   if (cancelled)
     native_.reset();
   else if (ended)
-    take_native();
+    use_native_answer();
 }
 
 }  // namespace holomorph

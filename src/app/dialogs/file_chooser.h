@@ -1,5 +1,5 @@
-// Where the user says which file: the desktop's own dialog where there is one, the browser in this
-// window otherwise.
+// Asks the user for a file: with the desktop's own dialog if there is one, otherwise with the
+// browser in this window.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace holomorph {
 
-/// Asks one question at a time; the answer comes through the callback, once.
+/// Asks one question at a time. The answer comes through the callback.
 class FileChooser {
  public:
   using Answer = FileDialog::Answer;
 
-  /// `wake` is called on another thread when the desktop's dialog was answered.
+  /// `wake` is called on another thread when the desktop's dialog has been answered.
   explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Questions that ask more than a file are always asked in this window.
+  /// Questions for more than a file are always asked in this window.
   void ask(FileQuestion question, Answer answer);
-  /// The usual question for a file to read. The answer returns what is wrong with it, or "".
+  /// Asks for a file to read. `answer` returns what is wrong with the file, or "".
   void ask_open(const std::string& title, const std::string& button,
                 std::vector<std::string> extensions,
                 std::function<std::string(const Path&)> answer) {
@@ -34,7 +34,7 @@ class FileChooser {
   void use_native(bool use) { uses_native_ = use; }
 
  private:
-  void take_native();
+  void use_native_answer();
 
   FileDialog browser_;
   std::function<void()> wake_;

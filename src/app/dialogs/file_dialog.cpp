@@ -1,4 +1,4 @@
-// The folder is read when it is entered, not every frame.
+// A folder is read when it is entered, not in every frame.
 #include "app/dialogs/file_dialog.h"
 
 #include <imgui.h>
@@ -73,7 +73,7 @@ void FileDialog::enter(const Path& folder) {
 }
 
 /// The files that saving would replace.
-std::vector<Path> FileDialog::files_there(const Path& path) const {
+std::vector<Path> FileDialog::existing_files(const Path& path) const {
   std::vector<Path> files = question_.writes ? question_.writes(path) : std::vector{path};
   std::erase_if(files, [](const Path& file) {
     std::error_code error;
@@ -88,24 +88,24 @@ void FileDialog::accept(const Path& wanted) {
   if (fs::is_directory(path, error)) return enter(path);
   if (question_.mode == FileQuestion::Mode::open) {
     if (!fs::exists(path, error)) {
-      message_ = "There is no file '" + path.filename().string() + "' here.";
+      message_ = "There is no file '" + path.filename().string() + "' in this folder.";
       return;
     }
   } else {
     if (!is_listed(path) && question_.extensions.size() > 1 && path.has_extension()) {
-      message_ = path.extension().string() + " is not written here; choose one of";
+      message_ = path.extension().string() + " is not a supported format. Choose one of";
       for (const std::string& extension : question_.extensions) message_ += " " + extension;
       return;
     }
     if (!is_listed(path)) path += question_.extensions[0];
-    if (const std::vector<Path> there = confirming_ ? std::vector<Path>() : files_there(path);
+    if (const std::vector<Path> there = confirming_ ? std::vector<Path>() : existing_files(path);
         !there.empty()) {
       confirming_ = true;
       message_ = there[0].filename().string() +
-                 (there.size() == 1 ? " exists already. Enter or Replace puts this in its place."
+                 (there.size() == 1 ? " already exists. Press Enter or Replace to overwrite it."
                                     : " and " + std::to_string(there.size() - 1) +
-                                          " more exist already. Enter or Replace puts these in "
-                                          "their places.");
+                                          " more files already exist. Press Enter or Replace to "
+                                          "overwrite them.");
       focus_ = true;
       return;
     }
@@ -163,7 +163,7 @@ void FileDialog::draw(double scale) {
       if (by_key || ImGui::IsMouseDoubleClicked(0)) (item.folder ? go : chosen) = item.path;
     }
   }
-  if (items_.empty()) ImGui::TextDisabled("No files of this kind here.");
+  if (items_.empty()) ImGui::TextDisabled("No files of this kind in this folder.");
   ImGui::EndChild();
 
   if (opening_ || focus_) ImGui::SetKeyboardFocusHere();
@@ -183,8 +183,8 @@ void FileDialog::draw(double scale) {
     ImGui::TextWrapped("%s", message_.c_str());
   else
     ImGui::TextDisabled("%s", question_.mode == FileQuestion::Mode::open
-                                  ? "Enter or a double click takes a file."
-                                  : "The extension is added when it is missing.");
+                                  ? "Press Enter or double-click to choose a file."
+                                  : "The extension is added if it is missing.");
   const bool pressed =
       ImGui::Button(confirming_ ? "Replace" : question_.button.c_str(), {120 * s, 0});
   ImGui::SameLine();

@@ -1,4 +1,4 @@
-// A file browser inside the window.
+// A file browser in the window.
 #pragma once
 
 #include <functional>
@@ -10,29 +10,29 @@
 
 namespace holomorph {
 
-/// What a dialog is asked for.
+/// A question for a file.
 struct FileQuestion {
   enum class Mode { open, save } mode = Mode::open;
   std::string title, button;
-  std::vector<std::string> extensions;  ///< lower case with the dot; the first is added when saving
+  std::vector<std::string> extensions;  ///< lower case, with the dot; saving adds the first
   Path start;                           ///< a folder or a file; empty: the last folder
-  bool asks_scale = false;              ///< also a scale, for pictures
-  /// What saving as this writes, where that is not the path itself.
+  bool asks_scale = false;              ///< also asks for the scale of pictures
+  /// The files that saving to a path writes, if not the path itself.
   std::function<std::vector<Path>(const Path&)> writes = {};
 };
 
-/// Shows one question at a time; the answer comes through the callback, once.
+/// Shows one question at a time. The answer comes through the callback.
 class FileDialog {
  public:
-  /// Does what was asked for; returns what is wrong, and the dialog stays open, or "".
+  /// Uses the chosen path. Returns "", or what is wrong; then the dialog stays open.
   using Answer = std::function<std::string(const Path& path, double scale)>;
 
   void ask(FileQuestion question, Answer answer);
-  /// Where questions without a start begin from now on.
+  /// Sets the folder for questions without a start.
   void start_in(const Path& folder) { folder_ = folder; }
   const Path& folder() const { return folder_; }
   bool open() const { return open_; }
-  /// What is shown below the name, such as why the last answer could not be used.
+  /// Shows a message below the name, such as why the last answer could not be used.
   void say(const std::string& message) { message_ = message; }
   /// Draws the dialog while it is open.
   void draw(double scale);
@@ -40,7 +40,7 @@ class FileDialog {
  private:
   void enter(const Path& folder);
   void accept(const Path& path);
-  std::vector<Path> files_there(const Path& path) const;
+  std::vector<Path> existing_files(const Path& path) const;
   bool is_listed(const Path& path) const;
 
   FileQuestion question_;

@@ -1,4 +1,4 @@
-// A cancelled job is let go of at once, and forgotten when it has ended.
+// A canceled job no longer blocks the window. It is destroyed once it has ended.
 #include "app/dialogs/jobs.h"
 
 #include <imgui.h>
@@ -10,8 +10,8 @@
 namespace holomorph {
 namespace {
 
-/// What a user does not notice, ms: then no dialog flickers.
-constexpr double kShort = 60;
+/// Jobs that end within this time, in ms, show no dialog, which avoids flicker.
+constexpr double kShortMs = 60;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ std::string Jobs::run(const std::string& title, Job::Work work, std::function<vo
   if (job_) abandon();
   job_ = std::make_unique<Job>(title, std::move(work), wake_);
   then_ = std::move(then);
-  return job_->ended_within(kShort) ? finish() : "";
+  return job_->ended_within(kShortMs) ? finish() : "";
 }
 
 void Jobs::abandon() {
@@ -57,7 +57,7 @@ void Jobs::draw(double scale) {
     ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {360 * s, 0},
                        text.c_str());
   } else {
-    // It is not known how long it takes: a light goes to and fro.
+    // The duration is unknown: a light moves back and forth.
     const float t = static_cast<float>(std::fmod(ImGui::GetTime(), 2.0)), at = t < 1 ? t : 2 - t;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::ProgressBar(0, {360 * s, 0}, "");
@@ -69,7 +69,7 @@ void Jobs::draw(double scale) {
   const bool cancel = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
   if (cancel) {
     abandon();
-    workspace_.messages.say("Cancelled.");
+    workspace_.messages.say("Canceled.");
   } else if (job_->ended()) {
     workspace_.messages.complain(finish());
   }

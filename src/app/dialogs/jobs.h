@@ -1,4 +1,4 @@
-// What takes long happens beside the window, which shows how far it is and can cancel it.
+// Runs long work on another thread. A dialog shows its progress and can cancel it.
 #pragma once
 
 #include "edit/workspace.h"
@@ -6,19 +6,20 @@
 
 namespace holomorph {
 
-/// Runs one job at a time; while it runs a dialog over the window takes all input.
+/// Runs one job at a time. While it runs, a dialog over the window takes all input.
 class Jobs {
  public:
-  /// `wake` is called on other threads when a job has ended.
+  /// `wake` is called on another thread when a job has ended.
   Jobs(Workspace& workspace, std::function<void()> wake)
       : workspace_(workspace), wake_(std::move(wake)) {}
 
-  /// Does work on another thread and `then` on this one, unless it fails or is cancelled. Short
-  /// work has ended when this returns. Returns what was wrong with such work, or ""; what goes
-  /// wrong later is a toast. A job that is running already is cancelled.
+  /// Does the work on another thread, and after it `then` on this one, unless the work fails or is
+  /// canceled. Short work has ended when this returns. Returns what went wrong with it, or "";
+  /// later errors are shown as toasts. Cancels the job that is running, if any.
   std::string run(const std::string& title, Job::Work work, std::function<void()> then);
   bool running() const { return job_ != nullptr; }
-  /// Draws the running job's dialog, and ends jobs that have ended. `then` may start another one.
+  /// Draws the running job's dialog, and finishes the job if it has ended. `then` may start another
+  /// job.
   void draw(double scale);
 
  private:
@@ -29,7 +30,7 @@ class Jobs {
   std::function<void()> wake_;
   std::unique_ptr<Job> job_;
   std::function<void()> then_;
-  std::vector<std::unique_ptr<Job>> abandoned_;  ///< cancelled; they end when they notice
+  std::vector<std::unique_ptr<Job>> abandoned_;  ///< canceled, but not ended yet
 };
 
 }  // namespace holomorph

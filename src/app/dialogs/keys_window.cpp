@@ -1,4 +1,4 @@
-// A row for each action of the table; a click on its keys waits for others.
+// One row for each action of the table. A click on its keys waits for another key.
 #include "app/dialogs/keys_window.h"
 
 #include <imgui.h>
@@ -21,18 +21,18 @@ void wrapped_cell(const std::string& text) {
 }  // namespace
 
 void KeysWindow::assign(const std::vector<Shortcut>& keys) {
-  say_lost(workspace_.actions.set_keys(waiting_, keys));
+  report_lost_keys(workspace_.actions.set_keys(waiting_, keys));
   stop_waiting();
 }
 
 void KeysWindow::stop_waiting() {
   waiting_.clear();
-  asked_.reset();
+  pending_key_.reset();
 }
 
-void KeysWindow::say_lost(const std::vector<std::string>& labels) {
+void KeysWindow::report_lost_keys(const std::vector<std::string>& labels) {
   for (const std::string& label : labels)
-    workspace_.messages.say("'" + label + "' has lost this key.");
+    workspace_.messages.say("'" + label + "' no longer has this key.");
   changed_();
 }
 
@@ -40,12 +40,12 @@ void KeysWindow::take(const Shortcut& key) {
   if (key == Shortcut(Key::escape)) return stop_waiting();
   if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
   const Action* owner = workspace_.actions.owner_of(key);
-  if (owner && owner->id != waiting_ && asked_ != key) {
-    asked_ = key;
+  if (owner && owner->id != waiting_ && pending_key_ != key) {
+    pending_key_ = key;
     return;
   }
   std::vector<Shortcut> keys;
-  if (adds_) keys = workspace_.actions.named(waiting_).keys;
+  if (adds_key_) keys = workspace_.actions.named(waiting_).keys;
   keys.push_back(key);
   assign(keys);
 }
@@ -53,7 +53,7 @@ void KeysWindow::take(const Shortcut& key) {
 void KeysWindow::export_keys() {
   stop_waiting();
   chooser_.ask({FileQuestion::Mode::save,
-                "Export the keys",
+                "Export keys",
                 "Export",
                 {".json", ".md"},
                 Path("holomorph-keys.json"),
@@ -80,7 +80,7 @@ void KeysWindow::import_keys() {
           workspace_.actions.use_keys(keys_of_json(read_file(path), path.filename().string()));
       if (!unknown.empty())
         workspace_.messages.say(
-            "Not known here and left out: " + unknown[0] +
+            "Ignored because unknown: " + unknown[0] +
             (unknown.size() > 1 ? " and " + std::to_string(unknown.size() - 1) + " more." : "."));
       changed_();
     } catch (const Error& error) {
@@ -95,26 +95,27 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::PushID(action.id.c_str());
   ImGui::TableNextColumn();
   const bool waits = waiting_ == action.id;
-  const std::string keys = !waits   ? action.keys.empty() ? "none" : keys_text(action)
-                             : asked_ ? text_of(*asked_) + " again to take it from another"
-                                    : "Press a key; Del none, Esc cancels";
+  const std::string keys = !waits         ? action.keys.empty() ? "None" : keys_text(action)
+                                   : pending_key_ ? text_of(*pending_key_) + " again to reassign it"
+                                          : "Press a key (Del: none, Esc: cancel)";
   if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
     stop_waiting();
     if (!waits) waiting_ = action.id;
-    adds_ = ImGui::GetIO().KeyShift;
+    adds_key_ = ImGui::GetIO().KeyShift;
   }
   if (workspace_.actions.has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
     if (ImGui::Button("\uf0e2", {30 * s, 0})) {
       stop_waiting();
-      say_lost(workspace_.actions.reset_keys(action.id));
+      report_lost_keys(workspace_.actions.reset_keys(action.id));
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The program's own key again");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Restore the default keys");
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  const Action* owner = waits && asked_ ? workspace_.actions.owner_of(*asked_) : nullptr;
-  wrapped_text(owner ? "'" + owner->label + "' has this key" : action.label);
+  const Action* owner =
+      waits && pending_key_ ? workspace_.actions.owner_of(*pending_key_) : nullptr;
+  wrapped_text(owner ? "'" + owner->label + "' uses this key" : action.label);
   if (!owner && *action.hint) tooltip_of(action);
   ImGui::PopID();
 }
@@ -167,8 +168,8 @@ void KeysWindow::draw(double scale) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::SetNextItemWidth(-340 * s);
-  ImGui::InputTextWithHint("##search", "Search keys and what they do", &search_);
-  if (ImGui::IsItemActive()) stop_waiting();  // what is typed is no key
+  ImGui::InputTextWithHint("##search", "Search actions and keys", &search_);
+  if (ImGui::IsItemActive()) stop_waiting();  // typed text must not become a key
   ImGui::SameLine();
   if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
   ImGui::SameLine();
@@ -182,9 +183,9 @@ void KeysWindow::draw(double scale) {
   }
   ImGui::EndDisabled();
   begin_part("rows");
-  ImGui::TextDisabled("Click a key to change it; Shift-click adds one.");
+  ImGui::TextDisabled("Click a key to change it. Shift-click to add one.");
   const bool any = draw_keys(s), more = draw_gestures(s);
-  if (!any && !more) ImGui::TextDisabled("Nothing is called that.");
+  if (!any && !more) ImGui::TextDisabled("Nothing found.");
   ImGui::EndChild();
   const bool escaped = escape_pressed() && !was_waiting_;
   was_waiting_ = waits_for_key();

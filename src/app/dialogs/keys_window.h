@@ -1,4 +1,4 @@
-// Keys and mouse (F1): searched, changed and exchanged.
+// The window "Keys and mouse" (F1): finds, changes, exports and imports keys.
 #pragma once
 
 #include "app/dialogs/file_chooser.h"
@@ -8,35 +8,35 @@ namespace holomorph {
 
 class KeysWindow {
  public:
-  /// `changed` is called when the keys are other ones.
+  /// `changed` is called when keys have changed.
   KeysWindow(Workspace& workspace, FileChooser& chooser, std::function<void()> changed)
       : workspace_(workspace), chooser_(chooser), changed_(std::move(changed)) {}
 
   void show() { open_ = opening_ = true; }
   bool open() const { return open_; }
-  /// Whether the next key is to be an action's, and takes it.
+  /// Whether the next key is to be assigned to an action.
   bool waits_for_key() const { return !waiting_.empty(); }
-  /// A key that is another action's has to be pressed twice.
+  /// Assigns a key. A key of another action has to be pressed twice.
   void take(const Shortcut& key);
   void draw(double scale);
 
  private:
   void draw_row(const Action& action, float s);
-  /// Each returns whether it has found anything.
+  /// Each returns whether anything matches the search.
   bool draw_keys(float s);
   bool draw_gestures(float s);
   void export_keys();
   void import_keys();
   void assign(const std::vector<Shortcut>& keys);
   void stop_waiting();
-  void say_lost(const std::vector<std::string>& labels);
+  void report_lost_keys(const std::vector<std::string>& labels);
 
   Workspace& workspace_;
   FileChooser& chooser_;
   std::function<void()> changed_;
-  std::string search_, waiting_;   ///< the action whose key is being chosen
-  bool adds_ = false;              ///< to the keys that it has
-  std::optional<Shortcut> asked_;  ///< another action's key, to be pressed once more
+  std::string search_, waiting_;         ///< waiting_: id of the action whose key is being chosen
+  bool adds_key_ = false;                ///< adds a key to those that it has
+  std::optional<Shortcut> pending_key_;  ///< another action's key, to be pressed again
   bool open_ = false, opening_ = false, was_waiting_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Up and Down choose, Enter runs, and what cannot be done now is grey.
+// Up and Down choose a row, and Enter runs it. Rows that are disabled are gray.
 #include "app/dialogs/palette.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace {
 
 struct Row {
   std::string label, keys;
-  std::string found_by = {};  ///< besides its label
+  std::string found_by = {};  ///< searched in addition to the label
   bool enabled = true, checked = false;
   std::function<void()> run;
 };
 
-/// What the method can be: scenes are made when a row is run.
+/// Adds rows for methods, presets and parameters. The changed scene is made when a row is run.
 void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
   const Deformation& deformation = workspace.shown.deformation();
   const Method& method = method_named(deformation.method);
@@ -99,7 +99,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
   std::vector<Row> rows = rows_of(workspace, preferences, answer);
   std::erase_if(rows,
                 [&](const Row& row) { return !has_words(row.label + " " + row.found_by, text_); });
-  // What can be done now comes first.
+  // Enabled rows come first.
   std::stable_partition(rows.begin(), rows.end(), [](const Row& row) { return row.enabled; });
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
   const int step = pressed(ImGuiKey_DownArrow) ? 1 : pressed(ImGuiKey_UpArrow) ? -1 : 0;
@@ -111,7 +111,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
     const bool chosen = static_cast<int>(i) == chosen_;
     ImGui::BeginDisabled(!row.enabled);
     ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
-    ImGui::TextUnformatted("\uf00c");  // the sign of what is on, and its room
+    ImGui::TextUnformatted("\uf00c");  // a check mark, invisible if the row is not on
     ImGui::PopStyleColor();
     ImGui::SameLine(24 * s);
     if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;
@@ -122,14 +122,14 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
     ImGui::SameLine(ImGui::GetWindowWidth() - 150 * s);
     ImGui::TextDisabled("%s", row.keys.c_str());
   }
-  if (rows.empty()) ImGui::TextDisabled("Nothing is called that.");
+  if (rows.empty()) ImGui::TextDisabled("Nothing found.");
   ImGui::EndChild();
   const bool left =
       pressed(ImGuiKey_Escape) ||
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
   ImGui::End();
   open_ = !run && !left;
-  opening_ = open_ && entered;  // nothing was run: the field goes on taking what is typed
+  opening_ = open_ && entered;  // nothing was run: the field keeps the focus
   if (run) run->run();
   return answer;
 }

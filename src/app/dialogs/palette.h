@@ -1,5 +1,5 @@
-// The search over everything that can be done (Ctrl+Shift+P): actions, methods, what the method can
-// be set to, and the looks of the interface.
+// The command palette (Ctrl+Shift+P): searches actions, methods, settings of the method, and themes
+// and sizes of the interface.
 #pragma once
 
 #include "app/panels/panels.h"
@@ -14,7 +14,7 @@ class Palette {
 
  private:
   std::string text_;
-  int chosen_ = 0;  ///< among the rows that are shown
+  int chosen_ = 0;  ///< index among the rows that are shown
   bool open_ = false, opening_ = false;
 };
 

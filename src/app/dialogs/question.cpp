@@ -1,4 +1,4 @@
-// Short answers stand beside each other, long ones below each other.
+// Short answers form a row, long ones a column.
 #include "app/dialogs/question.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace holomorph {
 void Questions::draw(double scale) {
   if (!open_) return;
   constexpr const char* kId = "###question";
-  constexpr size_t kShort = 12;  // letters
+  constexpr size_t kShort = 12;  // characters
   const float s = static_cast<float>(scale);
   ImGui::OpenPopup(kId);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -30,11 +30,11 @@ void Questions::draw(double scale) {
   const float width =
       std::max(330 * s, text_right - ImGui::GetWindowPos().x - ImGui::GetStyle().WindowPadding.x);
   std::optional<size_t> given;
-  size_t focused = open_->usual;
+  size_t focused = open_->default_answer;
   for (size_t i = 0; i < answers.size(); ++i) {
     if (row && i > 0) ImGui::SameLine();
     if (ImGui::Button(answers[i].label.c_str(), {row ? 130 * s : width, 0})) given = i;
-    if (i == open_->usual) ImGui::SetItemDefaultFocus();
+    if (i == open_->default_answer) ImGui::SetItemDefaultFocus();
     if (ImGui::IsItemFocused()) focused = i;
   }
   if (escape_pressed()) given = open_->escape.value_or(answers.size() - 1);
@@ -42,7 +42,8 @@ void Questions::draw(double scale) {
   if (given) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (!given) return;
-  const Question answered = *std::exchange(open_, std::nullopt);  // the act may ask the next one
+  const Question answered =
+      *std::exchange(open_, std::nullopt);  // the answer may ask another question
   if (answered.answers[*given].act) answered.answers[*given].act();
 }
 

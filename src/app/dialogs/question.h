@@ -1,4 +1,4 @@
-// A question over the window, and what each answer does.
+// A question in front of the window, and what each answer does.
 #pragma once
 
 #include <functional>
@@ -15,20 +15,21 @@ struct Question {
   };
   std::string title, text;
   std::vector<Answer> answers;
-  size_t usual = 0;  ///< the answer that has the focus, and that Enter gives; one that does no harm
-  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last one
+  size_t default_answer =
+      0;  ///< the answer that has the focus and that Enter gives; a harmless one
+  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last
 };
 
 /// Shows one question at a time.
 class Questions {
  public:
-  /// Takes the place of one that is open.
+  /// Opens a question. It replaces the open one, if any.
   void ask(Question question) { open_ = std::move(question); }
   bool open() const { return open_.has_value(); }
   /// The open question's title, or "".
   std::string title() const { return open_ ? open_->title : ""; }
   void withdraw() { open_.reset(); }
-  /// Draws it, and acts when it is answered.
+  /// Draws the open question. When it is answered, calls the answer's `act`.
   void draw(double scale);
 
  private:

@@ -1,4 +1,4 @@
-// What is offered over the canvas while something is missing: a cage, a picture.
+// Cards over the canvas that offer help while a cage or a picture is missing.
 #include <algorithm>
 
 #include "app/panels/panels.h"
@@ -20,7 +20,7 @@ void draw_missing_picture(Workspace& workspace, double scale, float above) {
   ImGui::Text("\uf071  %s %s%s", file.filename().c_str(),
               withheld ? "is not in the scene's folder" : "could not be read", others.c_str());
   ImGui::PushTextWrapPos(static_cast<float>(std::min(420 * scale, view.width - 48 * scale)));
-  ImGui::TextDisabled(withheld ? "Hidden until you allow it: %s" : "The scene looks for it in %s.",
+  ImGui::TextDisabled(withheld ? "Hidden until you allow it: %s" : "The scene expects it in %s.",
                       withheld ? file.c_str() : file.parent_path().c_str());
   ImGui::PopTextWrapPos();
   if (withheld) {
@@ -39,8 +39,8 @@ float draw_cage_offer(Workspace& workspace, double scale) {
              {static_cast<float>(view.left + view.width / 2),
               static_cast<float>(view.top + view.height) - 24 * s},
              {0.5f, 1.0f}, scale);
-  ImGui::TextUnformatted("This picture needs a cage before it can bend.");
-  // Beside each other where there is room.
+  ImGui::TextUnformatted("To bend this picture, put a cage around it.");
+  // In one row if there is room.
   const bool row = view.width > 600 * scale;
   const auto button = [&](const char* face, const char* id) {
     if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);
@@ -49,11 +49,11 @@ float draw_cage_offer(Workspace& workspace, double scale) {
   };
   button("\uf0d0  Make from picture", "cage.from_picture");
   button("\uf040  Draw it", "tool.pen");
-  button("\uf047  Only move and scale", "cage.box");
+  button("\uf047  Place", "cage.box");
   if (row) ImGui::NewLine();
   points_slider(workspace, 190 * s);
   ImGui::SameLine();
-  ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
+  ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
   const float height = ImGui::GetWindowHeight();
   end_card();
   return height + 32 * s;

@@ -1,4 +1,4 @@
-// A worker fills the rows; the window shows what there is.
+// A worker thread fills the rows. The window shows those that are ready.
 #include "app/panels/comparison_panel.h"
 
 #include "core/error.h"
@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 800;  ///< of the mesh: others take seconds for it
+constexpr int kVertices = 800;  ///< of the mesh; even for so few, other methods take seconds
 
 void cell(const char* format, double value) {
   ImGui::TableNextColumn();
@@ -20,13 +20,13 @@ void cell(const char* format, double value) {
 }  // namespace
 
 void ComparisonPanel::start(const Deformation& deformation) {
-  worker_ = {};  // stops and waits for the one before
+  worker_ = {};  // stops the previous worker and waits for it
   open_ = true;
   chosen_ = -1;
   deformation_ = deformation;
   rows_.clear();
   failure_.clear();
-  working_ = true;
+  computing_ = true;
   mesh_ = nullptr;
   worker_ = std::jthread(
       [this, deformation](std::stop_token stop) { work(deformation, std::move(stop)); });
@@ -53,7 +53,7 @@ void ComparisonPanel::work(const Deformation& deformation, std::stop_token stop)
     failure = error.what();
   }
   const std::lock_guard lock(mutex_);
-  working_ = false;
+  computing_ = false;
   failure_ = std::move(failure);
   wake_();
 }
@@ -75,12 +75,12 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
   ImGui::SetNextWindowPos({left, display.y - 50 * s}, ImGuiCond_Appearing, {0, 1});
   ImGui::SetNextWindowSize({width, 10 * ImGui::GetTextLineHeightWithSpacing() + 24 * s},
                            ImGuiCond_Appearing);
-  ImGui::Begin("Projections onto the same bounds", &open_,
+  ImGui::Begin("Compare projections", &open_,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   draw_table(style.scale);
   if (!failure_.empty()) ImGui::TextWrapped("%s", failure_.c_str());
-  ImGui::TextDisabled("%s", working_ ? "Working; the plain methods take seconds..."
-                                     : "Click a row to see its map over the picture.");
+  ImGui::TextDisabled("%s", computing_ ? "Computing. Some methods take several seconds..."
+                                       : "Click a row to see its map over the picture.");
   bool again = false;
   if (workspace.shown.deformation() != *deformation_) {
     ImGui::BeginDisabled(!method_named(workspace.shown.deformation().method).follows_others);
@@ -100,12 +100,13 @@ void ComparisonPanel::draw_table(double scale) {
   ImGui::TableSetupColumn("Map", ImGuiTableColumnFlags_WidthFixed, 190 * s);
   static constexpr const char* kColumns[][2] = {
       {"Map", "Click a row to see its map over the picture"},
-      {"max k", "The flattest circle: 0 keeps all angles, 1 is a line"},
-      {"tau", "The largest stretch or shrinking of a length"},
-      {"flips", "Triangles that lie on their back"},
-      {"turning", "How often the outline turns: 1 unless it winds around a branch point"},
-      {"ms", "Time of the solve, without preparation"},
-      {"steps", "Iterations; 'not settled': stopped at the most"}};
+      {"Shear", "The largest shear: 0 keeps all angles, 1 flattens a circle to a line"},
+      {"Stretch", "The largest factor by which a length grows or shrinks"},
+      {"Flipped", "Number of flipped triangles"},
+      {"Turns",
+       "How many times the outline turns: 1 unless the picture overlaps itself at a point"},
+      {"Time", "Time of the solve in milliseconds, without preparation"},
+      {"Iterations", "'not settled': stopped at the largest number of iterations"}};
   for (int c = 1; c < 7; ++c)
     ImGui::TableSetupColumn(kColumns[c][0], ImGuiTableColumnFlags_WidthFixed,
                             (c < 6 ? 64 : 110) * s);
@@ -127,7 +128,7 @@ void ComparisonPanel::draw_table(double scale) {
     cell("%.3f", row.max_tau);
     cell("%.0f", row.flipped_triangles);
     cell("%.2f", row.turning_number);
-    if (i == 0) continue;  // nothing was solved for the reference
+    if (i == 0) continue;  // there is no solve for the reference
     cell("%.0f", row.milliseconds);
     ImGui::TableNextColumn();
     ImGui::Text(row.settled ? "%d" : "%d, not settled", row.iterations);

@@ -1,4 +1,4 @@
-// The window that compares this program's projection with others', row by row.
+// The window that compares Holomorph's projection with those of other methods, row by row.
 #pragma once
 
 #include <functional>
@@ -13,12 +13,12 @@ namespace holomorph {
 
 class ComparisonPanel {
  public:
-  /// `wake` is called by the worker for each row.
+  /// `wake` is called on the worker thread after each row.
   explicit ComparisonPanel(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Opens the window and starts comparing for a deformation of method `bounded`.
+  /// Opens the window and starts to compare. The deformation's method must be `bounded`.
   void start(const Deformation& deformation);
-  /// How many rows are done.
+  /// The number of rows that are ready.
   int rows() const {
     const std::lock_guard lock(mutex_);
     return static_cast<int>(rows_.size());
@@ -35,15 +35,15 @@ class ComparisonPanel {
 
   std::function<void()> wake_;
   bool open_ = false;
-  int chosen_ = -1;  ///< row
+  int chosen_ = -1;  ///< row; -1: none
   std::optional<Deformation> deformation_;
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below, except worker_
   std::shared_ptr<const Mesh> mesh_;
   std::vector<ComparedMap> rows_;
   std::string failure_;
-  bool working_ = false;
-  std::jthread worker_;  ///< last, so that it ends before what it uses
+  bool computing_ = false;
+  std::jthread worker_;  ///< declared last, so that it ends before what it uses
 };
 
 }  // namespace holomorph

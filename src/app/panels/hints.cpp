@@ -1,4 +1,4 @@
-// What is done is read off the document, so that no step can be forgotten or done twice.
+// Whether a step is done is derived from the document, so nothing has to be recorded.
 #include "app/panels/hints.h"
 
 #include <algorithm>
@@ -22,12 +22,12 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
     std::string how;
   };
   const Hint steps[] = {
-      {caged, "Put a cage around the picture",
+      {caged, "Make a cage",
        "Make it from the picture, or draw it with " + workspace.actions.key_of("tool.pen")},
-      {bent, "Bend it",
-       "Drag the cage's points with " + workspace.actions.key_of("tool.select") + "; " +
-           workspace.actions.key_of("tool.pin") + " sets pins to drag"},
-      {bent && kept, "Keep it",
+      {bent, "Bend the picture",
+       "Drag cage points with " + workspace.actions.key_of("tool.select") + "; " +
+           workspace.actions.key_of("tool.pin") + " sets and drags pins"},
+      {bent && kept, "Save or export",
        workspace.actions.key_of("file.save") + " saves the scene, " +
            workspace.actions.key_of("file.export") + " exports a picture"}};
   const float s = static_cast<float>(scale);
@@ -36,20 +36,20 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
              {static_cast<float>(view.left) + 12 * s, static_cast<float>(view.top) + 12 * s},
              {0, 0}, scale);
   ImGui::PushTextWrapPos(static_cast<float>(std::min(380.0 * scale, view.width - 48 * scale)));
-  const Hint* next = std::ranges::find(steps, false, &Hint::done);  // one at a time
+  const Hint* next = std::ranges::find(steps, false, &Hint::done);  // shows one step at a time
   const bool all = next == std::end(steps);
   if (!all) {
     ImGui::Text("%d of %d   %s", static_cast<int>(next - steps) + 1,
                 static_cast<int>(std::size(steps)), next->what);
     ImGui::TextDisabled("%s", next->how.c_str());
   } else {
-    const std::string done = "\uf00c  That is all. " + workspace.actions.key_of("help.keys") +
-                             " shows all keys, " + workspace.actions.key_of("help.palette") +
-                             " finds everything.";
+    const std::string done = "\uf00c  All done. " + workspace.actions.key_of("help.keys") +
+                             " lists all keys, " + workspace.actions.key_of("help.palette") +
+                             " finds any command.";
     ImGui::TextWrapped("%s", done.c_str());
   }
   ImGui::PopTextWrapPos();
-  const bool closed = ImGui::SmallButton(all ? "Done" : "Do not show this again");
+  const bool closed = ImGui::SmallButton(all ? "Done" : "Don't show this again");
   end_card();
   return !closed;
 }

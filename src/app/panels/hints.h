@@ -1,12 +1,12 @@
-// The first three steps, for whoever opens the program for the first time.
+// The card with the first three steps, for new users.
 #pragma once
 
 #include "edit/workspace.h"
 
 namespace holomorph {
 
-/// Draws the steps into the canvas' corner, the done ones ticked. `kept` says whether anything was
-/// saved or exported. Returns false when they are not wanted any more.
+/// Draws the first step that is not done yet into the corner of the canvas. `kept` says whether the
+/// work was saved or exported. Returns false if the user closes the card.
 bool draw_hints(const Workspace& workspace, bool kept, double scale);
 
 }  // namespace holomorph

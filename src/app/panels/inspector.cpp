@@ -1,4 +1,4 @@
-// The panel on the right: method, selection, cage, heat map, history.
+// The panel on the right: layers, method, folds, selection, cage, view and history.
 #include <utility>
 
 #include "app/panels/layer_panel.h"
@@ -12,13 +12,13 @@
 namespace holomorph {
 namespace {
 
-/// A value that previews while it is dragged and commits when it is let go: one step a drag.
+/// A number field. Dragging it previews the change, and releasing it commits one step.
 template <class Edit>
 void edit_number(const char* label, double value, const char* format, float speed,
                  Workspace& workspace, const char* step, Edit edit) {
   double number = value;
-  const bool changed =
-      ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr, nullptr, format);
+  const bool changed = ImGui::DragScalar(label, ImGuiDataType_Double, &number, speed, nullptr,
+                                         nullptr, format, ImGuiSliderFlags_NoRoundToFormat);
   if (changed && std::isfinite(number))
     workspace.shown.preview = edit(workspace.shown.base(), number);
   if (ImGui::IsItemDeactivatedAfterEdit() && workspace.shown.preview)
@@ -39,7 +39,7 @@ void choice_combo(Workspace& workspace, const Deformation& deformation, const Pa
 }
 
 bool number_slider(const ParameterSpec& spec, double& value) {
-  // A logarithmic slider ends where its format has no more decimals.
+  // A logarithmic slider cannot reach values that are too small for its format.
   const char* format = spec.logarithmic ? "%.9g" : "%.4g";
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   if (!ImGui::SliderScalar(
@@ -52,7 +52,7 @@ bool number_slider(const ParameterSpec& spec, double& value) {
   return true;
 }
 
-/// A button for each preset; the one that is set is pressed in.
+/// Draws a button for each preset. The preset in use looks pressed.
 void preset_buttons(Workspace& workspace, const Deformation& deformation, const Method& method) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
   for (const Preset& preset : method.presets) {
@@ -73,7 +73,7 @@ void preset_buttons(Workspace& workspace, const Deformation& deformation, const 
 
 void method_section(Workspace& workspace) {
   const Deformation deformation =
-      workspace.shown.deformation();  // a copy: commits replace what scene() refers to
+      workspace.shown.deformation();  // a copy, because a commit replaces the original
   const Method& method = method_named(deformation.method);
   ImGui::SetNextItemWidth(-1);
   if (begin_combo("##method", method.label.c_str())) {
@@ -116,35 +116,36 @@ void method_section(Workspace& workspace) {
     wrapped_text(workspace.map().map().note);
 }
 
-/// A corner's own angles, and the tension of the edge behind it.
+/// Fields for a corner's angles and for the tension of the edge after it.
 void corner_angles(Workspace& workspace, Index vertex) {
   const Deformation deformation = workspace.shown.deformation();
   if (!has_method_for(deformation, MethodUse::corners) || workspace.mode == EditMode::rest) return;
-  if (!is_corner(deformation, vertex)) return ImGui::TextDisabled("It is no corner with angles.");
+  if (!is_corner(deformation, vertex))
+    return ImGui::TextDisabled("This point is not a corner with angles.");
   const PoseCorner pose = corner_at(deformation, vertex);
   const double turn = (pose.before + pose.after) / 2, opening = corner_opening(deformation, vertex);
   const auto edit = [&](const char* label, double radians, const char* step, auto change) {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
     edit_number(
-        label, radians * 180 / kPi, "%.1f", 0.5f, workspace, step,
+        label, radians * 180 / kPi, "%.1f degrees", 0.5f, workspace, step,
         [&](const Deformation& s, double degrees) { return change(s, degrees * kPi / 180); });
   };
-  edit("degrees turned", turn, "Turn corner", [&](const Deformation& s, double angle) {
+  edit("Turn", turn, "Turn corner", [&](const Deformation& s, double angle) {
     const PoseCorner now = corner_at(s, vertex);
     return corner_turned(s, vertex, angle - (now.before + now.after) / 2);
   });
-  edit("degrees opened", opening, "Open corner", [&](const Deformation& s, double angle) {
+  edit("Opening", opening, "Open corner", [&](const Deformation& s, double angle) {
     return corner_opened(s, vertex, (angle - corner_opening(s, vertex)) / 2);
   });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
   edit_number(
-      "tension after it", pose.tension, "%.2f", 0.01f, workspace, "Tension",
+      "Next edge tension", pose.tension, "%.2f", 0.01f, workspace, "Tension",
       [&](const Deformation& s, double tension) { return with_tension(s, vertex, tension); });
 }
 
 void one_handle(Workspace& workspace, Handle handle) {
   const Deformation deformation =
-      workspace.shown.deformation();  // a copy: commits replace what scene() refers to
+      workspace.shown.deformation();  // a copy, because a commit replaces the original
   const EditMode mode = workspace.mode;
   const Complex z = position_of(deformation, handle, mode);
   const bool pin = handle.kind == Handle::Kind::pin;
@@ -157,16 +158,18 @@ void one_handle(Workspace& workspace, Handle handle) {
               static_cast<int>(handle.index) + 1, mode == EditMode::rest ? "at rest" : "posed");
   const float speed = static_cast<float>(1 / workspace.display.viewport.zoom);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("x", z.real(), "%.3f", speed, workspace, "Move", [&](const Deformation& s, double x) {
-    return placed(s, handle, {x, position_of(s, handle, mode).imag()}, mode);
-  });
+  edit_number("x", z.real(), "%.1f px", speed, workspace, "Move",
+              [&](const Deformation& s, double x) {
+                return placed(s, handle, {x, position_of(s, handle, mode).imag()}, mode);
+              });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("y", z.imag(), "%.3f", speed, workspace, "Move", [&](const Deformation& s, double y) {
-    return placed(s, handle, {position_of(s, handle, mode).real(), y}, mode);
-  });
+  edit_number("y", z.imag(), "%.1f px", speed, workspace, "Move",
+              [&](const Deformation& s, double y) {
+                return placed(s, handle, {position_of(s, handle, mode).real(), y}, mode);
+              });
   if (handle.kind == Handle::Kind::stroke) return;
   if (!pin) {
-    ImGui::Text("Segment of degree %d", cage_of(deformation, mode).degree(handle.index));
+    ImGui::Text("Curve degree %d", cage_of(deformation, mode).degree(handle.index));
     for (const char* id : {"cage.raise", "cage.lower"}) {
       ImGui::SameLine();
       if (ImGui::SmallButton(id == std::string("cage.raise") ? "+" : "-")) run(id, workspace);
@@ -176,35 +179,36 @@ void one_handle(Workspace& workspace, Handle handle) {
   }
   int depth = deformation.pins[handle.index].depth;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (ImGui::InputInt("depth", &depth)) {
+  if (ImGui::InputInt("Depth", &depth)) {
     Deformation after = deformation;
     after.pins[handle.index].depth = std::clamp(depth, -kMaxDepth, kMaxDepth);
     workspace.commit_or_amend("Pin depth", std::move(after));
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "Where parts of the picture overlap, what is around a higher pin is drawn on top");
+        "Where parts of the picture overlap, the part around the pin of greater depth is on top");
   if (mode == EditMode::rest) return;
   if (const auto place = workspace.map().pin_image(deformation, static_cast<size_t>(handle.index)))
     if (const double off = std::abs(*place - z); off * workspace.display.viewport.zoom > 1)
-      ImGui::TextWrapped("The picture stays %.1f px short of it.", off);
+      ImGui::TextWrapped(
+          off < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.", off);
   bool turns = deformation.pins[handle.index].angle.has_value();
-  if (ImGui::Checkbox("Turns the picture", &turns)) {
+  if (ImGui::Checkbox("Fix rotation", &turns)) {
     Deformation after = deformation;
     after.pins[handle.index].angle = turns ? std::optional(0.0) : std::nullopt;
-    workspace.commit(turns ? "Pin turns" : "Free pin angle", after);
+    workspace.commit(turns ? "Fix rotation" : "Free rotation", after);
   }
   if (!deformation.pins[handle.index].angle ||
       !workspace.shown.deformation().pins[handle.index].angle)
     return;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("degrees", *deformation.pins[handle.index].angle * 180 / kPi, "%.1f", 0.5f, workspace,
-              "Turn pin", [&](const Deformation& s, double degrees) {
+  edit_number("Rotation", *deformation.pins[handle.index].angle * 180 / kPi, "%.1f degrees", 0.5f,
+              workspace, "Rotate pin", [&](const Deformation& s, double degrees) {
                 return turned(s, handle.index, degrees * kPi / 180);
               });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("scale", 100 * deformation.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
-              "Scale at pin", [&](const Deformation& s, double percent) {
+  edit_number("Scale", 100 * deformation.pins[handle.index].scale, "%.0f %%", 0.5f, workspace,
+              "Scale pin", [&](const Deformation& s, double percent) {
                 return scaled(s, handle.index,
                               std::max(percent, 1.0) / 100 / s.pins[handle.index].scale);
               });
@@ -213,25 +217,25 @@ void one_handle(Workspace& workspace, Handle handle) {
 void many_handles(Workspace& workspace) {
   const Selection selection = workspace.selection;
   const EditMode mode = workspace.mode;
-  ImGui::Text("%d handles, around", static_cast<int>(selection.size()));
+  ImGui::Text("%d handles, centered at", static_cast<int>(selection.size()));
   const Complex center = center_of(workspace.shown.deformation(), selection, mode);
   const float speed = static_cast<float>(1 / workspace.display.viewport.zoom);
   const auto moved_to = [&](const Deformation& deformation, Complex to) {
     return moved(deformation, selection, to - center_of(deformation, selection, mode), mode);
   };
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("x", center.real(), "%.3f", speed, workspace, "Move",
+  edit_number("x", center.real(), "%.1f px", speed, workspace, "Move",
               [&](const Deformation& s, double x) {
                 return moved_to(s, {x, center_of(s, selection, mode).imag()});
               });
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  edit_number("y", center.imag(), "%.3f", speed, workspace, "Move",
+  edit_number("y", center.imag(), "%.1f px", speed, workspace, "Move",
               [&](const Deformation& s, double y) {
                 return moved_to(s, {center_of(s, selection, mode).real(), y});
               });
 }
 
-/// A number that is 0 (or 100 %) again after each step: what is done is relative.
+/// A number field for relative changes. After each step it returns to `neutral`, 0 or 100 %.
 template <class Edit>
 void step_number(const char* label, double neutral, const char* format, Workspace& workspace,
                  const char* step, Edit edit) {
@@ -248,18 +252,19 @@ void step_number(const char* label, double neutral, const char* format, Workspac
   if (!ImGui::IsItemActive()) storage.SetFloat(id, static_cast<float>(neutral));
 }
 
-/// Turning and scaling by numbers, about the middle of what is selected.
+/// Fields that rotate and scale the selection about its center.
 void turn_and_scale(Workspace& workspace) {
   const Selection selection = workspace.selection;
   const EditMode mode = workspace.mode;
+  step_number("Rotate by", 0, "%.1f degrees", workspace, "Rotate",
+              [&](const Deformation& s, double degrees) {
+                const double angle = degrees * kPi / 180;
+                return transformed(s, selection,
+                                   Affine::turning(angle, center_of(s, selection, mode)), angle,
+                                   mode);
+              });
   step_number(
-      "turn by", 0, "%.1f degrees", workspace, "Turn", [&](const Deformation& s, double degrees) {
-        const double angle = degrees * kPi / 180;
-        return transformed(s, selection, Affine::turning(angle, center_of(s, selection, mode)),
-                           angle, mode);
-      });
-  step_number(
-      "scale by", 100, "%.1f %%", workspace, "Scale", [&](const Deformation& s, double percent) {
+      "Scale by", 100, "%.1f %%", workspace, "Scale", [&](const Deformation& s, double percent) {
         const double scale = std::max(percent, 1.0) / 100;
         return transformed(s, selection,
                            Affine::scaling(scale, scale, center_of(s, selection, mode)), 0, mode);
@@ -287,10 +292,10 @@ void selection_section(Workspace& workspace) {
   ImGui::NewLine();
 }
 
-/// "2 pins", and whether the method has no use for them.
+/// "2 pins", with a note if the method does not use them.
 std::string counted(size_t count, const std::string& what, bool used) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s") +
-         (count == 0 || used ? "" : " (at rest)");
+         (count == 0 || used ? "" : " (unused)");
 }
 
 void cage_section(Workspace& workspace) {
@@ -306,17 +311,16 @@ void cage_section(Workspace& workspace) {
   points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
   float margin = static_cast<float>(std::max(workspace.tools.auto_cage.margin, -1.0));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (ImGui::SliderFloat("margin", &margin, -1, 200, margin < 0 ? "automatic" : "%.0f px",
+  if (ImGui::SliderFloat("Margin", &margin, -1, 200, margin < 0 ? "Automatic" : "%.0f px",
                          ImGuiSliderFlags_AlwaysClamp))
     workspace.tools.auto_cage.margin = margin < 0 ? -1 : margin;
-  ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
+  ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
   const Action& action = workspace.actions.named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "A cage around the largest opaque part of the picture, in place of the present one");
+    ImGui::SetTooltip("Replaces the cage with one around the largest opaque part of the picture");
 }
 
 void heat_section(Workspace& workspace, const HeatScale& heat) {
@@ -336,7 +340,7 @@ void heat_section(Workspace& workspace, const HeatScale& heat) {
     ImGui::EndCombo();
   }
   if (is_heat(workspace.display.view)) {
-    ImGui::Checkbox("Fit the range to the map", &workspace.display.automatic_range);
+    ImGui::Checkbox("Fit color range to map", &workspace.display.automatic_range);
     ImGui::TextDisabled("%.3g to %.3g", heat.low, heat.high);
   }
   ImGui::Checkbox("Mesh", &workspace.display.show_mesh);
@@ -346,7 +350,7 @@ void history_section(Workspace& workspace) {
   const History& history = workspace.document.history();
   begin_part("history", {0, std::max(ImGui::GetContentRegionAvail().y,
                                      7 * ImGui::GetTextLineHeightWithSpacing())});
-  // Scrolls to the current step when that has changed, and otherwise leaves the list to the user.
+  // Scrolls to the current step when it has changed. Otherwise the user decides what is in view.
   int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);
   const bool moved =
       std::exchange(shown, static_cast<int>(history.index())) != static_cast<int>(history.index());
@@ -380,7 +384,7 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const auto section = [&](const char* title, bool opens, auto draw, bool has_to = false) {
     ImGui::SetNextItemOpen(opens || has_to, has_to ? ImGuiCond_Always : ImGuiCond_Appearing);
-    // A quiet line: what is in it matters more.
+    // Titles are subdued, because the contents of a section matter more.
     ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     const bool open = ImGui::CollapsingHeader(title);
@@ -391,9 +395,9 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
     ImGui::PopID();
     ImGui::Spacing();
   };
-  // First, because it alone does not move when others grow.
+  // First, because the first section does not move when others grow.
   section(
-      "Layers", true, [&] { layers.draw(workspace, scale); }, layers.naming());
+      "Layers", true, [&] { layers.draw(workspace, scale); }, layers.is_renaming());
   section("Method", true, [&] {
     method_section(workspace);
     convergence_section(workspace, scale);

@@ -1,4 +1,4 @@
-// What is being typed or dragged is kept by ImGui; the scene changes when it is done.
+// A name that is being typed is kept here. The scene changes when typing has ended.
 #include "app/panels/layer_panel.h"
 
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 constexpr const char *kShown = "\uf06e", *kHidden = "\uf070", *kLocked = "\uf023",
                      *kUnlocked = "\uf09c";
 
-/// A small button with one of two faces. Returns whether it was pressed.
+/// A small button with one of two icons. Returns whether it was pressed.
 bool toggle(const char* id, bool on, const char* on_face, const char* off_face, const char* tip,
             float width) {
   if (!on) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -29,10 +29,10 @@ bool toggle(const char* id, bool on, const char* on_face, const char* off_face, 
 void background_row(Workspace& workspace) {
   static constexpr const char* kIds[] = {"background.transparent", "background.color",
                                          "background.original"};
-  static constexpr const char* kNames[] = {"Transparent", "A colour", "The original"};
+  static constexpr const char* kNames[] = {"Transparent", "Color", "Original picture"};
   Scene scene = workspace.document.scene();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (begin_combo("background", kNames[static_cast<int>(scene.background.fill)])) {
+  if (begin_combo("Background", kNames[static_cast<int>(scene.background.fill)])) {
     for (int i = 0; i < 3; ++i)
       if (const Action& action = workspace.actions.named(kIds[i]);
           ImGui::Selectable(kNames[i], action.checked(workspace)))
@@ -40,7 +40,8 @@ void background_row(Workspace& workspace) {
     ImGui::EndCombo();
   }
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("What is seen and exported where the picture is transparent or has left");
+    ImGui::SetTooltip(
+        "What is shown and exported where the picture is transparent or has moved away");
   if (scene.background.fill != Background::Fill::color) return;
   float color[3];
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
@@ -56,23 +57,23 @@ void background_row(Workspace& workspace) {
 }  // namespace
 
 void LayerPanel::rename(const Scene& scene) {
-  named_ = scene.layer().id;
+  renamed_id_ = scene.layer().id;
   name_ = title_of_layer(scene, scene.edited);
-  starts_ = true;
+  focus_field_ = true;
 }
 
 void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
   ImGui::SetNextItemWidth(-1);
-  if (std::exchange(starts_, false)) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(focus_field_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputText("##name", &name_, ImGuiInputTextFlags_AutoSelectAll);
   if (!ImGui::IsItemDeactivated()) return;
   const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  named_ = 0;
+  renamed_id_ = 0;
   if (cancelled || name_.empty()) return;
   const Scene& scene = workspace.document.scene();
   Layer state = *scene.layers[layer];
   state.name = name_;
-  workspace.commit_layers("Name layer", with_layer_at(scene, layer, state));
+  workspace.commit_layers("Rename layer", with_layer_at(scene, layer, state));
 }
 
 void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
@@ -83,19 +84,19 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
     workspace.commit_layers(label, with_layer_at(workspace.document.scene(), layer, state));
   };
   if (toggle("shown", state.visible, kShown, kHidden,
-             state.visible ? "Shown; click hides it" : "Hidden; click shows it", 30 * s)) {
+             state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", 30 * s)) {
     state.visible = !state.visible;
     change(state.visible ? "Show layer" : "Hide layer");
   }
   ImGui::SameLine(0, 0);
   if (toggle("locked", state.locked, kLocked, kUnlocked,
-             state.locked ? "Locked; click unlocks it" : "Click locks it: edits are refused",
+             state.locked ? "Locked. Click to unlock." : "Unlocked. Click to prevent edits.",
              30 * s)) {
     state.locked = !state.locked;
     change(state.locked ? "Lock layer" : "Unlock layer");
   }
   ImGui::SameLine(0, 8 * s);
-  if (named_ == state.id) {
+  if (renamed_id_ == state.id) {
     draw_name(workspace, layer);
   } else {
     const std::string title = title_of_layer(workspace.document.scene(), layer);
@@ -106,8 +107,8 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
       if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
     }
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", edited ? "Edited; a double click renames it"
-                                     : "Click to edit this layer, double-click to rename it");
+      ImGui::SetTooltip("%s", edited ? "Current layer. Double-click to rename."
+                                     : "Click to edit this layer. Double-click to rename.");
   }
   ImGui::PopID();
 }
@@ -115,7 +116,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
 void LayerPanel::draw(Workspace& workspace, double scale) {
   const float s = static_cast<float>(scale);
   const size_t count = workspace.document.scene().layers.size();
-  // As many as fit without pushing everything else away.
+  // At most five rows, so that there is room for the other sections.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
   begin_part("rows",
              {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});

@@ -1,4 +1,4 @@
-// The inspector's list of layers, and what is behind them.
+// The inspector's list of layers, and the background.
 #pragma once
 
 #include "edit/workspace.h"
@@ -7,21 +7,21 @@ namespace holomorph {
 
 class LayerPanel {
  public:
-  /// The edited layer's name is typed from now on.
+  /// Lets the user type a name for the edited layer.
   void rename(const Scene& scene);
-  /// Another document.
-  void forget() { named_ = 0; }
-  /// Whether a name is typed, which has to be seen.
-  bool naming() const { return named_ != 0; }
+  /// To be called for another document.
+  void forget() { renamed_id_ = 0; }
+  /// Whether a name is being typed. Its field must be visible then.
+  bool is_renaming() const { return renamed_id_ != 0; }
   void draw(Workspace& workspace, double scale);
 
  private:
   void draw_row(Workspace& workspace, size_t layer, float s);
   void draw_name(Workspace& workspace, size_t layer);
 
-  int named_ = 0;  ///< the layer whose name is typed; 0: none
+  int renamed_id_ = 0;  ///< id of the layer whose name is being typed; 0: none
   std::string name_;
-  bool starts_ = false;
+  bool focus_field_ = false;
 };
 
 }  // namespace holomorph

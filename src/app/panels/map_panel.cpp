@@ -1,4 +1,4 @@
-// Marks come with words: no colour says anything alone.
+// Colored marks come with words, because not everyone can tell colors apart.
 #include "app/panels/map_panel.h"
 
 #include <imgui.h>
@@ -18,7 +18,7 @@ void action_button(const char* id, const char* text, Workspace& workspace) {
   tooltip_of(action);
 }
 
-/// A polyline of log energy over log of the iteration (the first one counts as 1).
+/// Plots the logarithm of the energy over the logarithm of the iteration, counted from 1.
 void plot(const std::vector<double>& energies, int shown, double scale) {
   const float s = static_cast<float>(scale), height = 84 * s;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -46,8 +46,8 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
   ImGui::Dummy({width, height});
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "The energy after each iteration, both on logarithmic scales.\n"
-        "Lengths are in units of the cage's perimeter / 2 pi.");
+        "Details: the energy after each iteration, on logarithmic axes.\n"
+        "The unit of length is the cage's perimeter divided by 2 pi.");
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ void convergence_section(Workspace& workspace, double scale) {
   ImGui::SameLine();
   action_button("map.restart", "\uf049", workspace);
   ImGui::SameLine();
-  ImGui::Text("Step %d of %d", shown, last);
-  ImGui::TextDisabled("energy %.3g", map.energies[static_cast<size_t>(shown)]);
+  ImGui::Text("Iteration %d of %d", shown, last);
+  ImGui::TextDisabled("Details: energy %.3g", map.energies[static_cast<size_t>(shown)]);
 }
 
 void injectivity_section(Workspace& workspace, Theme theme) {
@@ -86,11 +86,11 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     ImGui::PopID();
   };
   const double turns = found.turning_number;
-  const int winds = static_cast<int>(std::lround(turns)) - 1;
+  const int extra_turns = static_cast<int>(std::lround(turns)) - 1;
   if (!found.folds()) {
-    ImGui::Text("\uf00c Nothing folds");
+    ImGui::Text("\uf00c No folds");
   } else {
-    ImGui::TextColored(warning, turns < 0 ? "\uf071 Lies on its back" : "\uf071 Folds");
+    ImGui::TextColored(warning, turns < 0 ? "\uf071 Flipped over" : "\uf071 Folds");
     if (!found.folds_at.empty()) {
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
@@ -99,25 +99,26 @@ void injectivity_section(Workspace& workspace, Theme theme) {
         ImGui::TextColored(warning, "in %d places", static_cast<int>(found.folds_at.size()));
     }
   }
-  ImGui::TextDisabled("Boundary turns %.2f times", turns);
+  ImGui::TextDisabled("Details: turning number %.0f", turns);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "The turning number of the picture's boundary: 1 unless the picture\n"
-        "winds around a branch point or lies on its back.");
-  if (winds > 0)
-    ImGui::TextColored(warning, "It winds around %d branch point%s", winds, winds == 1 ? "" : "s");
-  ImGui::TextDisabled("Least stretch %.3g", found.least_stretch);
+        "How many times the edge of the picture turns: 1 unless the picture\n"
+        "overlaps itself at a point or is flipped over.");
+  if (extra_turns > 0)
+    ImGui::TextColored(warning, "Overlaps itself at %d point%s", extra_turns,
+                       extra_turns == 1 ? "" : "s");
+  ImGui::TextDisabled("Details: smallest size %.0f %%", 100 * found.least_stretch);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "min |f_z| - |f_zbar|: the length that is left of a unit of the picture,\n"
-        "where and in the direction in which it shrinks most; below 0 it is turned over.");
+        "How much the most compressed spot keeps of its size, in the direction\n"
+        "in which it shrinks most: below 0 % it is flipped over.");
   if (found.crossing) {
-    ImGui::TextDisabled("Parts lie over each other");
-    show(*found.crossing, "The picture's boundary crosses itself here.");
+    ImGui::TextDisabled("Parts overlap");
+    show(*found.crossing, "The edge of the picture crosses itself here.");
   }
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
     ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(marked.size()),
-                        marked.size() == 1 ? "place" : "places");
+                        marked.size() == 1 ? "point" : "points");
   const Action& fold_free = workspace.actions.named("map.fold_free");
   if (found.folds() && fold_free.enabled(workspace))
     action_button("map.fold_free", fold_free.label.c_str(), workspace);

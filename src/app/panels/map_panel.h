@@ -1,4 +1,4 @@
-// What the inspector says of the map itself.
+// The inspector's sections about the map itself.
 #pragma once
 
 #include "edit/workspace.h"
@@ -6,9 +6,10 @@
 
 namespace holomorph {
 
-/// Energy over iterations, both logarithmic, and what plays them; nothing for maps without.
+/// Plots the energy over the iterations, with buttons that play them. Draws nothing for maps
+/// without iterations.
 void convergence_section(Workspace& workspace, double scale);
-/// Whether the picture lies over itself, where, and what to do about it.
+/// Says whether and where the picture folds or overlaps itself, and what to do about it.
 void injectivity_section(Workspace& workspace, Theme theme);
 
 }  // namespace holomorph

@@ -1,9 +1,9 @@
-// ImGui goes through a window's items itself; it has to be told where to begin.
+// ImGui itself moves between the items of a window, but has to be told where to begin.
 #include "app/panels/panel_focus.h"
 
 #define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
-// After imgui.h. Focusing an item that nobody has pointed at is not in the public part.
+// After imgui.h, whose functions cannot focus an item that is not under the pointer.
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace holomorph {
 namespace {
 
-/// In the order in which they are gone through.
+/// Names of windows, in the order in which F6 visits them.
 constexpr const char* kPanels[] = {"Welcome",   "Cage offer",  "Missing picture",
                                    "Inspector", "Timeline",    "Surface",
-                                   "Toolbar",   "First steps", "Projections onto the same bounds"};
+                                   "Toolbar",   "First steps", "Compare projections"};
 constexpr const char* kMenuBar = "##MainMenuBar";  // ImGui's name
 
 ImGuiWindow* shown(const char* name) {

@@ -1,24 +1,24 @@
-// Which panel takes the keys, where it is not the canvas (F6, and F10 for the menu bar).
+// Which panel takes the keys instead of the canvas (F6, and F10 for the menu bar).
 #pragma once
 
 namespace holomorph {
 
 class PanelFocus {
  public:
-  /// The next of the panels that are shown, and after the last one the canvas again.
+  /// Gives the keys to the next visible panel, and after the last one back to the canvas.
   void next();
-  /// The menu bar, which is being drawn, with this menu chosen.
+  /// Gives the keys to this menu of the menu bar. To be called while the menu bar is being drawn.
   void go_to_menu(const char* name);
-  /// Whether a panel has the keys.
+  /// Whether a panel takes the keys.
   bool held() const { return panel_ != nullptr; }
-  /// The canvas has them again.
+  /// Gives the keys back to the canvas.
   void leave();
-  /// Once a frame: lets go of a panel that is gone, and of the menu bar when an entry was chosen;
-  /// goes along where a click has led to another one.
+  /// To be called once per frame. Leaves a panel that is no longer visible, and the menu bar once
+  /// an entry was chosen. When a click has led to another panel, that one takes the keys.
   void look();
 
  private:
-  const char* panel_ = nullptr;  ///< the name of its window
+  const char* panel_ = nullptr;  ///< the name of its window; null: the canvas
   bool chooses_ = false;         ///< Enter or Space was pressed in a menu
 };
 

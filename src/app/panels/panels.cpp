@@ -25,8 +25,8 @@ std::vector<Look> looks(const Preferences& now) {
   }
   for (const double scale : {0.0, 1.0, 1.25, 1.5, 2.0}) {
     const std::string label =
-        scale == 0 ? "As the display" : std::to_string(std::lround(100 * scale)) + " %";
-    all.push_back({"Size of the interface", label, now});
+        scale == 0 ? "Automatic" : std::to_string(std::lround(100 * scale)) + " %";
+    all.push_back({"Interface size", label, now});
     all.back().preferences.ui_scale = scale;
   }
   return all;
@@ -59,7 +59,8 @@ void end_card() {
 bool text_row(int number, const std::string& text, bool selected, ImVec2 size,
               ImGuiSelectableFlags flags) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::CalcTextSize(text.c_str());
-  if (size.x <= 0 && ImGui::GetContentRegionAvail().x < room.x) size.x = room.x;  // as in menus
+  if (size.x <= 0 && ImGui::GetContentRegionAvail().x < room.x)
+    size.x = room.x;  // at least as wide as the text, as in menus
   ImGui::PushID(number);
   const bool chosen = ImGui::Selectable("##row", selected, flags, size);
   ImGui::PopID();
@@ -105,10 +106,11 @@ void menu_of(const char* name, Workspace& workspace) {
 
 void points_slider(Workspace& workspace, float width) {
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("points", &workspace.tools.auto_cage.vertices, 4, 200, "%d",
+  ImGui::SliderInt("Points", &workspace.tools.auto_cage.vertices, 4, 200, "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("For the next cage that is made from the picture; an opaque one gets four");
+    ImGui::SetTooltip(
+        "Number of points of the next cage made from the picture. An opaque picture gets four.");
 }
 
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus) {
@@ -129,18 +131,18 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelF
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
       points_slider(workspace, 160);
-      ImGui::Checkbox("curved", &workspace.tools.auto_cage.curved);
+      ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
     }
     if (escape) ImGui::CloseCurrentPopup();
     if (std::string_view(name) == "View") {
       ImGui::Separator();
       look_menu("Theme", preferences, answer);
-      look_menu("Size of the interface", preferences, answer);
+      look_menu("Interface size", preferences, answer);
       if (ImGui::MenuItem("First steps", "", preferences.hints)) {
         preferences.hints = !preferences.hints;
         answer.preferences_changed = true;
       }
-      if (ImGui::MenuItem("The desktop's file dialogs", "", preferences.native_dialogs)) {
+      if (ImGui::MenuItem("System file dialogs", "", preferences.native_dialogs)) {
         preferences.native_dialogs = !preferences.native_dialogs;
         answer.preferences_changed = true;
       }
@@ -167,7 +169,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
   ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar),
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});  // low buttons keep their icons whole
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});  // keeps icons whole in low buttons
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 5 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   static constexpr const char* kIds[] = {"tool.select",
@@ -191,17 +193,17 @@ void draw_toolbar(Workspace& workspace, double scale) {
                                          "view.fit",
                                          "view.timeline",
                                          "help.keys"};
-  // All buttons and lines fit into any height.
+  // Buttons shrink so that all buttons and lines fit into the height.
   const long lines = std::ranges::count(kIds, std::string_view(),
                                         [](const char* id) { return std::string_view(id); });
   const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
               room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s,
               gap = ImGui::GetStyle().ItemSpacing.y;
-  // Where they would become too low for their icons they stand in two columns.
+  // If that makes them too low for their icons, they form two columns.
   const bool pairs = room / buttons - gap < 24 * s;
   const float rows = pairs ? std::ceil(buttons / 2) + static_cast<float>(lines) / 2 : buttons;
   const ImVec2 button((pairs ? 18.5f : 40) * s, std::min(38 * s, room / rows - gap));
-  bool left = true;  // the next one stands at the left
+  bool left = true;  // the next one is in the left column
   for (const char* id : kIds) {
     if (!*id) {
       left = true;

@@ -1,4 +1,5 @@
-// At the left what to do, or what is wrong; at the right figures, which are never cut.
+// The left part says what to do or what is wrong. The right part has figures, which are never cut
+// off.
 #include <algorithm>
 #include <cstdio>
 
@@ -8,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-/// Green that is readable on the bar of either theme.
+/// A green that is readable on the bar of every theme.
 ImVec4 proved_color() {
   const ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
   return bar.x > 0.5f ? ImVec4(0.05f, 0.45f, 0.15f, 1) : ImVec4(0.45f, 0.85f, 0.5f, 1);
@@ -60,23 +61,23 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
     used = std::min(used, static_cast<int>(sizeof right) - 1);
   };
   const DragOptions& drag_options = workspace.tools.drag;
-  if (drag_options.soft) add("Soft, %.0f   ", drag_options.reach);
+  if (drag_options.soft) add("Soft %.0f px   ", drag_options.reach);
   if (drag_options.symmetric) add("%s   ", "Symmetry");
   if (workspace.tools.snaps) add("%s   ", "Snap");
-  if (status.cursor) add("%.1f, %.1f   ", status.cursor->real(), status.cursor->imag());
+  if (status.cursor) add("%.0f, %.0f px   ", status.cursor->real(), status.cursor->imag());
   if (status.cursor_at_rest)
-    add("from %.1f, %.1f   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
+    add("from %.0f, %.0f px   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
   if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.display.viewport.zoom);
   if (map.has_map()) {
     add("%s: ", method_named(workspace.shown.deformation().method).label.c_str());
     const bool closed_form = map.map().status == SampledMap::Status::exact;
-    add("%s%.2f ms%s   ",
+    add("%s%.1f ms%s   ",
         closed_form ? "" : (std::string(name_of(map.map().status)) + ", ").c_str(),
         map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
   }
   if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
   const float width = ImGui::CalcTextSize(right).x;
-  // Cut off before it reaches the figures.
+  // The left part is cut off before it reaches the figures.
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
   if (!note.empty()) {

@@ -1,4 +1,4 @@
-// Keys are marks on a ruler; the line is the time that is shown.
+// Keyframes are marks on a ruler. A line marks the current time.
 #include "app/panels/timeline_panel.h"
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace holomorph {
 namespace {
 
-/// Seconds on the ruler and where they are in window px.
+/// Converts between seconds on the ruler and window px.
 struct Ruler {
   float left = 0, width = 1, top = 0, bottom = 0;
   double length = 1;
@@ -19,7 +19,7 @@ struct Ruler {
   double time(float x) const { return static_cast<double>((x - left) / width) * length; }
 };
 
-/// A step of 1, 2 or 5 times a power of ten that is at least so many seconds.
+/// The smallest step of at least `least` seconds that is 1, 2 or 5 times a power of ten.
 double tick_of(double least) {
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -45,8 +45,9 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   ImGui::SameLine(0, 3);
 }
 
-/// Beside the last one; a gesture that starts on it is a step of its own.
-void tell_of_item(Workspace& workspace, const char* tooltip) {
+/// Shows the tooltip of the item drawn last; the next item follows in the same line. A gesture that
+/// starts on the item becomes a separate step.
+void finish_item(Workspace& workspace, const char* tooltip) {
   if (ImGui::IsItemActivated()) workspace.end_mergeable_step();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
   ImGui::SameLine();
@@ -58,36 +59,36 @@ void draw_time(Workspace& workspace, float s) {
   if (ImGui::DragScalar("##time", ImGuiDataType_Double, &time, 0.01f, nullptr, nullptr, "%.2f s") &&
       std::isfinite(time))
     workspace.go_to_time(time);
-  tell_of_item(workspace, "The time that is shown");
+  finish_item(workspace, "Current time");
 }
 
 void draw_blend(Workspace& workspace, float s) {
   AnimationSettings settings = workspace.document.scene().animation;
   int blend = settings.linear_blend ? 1 : 0;
   ImGui::SetNextItemWidth(104 * s);
-  if (ImGui::Combo("##blend", &blend, "Shapes\0Places\0")) {
+  if (ImGui::Combo("##blend", &blend, "Shapes\0Positions\0")) {
     settings.linear_blend = blend == 1;
-    workspace.commit_layers("In-betweens", with_animation(workspace.document.scene(), settings));
+    workspace.commit_layers("Blending", with_animation(workspace.document.scene(), settings));
   }
-  tell_of_item(workspace,
-               "What in-betweens blend: turns and sizes, so that shapes keep theirs, or, to "
-               "compare, places");
+  finish_item(workspace,
+              "What to blend between keyframes: shapes (rotations and sizes) or, for comparison, "
+              "positions");
 }
 
-/// What the key at the time has.
+/// Draws the easing and the whole turns of the keyframe at the current time.
 void draw_key_numbers(Workspace& workspace, float s) {
   Deformation deformation = workspace.shown.own();
   const size_t key = key_at(deformation, workspace.shown.timeline.time);
   if (key >= deformation.keyframes.size()) return;
-  if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // its menu has them, too
+  if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // the keyframe's menu has them, too
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
   int ease = static_cast<int>(deformation.keyframes[key].ease);
   ImGui::SetNextItemWidth(104 * s);
   if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
-    workspace.commit("Ease", with_ease(deformation, key, static_cast<Ease>(ease)),
+    workspace.commit("Easing", with_ease(deformation, key, static_cast<Ease>(ease)),
                      EditBase::document);
-  tell_of_item(workspace, "How this key goes on to the next one");
+  finish_item(workspace, "Easing from this keyframe to the next one");
   if (key == 0) return;
   int& turns = deformation.keyframes[key].turns;
   ImGui::SetNextItemWidth(96 * s);
@@ -95,10 +96,11 @@ void draw_key_numbers(Workspace& workspace, float s) {
     turns = std::clamp(turns, -kMaxTurns, kMaxTurns);
     workspace.commit_or_amend("Whole turns", deformation, EditBase::document);
   }
-  tell_of_item(workspace, "Whole turns on the way from the key before, beyond the shortest way");
+  finish_item(workspace, "Extra whole turns between the previous keyframe and this one");
 }
 
-/// Round ones go on smoothly, diamonds evenly, squares hold; hollow ones do not play.
+/// Draws a keyframe: a circle for smooth easing, a diamond for linear, a square for hold. Hollow
+/// ones do not play.
 void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool plays) {
   if (ease == Ease::smooth) {
     r *= 0.85f;
@@ -116,7 +118,7 @@ void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool
     list.AddPolyline(corners.data(), 4, color, ImDrawFlags_Closed, 1.5f);
 }
 
-/// To a frame, unless Alt is held.
+/// Snaps a time to a frame, unless Alt is held.
 double snapped(const Scene& scene, double time) {
   if (ImGui::GetIO().KeyAlt) return std::clamp(time, 0.0, kMaxTime);
   return time_of_frame(scene, std::max(0, frame_at(scene, time)));
@@ -132,7 +134,7 @@ std::optional<size_t> key_under_pointer(const Deformation& deformation, const Ru
   return under;
 }
 
-/// The menu of the key at the time, while it is open.
+/// Draws the menu of the keyframe at the current time while the menu is open.
 void draw_key_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("key")) return;
   const Deformation deformation = workspace.shown.own();
@@ -141,17 +143,17 @@ void draw_key_menu(Workspace& workspace) {
     for (const auto& [label, ease] :
          {std::pair("Smooth", Ease::smooth), {"Linear", Ease::linear}, {"Hold", Ease::hold}})
       if (ImGui::MenuItem(label, "", deformation.keyframes[key].ease == ease))
-        workspace.commit("Ease", with_ease(deformation, key, ease), EditBase::document);
+        workspace.commit("Easing", with_ease(deformation, key, ease), EditBase::document);
     ImGui::Separator();
     int turns = deformation.keyframes[key].turns;
     ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
-    if (key > 0 && ImGui::InputInt("whole turns before it", &turns)) {
+    if (key > 0 && ImGui::InputInt("Whole turns before it", &turns)) {
       Deformation after = deformation;
       after.keyframes[key].turns = std::clamp(turns, -kMaxTurns, kMaxTurns);
       workspace.commit_or_amend("Whole turns", after, EditBase::document);
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Delete key", "Del")) run("time.delete_key", workspace);
+    if (ImGui::MenuItem("Delete keyframe", "Del")) run("time.delete_key", workspace);
   }
   ImGui::EndPopup();
 }
@@ -197,7 +199,7 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
   ImGui::SetNextItemWidth(76 * s);
   if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.5g fps")) rate_ = rate;
   const bool typed = ImGui::IsItemDeactivatedAfterEdit();
-  tell_of_item(workspace, "Frames a second: what steps and exports go by");
+  finish_item(workspace, "Frames per second, for stepping and export");
   if (!typed || !rate_) return;
   rate = *std::exchange(rate_, std::nullopt);
   if (!std::isfinite(rate)) return;
@@ -207,7 +209,7 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  // Asked anew each time: commits replace it.
+  // Looked up each time, because commits replace it.
   const auto own = [&]() -> const Deformation& { return workspace.shown.own(); };
   if (held_ == Held::nothing)
     length_ = std::max(
@@ -225,7 +227,7 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
     if (hovered) {
       workspace.go_to_time(own().keyframes[*hovered].time);
       workspace.shown.timeline.chosen = true;
-      workspace.selection.clear();  // Delete means the key now
+      workspace.selection.clear();  // so that Delete removes the keyframe
     }
   }
   if (ImGui::IsItemActive()) {
@@ -241,13 +243,13 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
   if (hovered && held_ == Held::nothing)
     ImGui::SetTooltip("%.2f s%s", own().keyframes[*hovered].time,
                       fits(own(), own().keyframes[*hovered].pose)
-                          ? "; drag to move, right-click for more"
-                          : ": it has other points than the scene, and does not play");
+                          ? ". Drag to move; right-click for more."
+                          : ". Does not play: its points differ from the scene's.");
   draw_ruler(workspace, ruler, hovered, s);
   draw_key_menu(workspace);
 }
 
-/// Takes the time or a key along.
+/// Moves what the pointer holds, the current time or a keyframe, to a time.
 void TimelinePanel::drag(Workspace& workspace, double time, float s) {
   const Deformation& own = workspace.shown.own();
   if (held_ == Held::time && time != workspace.shown.timeline.time) workspace.go_to_time(time);
@@ -255,7 +257,7 @@ void TimelinePanel::drag(Workspace& workspace, double time, float s) {
       time == own.keyframes[key_].time || key_at(own, time) < own.keyframes.size())
     return;
   auto [after, number] = with_key_moved(own, key_, time);
-  workspace.commit_or_amend("Move key", after, EditBase::document);
+  workspace.commit_or_amend("Move keyframe", after, EditBase::document);
   if (workspace.shown.own() != after) return;
   key_ = number;
   workspace.go_to_time(time);

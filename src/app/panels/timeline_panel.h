@@ -1,4 +1,4 @@
-// The timeline under the canvas: buttons, a ruler of times, and the keys on it.
+// The timeline below the canvas: buttons, a time ruler, and the keyframes on it.
 #pragma once
 
 #include "edit/workspace.h"
@@ -15,10 +15,10 @@ class TimelinePanel {
   void draw_track(Workspace& workspace, float scale);
   void drag(Workspace& workspace, double time, float scale);
 
-  Held held_ = Held::nothing;   ///< by the pointer
-  size_t key_ = 0;              ///< the one that is held
-  std::optional<double> rate_;  ///< while it is being typed
-  double length_ = 2;           ///< of the ruler in seconds, which stays while something is held
+  Held held_ = Held::nothing;   ///< what the pointer holds
+  size_t key_ = 0;              ///< index of the keyframe that is held
+  std::optional<double> rate_;  ///< frame rate while it is being typed
+  double length_ = 2;  ///< of the ruler in seconds; does not change while something is held
 };
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// One small window a message, below each other.
+// One small window for each message, stacked.
 #include "app/panels/toasts.h"
 
 #include <utility>
@@ -14,11 +14,11 @@ constexpr double kShownMs = 4500, kProblemMs = 9000;
 
 void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   const size_t step = workspace.document.history().index();
-  // A place that a message is about is another one after the next step.
+  // After the next step, the point that a message is about is no longer the same.
   std::erase_if(shown_,
                 [&](const Shown& shown) { return shown.toast.where && shown.step != step; });
   for (Toast& toast : std::exchange(workspace.messages.toasts, {})) {
-    // Said again it is renewed, not said twice.
+    // A repeated message is shown longer, not twice.
     std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
@@ -26,8 +26,8 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const Viewport& view = workspace.display.viewport;
   const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
-  // Below the menu, but from the status bar upwards over the welcome page, which begins with its
-  // title.
+  // Stacked downward from the menu; on the welcome page, whose title is at the top, upward from the
+  // status bar.
   const bool upwards = workspace.document.empty();
   float y = static_cast<float>(upwards ? view.top + view.height - 6 * style.scale
                                        : view.top + 6 * style.scale);

@@ -1,4 +1,4 @@
-// Short messages over the canvas that leave by themselves.
+// Short messages over the canvas that disappear by themselves.
 #pragma once
 
 #include "app/canvas/overlay.h"
@@ -7,18 +7,18 @@ namespace holomorph {
 
 class Toasts {
  public:
-  /// Takes over what the workspace has to say and draws what is still to be read. A message about a
-  /// place marks it, and has a button that goes there.
+  /// Takes the messages of the workspace and draws those that have not expired. A message about a
+  /// point marks it and has a button that goes there.
   void draw(Workspace& workspace, const OverlayStyle& style);
   bool empty() const { return shown_.empty(); }
-  /// Forgets what has been shown long enough; returns whether anything was.
+  /// Removes messages that have been shown long enough. Returns whether there were any.
   bool expire();
 
  private:
   struct Shown {
     Toast toast;
     double until;
-    size_t step;  ///< of the history, when it was said
+    size_t step;  ///< of the history, when the message came
   };
   std::vector<Shown> shown_;
 };

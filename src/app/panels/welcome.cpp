@@ -1,4 +1,4 @@
-// The page of an empty window: samples, what was open lately, and work that was not saved.
+// The welcome page of an empty window: samples, recent files and unsaved work.
 #include <algorithm>
 
 #include "app/panels/panels.h"
@@ -21,7 +21,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   ImGui::PopFont();
   ImGui::TextDisabled("Bend a picture: give it a cage, then drag cage points and pins.");
   ImGui::Dummy({0, 8 * s});
-  if (ImGui::Button("\uf07c  Open a picture or a scene", {270 * s, 40 * s}))
+  if (ImGui::Button("\uf07c  Open a picture or scene", {270 * s, 40 * s}))
     run("file.open", workspace);
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (40 * s - ImGui::GetTextLineHeight()) / 2 - 5 * s);
@@ -29,7 +29,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   if (!recoverable.empty()) {
     ImGui::Dummy({0, 8 * s});
     ImGui::PushStyleColor(ImGuiCol_Text, canvas_colors(preferences.theme).warning);
-    ImGui::TextUnformatted("Work that was not saved:");
+    ImGui::TextUnformatted("Unsaved work:");
     ImGui::PopStyleColor();
     for (const auto& [path, label, origin] : recoverable) {
       ImGui::PushID(path.c_str());
@@ -38,7 +38,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
       ImGui::SameLine();
       if (ImGui::Button("Recover")) answer.recover = path;
       ImGui::SameLine();
-      // Twice, because it cannot be undone.
+      // Asks twice, because it cannot be undone.
       bool& sure = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("sure"));
       if (ImGui::Button(sure ? "Really discard?###discard" : "Discard###discard")) {
         if (sure) answer.discard = path;
@@ -49,7 +49,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   }
   ImGui::Dummy({0, 10 * s});
   ImGui::TextUnformatted("Samples");
-  // All in one row, if that does not make them too small.
+  // All tiles are in one row if that does not make them too small.
   const float count = static_cast<float>(std::max<size_t>(samples.size(), 1)),
               tile = std::clamp((display.x - 116 * s) / count - 20 * s, 110 * s, 200 * s);
   for (size_t i = 0; i < samples.size(); ++i) {

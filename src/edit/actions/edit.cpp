@@ -31,8 +31,7 @@ void scale_radius(Workspace& w) {
     return;
   }
   w.tools.drag.soft = true;
-  w.tools.drag.reach =
-      std::clamp(w.tools.drag.reach * up / down, kMinReach, kMaxReach);
+  w.tools.drag.reach = std::clamp(w.tools.drag.reach * up / down, kMinReach, kMaxReach);
 }
 
 void select_all(Workspace& w) {
