@@ -3,7 +3,7 @@
 
 namespace holomorph {
 
-LiveMap& LayerMaps::of(int id) const {
+LiveMap& LayerMaps::of(int id) {
   std::unique_ptr<LiveMap>& map = maps_[id];
   if (map) return *map;
   if (!spare_.empty()) {
@@ -14,6 +14,11 @@ LiveMap& LayerMaps::of(int id) const {
     if (wake_) map->on_ready(wake_);
   }
   return *map;
+}
+
+const LiveMap& LayerMaps::of(int id) const {
+  const auto found = maps_.find(id);
+  return found == maps_.end() ? none_ : *found->second;
 }
 
 bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {

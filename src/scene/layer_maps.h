@@ -19,7 +19,9 @@ class LayerMaps {
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
   /// The map of the layer with this id, created if it has none yet.
-  LiveMap& of(int id) const;
+  LiveMap& of(int id);
+  /// The same to look at; an empty map if it has none yet.
+  const LiveMap& of(int id) const;
   /// Updates the maps of all visible layers except the edited one for the given moment, and
   /// releases the maps of deleted layers. Returns whether any map changed.
   bool update_others(const Scene& scene, const Moment& moment);
@@ -29,10 +31,10 @@ class LayerMaps {
  private:
   MeshOptions options_;
   std::function<void()> wake_;
-  // Maps are created on first request. Unused maps are kept for later layers, so that no caller has
-  // to wait for a worker to end.
-  mutable std::map<int, std::unique_ptr<LiveMap>> maps_;
-  mutable std::vector<std::unique_ptr<LiveMap>> spare_;
+  // Unused maps are kept for later layers, so that no caller has to wait for a worker to end.
+  std::map<int, std::unique_ptr<LiveMap>> maps_;
+  std::vector<std::unique_ptr<LiveMap>> spare_;
+  LiveMap none_;
 };
 
 }  // namespace holomorph

@@ -18,7 +18,7 @@ void LiveMap::order(const Deformation& deformation) {
   drawn_ = drawn_mesh(prepared_->mesh, depths_);
 }
 
-LiveMap::LiveMap(MeshOptions options) : options_(options), worker_([this] { work(); }) {}
+LiveMap::LiveMap(MeshOptions options) : options_(options) {}
 
 LiveMap::~LiveMap() {
   {
@@ -26,7 +26,7 @@ LiveMap::~LiveMap() {
     stop_ = true;
   }
   changed_.notify_all();
-  worker_.join();
+  if (worker_.joinable()) worker_.join();
 }
 
 void LiveMap::work() {
@@ -218,6 +218,7 @@ bool LiveMap::update(const Deformation& deformation, EvalOptions options, const 
     failed_ = false;
     const std::lock_guard lock(mutex_);
     ++generation_;
+    if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
     waiting_ = deformation;
     waiting_keys_ = requested_keys_;
     waiting_blend_ = moment_.linear_blend;

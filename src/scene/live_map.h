@@ -59,6 +59,7 @@ class LiveMap {
   /// The maps at the posed deformation's keyframes. They are up to date while a time is displayed,
   /// and after follow_keys().
   const Motion& motion() const { return motion_; }
+  Motion& motion() { return motion_; }
   void follow_keys() {
     if (prepared_ && posed_) motion_.follow(*posed_, moment_.linear_blend, prepared_);
   }
@@ -110,7 +111,7 @@ class LiveMap {
   unsigned generation_ = 0;  ///< increases with every request
   unsigned document_ = 0;    ///< increases in clear(); the worker's result is then dropped
   bool working_ = false, finished_ = false, stop_ = false;
-  std::thread worker_;
+  std::thread worker_;  ///< started by the first request
 };
 
 }  // namespace holomorph

@@ -150,7 +150,7 @@ void Motion::align(const Deformation& deformation) {
   }
 }
 
-const Inbetween::Shape& Motion::shape_at(size_t key) const {
+const Inbetween::Shape& Motion::shape_at(size_t key) {
   constexpr size_t kKept = 12;
   const auto known = shapes_.find(key);
   if (known != shapes_.end()) return known->second;
@@ -163,7 +163,7 @@ const Inbetween::Shape& Motion::shape_at(size_t key) const {
       .first->second;
 }
 
-VectorXc Motion::slopes_at(size_t key) const {
+VectorXc Motion::slopes_at(size_t key) {
   const bool passes = key > 0 && key + 1 < keys_.size() && keys_[key - 1].ease == Ease::smooth &&
                       keys_[key].ease == Ease::smooth;
   if (!passes) return between_->slopes(nullptr, shape_at(key), nullptr, 1, 1);
@@ -172,7 +172,7 @@ VectorXc Motion::slopes_at(size_t key) const {
                           keys_[key + 1].time - keys_[key].time);
 }
 
-const Motion::Slopes& Motion::slopes_from(size_t key) const {
+const Motion::Slopes& Motion::slopes_from(size_t key) {
   if (!slopes_ || slopes_->from != key) slopes_ = Slopes{key, slopes_at(key), slopes_at(key + 1)};
   return *slopes_;
 }
@@ -216,7 +216,7 @@ std::vector<Motion::KeyInterval> Motion::key_intervals() const {
   return all;
 }
 
-double Motion::rotation_at(double time) const {
+double Motion::rotation_at(double time) {
   const auto [i, u] = position_of(time);
   const double from = keys_[i].turned;
   if (u == 0) return from;
@@ -224,7 +224,7 @@ double Motion::rotation_at(double time) const {
   return from + s * (keys_[i + 1].turned - from);
 }
 
-void preserve_turns(Deformation& deformation, const Deformation& before, const Motion& motion) {
+void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion) {
   const auto is_new = [&](const Keyframe& key) {
     return key_at(before, key.time) == before.keyframes.size();
   };
@@ -246,7 +246,7 @@ void preserve_turns(Deformation& deformation, const Deformation& before, const M
   }
 }
 
-VectorXc Motion::map_at(double time) const {
+VectorXc Motion::map_at(double time) {
   const auto [i, u] = position_of(time);
   const Key& from = keys_[i];
   if (u == 0) return from.f;
@@ -265,7 +265,7 @@ VectorXc Motion::map_at(double time) const {
   return f;
 }
 
-Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) const {
+Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) {
   const Mesh& mesh = between_->mesh();
   const auto [known, fresh] = locations_.try_emplace({rest.real(), rest.imag()});
   if (fresh) known->second = locate_near(mesh, rest);
@@ -277,7 +277,7 @@ Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) const {
 }
 
 Deformation Motion::deformation_at(const Deformation& deformation, double time,
-                                   const VectorXc& map) const {
+                                   const VectorXc& map) {
   const auto [i, u] = position_of(time);
   const Key& a = keys_[i];
   if (u == 0) return posed_as(deformation, a.pose);

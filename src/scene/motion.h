@@ -46,7 +46,7 @@ class Motion {
   /// and after the last one. Null while the pose changes between two keys.
   const Pose* pose_at(double time) const;
   /// The average rotation of the picture at a time, in radians, including whole turns.
-  double rotation_at(double time) const;
+  double rotation_at(double time);
   /// Whether a time is between the first key and the last.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
@@ -60,11 +60,11 @@ class Motion {
   std::vector<KeyInterval> key_intervals() const;
 
   /// f at the mesh's vertices. It is constant before the first key and after the last one.
-  VectorXc map_at(double time) const;
+  VectorXc map_at(double time);
   /// The deformation with its handles as they are in `map`, which must be map_at(time). Between two
   /// keyframes the handles follow the picture around them.
   Deformation deformation_at(const Deformation& deformation, double time,
-                             const VectorXc& map) const;
+                             const VectorXc& map);
 
  private:
   struct Key {
@@ -92,26 +92,26 @@ class Motion {
     Complex f, fz;
   };
   TimePosition position_of(double time) const;
-  LocalMap local_map_at(Complex rest, const VectorXc& map) const;
+  LocalMap local_map_at(Complex rest, const VectorXc& map);
   void align(const Deformation& deformation);
-  const Inbetween::Shape& shape_at(size_t key) const;
-  VectorXc slopes_at(size_t key) const;
-  const Slopes& slopes_from(size_t key) const;
+  const Inbetween::Shape& shape_at(size_t key);
+  VectorXc slopes_at(size_t key);
+  const Slopes& slopes_from(size_t key);
 
   std::vector<Key> keys_;
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Inbetween> between_;
   bool linear_blend_ = false;
   std::optional<Error> error_;
-  mutable std::map<std::pair<double, double>, Location> locations_;
+  std::map<std::pair<double, double>, Location> locations_;
   // A shape takes eight times the memory of its map, so only those near the requested time are
   // kept.
-  mutable std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
-  mutable std::optional<Slopes> slopes_;
+  std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
+  std::optional<Slopes> slopes_;
 };
 
 /// Sets the whole turns of the keys that `before` does not have, and of the keys after them, so
 /// that the picture rotates as it did in `motion`, the motion of `before`.
-void preserve_turns(Deformation& deformation, const Deformation& before, const Motion& motion);
+void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion);
 
 }  // namespace holomorph

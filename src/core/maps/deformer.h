@@ -185,6 +185,10 @@ struct Method {
 
   /// Precomputes a deformer. `previous` is this method's last deformer or null; what its rest has
   /// in common with `rest` need not be computed again. Throws Error for a rest that cannot be used.
+  ///
+  /// Threads: this may run on one thread while `previous->deform` runs on another. Therefore `make`
+  /// reads only members of `previous` that its constructor sets and deform never changes, and keeps
+  /// them alive by shared ownership: `previous` may be destroyed as soon as this returns.
   std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) const;
 };
 

@@ -71,8 +71,8 @@ bool Recording::start(Workspace& workspace, const Selection& what, double now_ms
   return true;
 }
 
-Deformation Recording::base_at(const Workspace& workspace, double time) const {
-  const Motion& motion = workspace.map().motion();
+Deformation Recording::base_at(Workspace& workspace, double time) const {
+  Motion& motion = workspace.map().motion();
   return keyframes_play_ && motion.plays()
              ? motion.deformation_at(start_, time, motion.map_at(time))
              : start_;

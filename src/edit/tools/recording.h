@@ -31,7 +31,7 @@ class Recording {
   };
   /// A deformation with the handles at the positions to which they are dragged.
   Deformation dragged(Deformation deformation, Complex by) const;
-  Deformation base_at(const Workspace& workspace, double time) const;
+  Deformation base_at(Workspace& workspace, double time) const;
   RecordedPose sample_at(double time) const;
   std::vector<double> keyframe_times(double tolerance) const;
 
