@@ -21,7 +21,7 @@ Points star() {
   return star;
 }
 
-constexpr int kRequestedVertices = 8700;  ///< requested vertices, for a mesh of about 10000
+constexpr int kAngleMeshVertices = 8700;  ///< requested vertices, for a mesh of about 10000
 
 Deformation star_scene() {
   Deformation deformation;
@@ -36,7 +36,7 @@ Deformation star_scene() {
 
 double angles_prepare_ms(int runs) {
   const Cage cage = polygon_cage(star());
-  const Mesh mesh = domain_mesh(cage, {kRequestedVertices});
+  const Mesh mesh = domain_mesh(cage, {kAngleMeshVertices});
   std::vector<Index> all(20);
   std::iota(all.begin(), all.end(), 0);
   return median_ms(runs, [&] {
@@ -48,7 +48,7 @@ double angles_prepare_ms(int runs) {
 
 double angles_drag_ms(int runs) {
   Deformation deformation = star_scene();
-  const auto prepared = prepared_map(deformation, Precision::single, {kRequestedVertices});
+  const auto prepared = prepared_map(deformation, Precision::single, {kAngleMeshVertices});
   SampledMap map;
   return median_ms(runs, [&] {
     deformation.corners[7].pose.before += 1e-3;
@@ -59,7 +59,7 @@ double angles_drag_ms(int runs) {
 
 double angles_pose_ms(int runs) {
   Deformation deformation = star_scene();
-  const auto prepared = prepared_map(deformation, Precision::single, {kRequestedVertices});
+  const auto prepared = prepared_map(deformation, Precision::single, {kAngleMeshVertices});
   SampledMap map;
   return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
@@ -70,7 +70,7 @@ double playback_ms(int runs) {
   deformation.corners[10].pose = {1, 1.2, 1};
   deformation = with_key(std::move(deformation), 1);
   const std::shared_ptr<PreparedMap> prepared =
-      prepared_map(deformation, Precision::single, {kRequestedVertices});
+      prepared_map(deformation, Precision::single, {kAngleMeshVertices});
   Motion motion;
   motion.follow(deformation, false, prepared);
   double time = 0;

@@ -195,7 +195,7 @@ const VectorXc* Motion::neighboring_key(double time, bool later) const {
   return later ? nullptr : found;
 }
 
-const Pose* Motion::pose_at(double time) const {
+const Pose* Motion::pose_at(double time) {
   constexpr double kHere = 1e-9;  // seconds; the times of frames are rounded
   for (const Key& key : keys_)
     if (std::abs(key.time - time) < kHere) return &key.pose;

@@ -44,7 +44,7 @@ class Motion {
   const VectorXc* neighboring_key(double time, bool later) const;
   /// The key pose that is displayed at a time: at a key, while a key is held, before the first key
   /// and after the last one. Null while the pose changes between two keys.
-  const Pose* pose_at(double time) const;
+  const Pose* pose_at(double time);
   /// The average rotation of the picture at a time, in radians, including whole turns.
   double rotation_at(double time);
   /// Whether a time is between the first key and the last.
@@ -63,8 +63,7 @@ class Motion {
   VectorXc map_at(double time);
   /// The deformation with its handles as they are in `map`, which must be map_at(time). Between two
   /// keyframes the handles follow the picture around them.
-  Deformation deformation_at(const Deformation& deformation, double time,
-                             const VectorXc& map);
+  Deformation deformation_at(const Deformation& deformation, double time, const VectorXc& map);
 
  private:
   struct Key {

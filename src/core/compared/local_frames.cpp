@@ -15,7 +15,7 @@ using Offsets = Eigen::Matrix<double, 12, 1>;
 
 constexpr int kMostFrames = 20, kMostNewton = 12;
 constexpr double kLeastAngle = 1e-3;
-constexpr double kSettled = 1e-4;  ///< largest change of an element
+constexpr double kSettledChange = 1e-4;  ///< largest change of an element
 
 struct Barrier {
   double value = 0;
@@ -40,7 +40,7 @@ class LocalFrames {
       const VectorXd before = t_.apply(x_);
       descend();
       const VectorXd after = t_.apply(x_);
-      result.settled = (after - before).cwiseAbs().maxCoeff() < kSettled;
+      result.settled = (after - before).cwiseAbs().maxCoeff() < kSettledChange;
       for (Index i = 0; i < t_.elements(); ++i) {
         const Complex fz(after[4 * i], after[4 * i + 1]);
         frames_[static_cast<size_t>(i)] = fz / std::abs(fz);

@@ -169,19 +169,19 @@ struct Preset {
   Parameters parameters;
 };
 
-/// A row of the table of methods.
+/// A row of the table of methods. Rows name their fields; what is missing has the default.
 struct Method {
   std::string id, label, hint;
-  std::vector<ParameterSpec> parameters;
-  bool uses_pins = false;
-  bool harmonic = true;  ///< f_z and conj(f_zbar) are holomorphic
-  bool similar = true;   ///< if all handles move by a similarity, the map is that similarity
+  std::vector<ParameterSpec> parameters = {};
+  bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
+       uses_stiffness = false;
+  bool harmonic = true;         ///< f_z and conj(f_zbar) are holomorphic
+  bool similar = true;          ///< if all handles move by a similarity, the map is that similarity
+  bool needs_mesh = false;      ///< Rest::mesh must be set
+  bool follows_others = false;  ///< its map approximates another method's, with its parameters
   /// Called by `prepare` with a checked rest.
   std::unique_ptr<Deformer> (*make)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
-  bool uses_strokes = false, uses_outline = false, uses_corners = false, uses_stiffness = false;
-  bool needs_mesh = false;
-  bool follows_others = false;  ///< its map approximates another method's, with its parameters
 
   /// Precomputes a deformer. `previous` is this method's last deformer or null; what its rest has
   /// in common with `rest` need not be computed again. Throws Error for a rest that cannot be used.

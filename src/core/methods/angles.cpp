@@ -251,30 +251,31 @@ class AnglesDeformer final : public Deformer {
   PlanarMatrix<double> slopes_;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_angles(const Rest& rest, const Deformer*) {
   return std::make_unique<AnglesDeformer>(rest);
 }
 
 }  // namespace
 
 Method angles_method() {
-  Method method{
-      "angles",
-      "Angles",
-      "Rotate, open and close corners (A). Edges follow the cage's directions, not its lengths. "
-      "Never folds.",
-      {toggle("published", "As published",
-              "The functions of Weber and Gotsman, for comparison: the boundary is divided into "
-              "equal parts, and the map is fitted to its derivative. The note shows the error of "
-              "the angles. The picture may fold, and pins have no effect.",
-              false)},
-      true,
-      true,
-      true,
-      prepare};
-  method.needs_mesh = true;
-  method.uses_corners = true;
-  return method;
+  return {
+      .id = "angles",
+      .label = "Angles",
+      .hint =
+          "Rotate, open and close corners (A). Edges follow the cage's directions, not its "
+          "lengths. "
+          "Never folds.",
+      .parameters = {toggle(
+          "published", "As published",
+          "The functions of Weber and Gotsman, for comparison: the boundary is divided into "
+          "equal parts, and the map is fitted to its derivative. The note shows the error of "
+          "the angles. The picture may fold, and pins have no effect.",
+          false)},
+      .uses_pins = true,
+      .uses_corners = true,
+      .needs_mesh = true,
+      .make = make_angles,
+  };
 }
 
 }  // namespace holomorph

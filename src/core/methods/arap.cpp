@@ -206,27 +206,27 @@ class ArapDeformer final : public Deformer {
   std::optional<Complex> turn_;  ///< rotation of the whole picture when it moves rigidly
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_arap(const Rest& rest, const Deformer*) {
   return std::make_unique<ArapDeformer>(rest);
 }
 
 }  // namespace
 
 Method arap_method() {
-  Method method{
-      "arap",
-      "As rigid as possible",
-      "Pins hold; everything else keeps its size and shape as far as possible. Paint "
-      "stiffness (B) on parts that should keep theirs best. Without pins, the cage points "
-      "hold.",
-      {},
-      true,
-      false,
-      false,
-      prepare};
-  method.needs_mesh = true;
-  method.uses_stiffness = true;
-  return method;
+  return {
+      .id = "arap",
+      .label = "As rigid as possible",
+      .hint =
+          "Pins hold; everything else keeps its size and shape as far as possible. Paint "
+          "stiffness (B) on parts that should keep theirs best. Without pins, the cage points "
+          "hold.",
+      .uses_pins = true,
+      .uses_stiffness = true,
+      .harmonic = false,
+      .similar = false,
+      .needs_mesh = true,
+      .make = make_arap,
+  };
 }
 
 }  // namespace holomorph

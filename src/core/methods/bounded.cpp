@@ -270,7 +270,7 @@ class BoundedDeformer final : public Deformer {
   Derivatives first_;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_bounded(const Rest& rest, const Deformer*) {
   auto deformer = std::make_unique<BoundedDeformer>(rest, BoundedDeformer::final_basis(rest.cage));
   deformer->prepare_draft();
   return deformer;
@@ -285,33 +285,40 @@ Method bounded_method(const std::vector<Method>& references) {
     if (method.id == "pins") usual = followed.size();
     followed.push_back({method.id, method.label});
   }
-  Method method{
-      "bounded",
-      "No folds",
-      "Nothing folds and nothing stretches more than you allow. This is proved for every frame.",
-      {one_of("reference", "Follows", "The method whose map is kept within the limits", followed,
-              usual),
-       one_of("space", "Prefer", "What to keep first where the limits do not allow everything",
-              {{"nu", "shape"}, {"psi", "pins"}, {"h", "size"}}),
-       number("k", "Max shear", "0 keeps all angles; near 1, circles may become flat", 0.7, 0,
-              0.99),
-       number("sigma", "Smallest size", "No length shrinks to less than this fraction", 0.2, 0.01,
-              0.99),
-       by_decades("Sigma", "Max growth", "No length grows by more than this factor", 5, 1.01, 100),
-       used_with("space", 1,
-                 by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely",
-                            1000, 1, 1e6))},
-      true,
-      true,
-      false,
-      prepare,
-      {{"Conformal", {{"k", 0}}},
-       {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
-       {"Default", {}},
-       {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}}};
-  method.needs_mesh = method.follows_others = true;
-  method.uses_strokes = method.uses_outline = method.uses_corners = true;
-  return method;
+  return {
+      .id = "bounded",
+      .label = "No folds",
+      .hint =
+          "Nothing folds and nothing stretches more than you allow. This is proved for every "
+          "frame.",
+      .parameters = {one_of("reference", "Follows",
+                            "The method whose map is kept within the limits", followed, usual),
+                     one_of("space", "Prefer",
+                            "What to keep first where the limits do not allow everything",
+                            {{"nu", "shape"}, {"psi", "pins"}, {"h", "size"}}),
+                     number("k", "Max shear", "0 keeps all angles; near 1, circles may become flat",
+                            0.7, 0, 0.99),
+                     number("sigma", "Smallest size",
+                            "No length shrinks to less than this fraction", 0.2, 0.01, 0.99),
+                     by_decades("Sigma", "Max growth", "No length grows by more than this factor",
+                                5, 1.01, 100),
+                     used_with(
+                         "space", 1,
+                         by_decades("pin_weight", "Pin weight",
+                                    "Higher values meet the pins more closely", 1000, 1, 1e6))},
+      .uses_pins = true,
+      .uses_strokes = true,
+      .uses_outline = true,
+      .uses_corners = true,
+      .similar = false,
+      .needs_mesh = true,
+      .follows_others = true,
+      .make = make_bounded,
+      .presets = {{"Conformal", {{"k", 0}}},
+                  {"Strict", {{"k", 0.5}, {"sigma", 0.5}, {"Sigma", 1.5}}},
+                  {"Default", {}},
+                  {"Loose", {{"k", 0.9}, {"sigma", 0.05}, {"Sigma", 20}}}},
+  };
 }
 
 }  // namespace holomorph

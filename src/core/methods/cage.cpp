@@ -30,7 +30,7 @@ class CageDeformer final : public LinearDeformer<T> {
   }
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_cage(const Rest& rest, const Deformer*) {
   if (rest.precision == Precision::full) return std::make_unique<CageDeformer<double>>(rest);
   return std::make_unique<CageDeformer<float>>(rest);
 }
@@ -38,14 +38,13 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method cage_method() {
-  return {"cage",
-          "Cage",
+  return {
+      .id = "cage",
+      .label = "Cage",
+      .hint =
           "Move the cage points; the picture follows and keeps its angles. Pins have no effect.",
-          {},
-          false,
-          true,
-          true,
-          prepare};
+      .make = make_cage,
+  };
 }
 
 }  // namespace holomorph

@@ -180,25 +180,24 @@ class HarArapDeformer final : public Deformer {
   VectorXc phi_, psi_;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_har_arap(const Rest& rest, const Deformer*) {
   return std::make_unique<HarArapDeformer>(rest);
 }
 
 }  // namespace
 
 Method har_arap_method() {
-  Method method{
-      "har_arap",
-      "Rigid and smooth",
-      "As rigid as a smooth map can be: pins pull no spikes. Without pins, the cage points "
-      "hold.",
-      {},
-      true,
-      true,
-      false,
-      prepare};
-  method.needs_mesh = true;
-  return method;
+  return {
+      .id = "har_arap",
+      .label = "Rigid and smooth",
+      .hint =
+          "As rigid as a smooth map can be: pins pull no spikes. Without pins, the cage points "
+          "hold.",
+      .uses_pins = true,
+      .similar = false,
+      .needs_mesh = true,
+      .make = make_har_arap,
+  };
 }
 
 }  // namespace holomorph

@@ -84,7 +84,7 @@ class HarmonicCoordinates final : public RealCoordinates {
   std::vector<SegmentPolynomial> segments_;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_harmonic(const Rest& rest, const Deformer*) {
   return real_deformer(rest,
                        std::make_shared<const HarmonicCoordinates>(counter_clockwise(rest.cage)));
 }
@@ -92,14 +92,12 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method harmonic_method() {
-  return {"harmonic",
-          "Harmonic",
-          "The cage's edges stay straight and go exactly where you put them. Angles change.",
-          {},
-          false,
-          true,
-          true,
-          prepare};
+  return {
+      .id = "harmonic",
+      .label = "Harmonic",
+      .hint = "The cage's edges stay straight and go exactly where you put them. Angles change.",
+      .make = make_harmonic,
+  };
 }
 
 }  // namespace holomorph

@@ -129,7 +129,7 @@ class MeanValueCoordinates final : public RealCoordinates {
   MatrixXd controls_;  ///< the control points' weights at the polygon's vertices
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_mean_value(const Rest& rest, const Deformer*) {
   return real_deformer(rest,
                        std::make_shared<const MeanValueCoordinates>(counter_clockwise(rest.cage)));
 }
@@ -137,15 +137,15 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method mean_value_method() {
-  return {"mean_value",
-          "Mean value",
+  return {
+      .id = "mean_value",
+      .label = "Mean value",
+      .hint =
           "Follows the cage's edges like Harmonic, without preparation. For comparison: it "
           "overshoots beyond corners that point inwards.",
-          {},
-          false,
-          false,
-          true,
-          prepare};
+      .harmonic = false,
+      .make = make_mean_value,
+  };
 }
 
 }  // namespace holomorph

@@ -176,7 +176,7 @@ class OutlineDeformer final : public Deformer {
   bool draft_ = false;             ///< whether the last solve was a draft
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_outline(const Rest& rest, const Deformer*) {
   if (rest.precision == Precision::full) return std::make_unique<OutlineDeformer<double>>(rest);
   return std::make_unique<OutlineDeformer<float>>(rest);
 }
@@ -184,29 +184,32 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method outline_method() {
-  Method method{
-      "outline",
-      "Onto an outline",
-      "Maps the cage and the picture inside onto an outline that you draw.",
-      {number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
-       used_with(
-           "published", 0,
-           by_decades("smoothness", "Smoothness",
-                      "Higher values bend the picture less and round the corners", 0.01, 1e-4, 10)),
-       by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 0.1, 1e-3,
-                  1e3),
-       number("vertices", "Vertices",
-              "The number of boundary points; more follow the outline more finely", 200, 50, 400),
-       used_with("published", 0, toggle("upright", "Upright", "Avoid rotating the picture", true)),
-       toggle("published", "As published",
-              "The method of Segall and Ben-Chen, for comparison: it starts with equal steps along "
-              "the outline, continues with closest points, and does not smooth")},
-      true,
-      true,
-      false,
-      prepare};
-  method.uses_outline = true;
-  return method;
+  return {
+      .id = "outline",
+      .label = "Onto an outline",
+      .hint = "Maps the cage and the picture inside onto an outline that you draw.",
+      .parameters = {number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
+                     used_with(
+                         "published", 0,
+                         by_decades("smoothness", "Smoothness",
+                                    "Higher values bend the picture less and round the corners",
+                                    0.01, 1e-4, 10)),
+                     by_decades("pin_weight", "Pin weight",
+                                "Higher values meet the pins more closely", 0.1, 1e-3, 1e3),
+                     number("vertices", "Vertices",
+                            "The number of boundary points; more follow the outline more finely",
+                            200, 50, 400),
+                     used_with("published", 0,
+                               toggle("upright", "Upright", "Avoid rotating the picture", true)),
+                     toggle("published", "As published",
+                            "The method of Segall and Ben-Chen, for comparison: it starts with "
+                            "equal steps along "
+                            "the outline, continues with closest points, and does not smooth")},
+      .uses_pins = true,
+      .uses_outline = true,
+      .similar = false,
+      .make = make_outline,
+  };
 }
 
 }  // namespace holomorph

@@ -295,7 +295,7 @@ class PinsDeformer final : public LinearDeformer<T> {
   Complex center_;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
+std::unique_ptr<Deformer> make_pins(const Rest& rest, const Deformer* previous) {
   const Method& method = method_named("pins");
   if (rest.precision == Precision::full)
     return std::make_unique<PinsDeformer<double>>(
@@ -308,26 +308,27 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) {
 
 Method pins_method() {
   return {
-      "pins",
-      "Elastic pins",
-      "Drag pins, and the picture follows smoothly. Cage points also work.",
-      {toggle("exact", "Exact",
-              "Every pin is met exactly, however much the picture bends. Off: pins that "
-              "contradict each other are met approximately"),
-       used_with("exact", 0,
-                 by_decades("smoothness", "Smoothness",
-                            "Higher values bend the picture less and meet the pins less closely",
-                            1e-5, 1e-8, 1e-1)),
-       used_with("exact", 0,
-                 by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely",
-                            10, 1e-3, 1e3)),
-       toggle("own_controls", "Cage's own points",
-              "Pins move the cage's own points, and you see where they go. Off: pins move a "
-              "finer boundary of about a hundred points")},
-      true,
-      true,
-      true,
-      prepare};
+      .id = "pins",
+      .label = "Elastic pins",
+      .hint = "Drag pins, and the picture follows smoothly. Cage points also work.",
+      .parameters =
+          {toggle("exact", "Exact",
+                  "Every pin is met exactly, however much the picture bends. Off: pins that "
+                  "contradict each other are met approximately"),
+           used_with(
+               "exact", 0,
+               by_decades("smoothness", "Smoothness",
+                          "Higher values bend the picture less and meet the pins less closely",
+                          1e-5, 1e-8, 1e-1)),
+           used_with("exact", 0,
+                     by_decades("pin_weight", "Pin weight",
+                                "Higher values meet the pins more closely", 10, 1e-3, 1e3)),
+           toggle("own_controls", "Cage's own points",
+                  "Pins move the cage's own points, and you see where they go. Off: pins move a "
+                  "finer boundary of about a hundred points")},
+      .uses_pins = true,
+      .make = make_pins,
+  };
 }
 
 }  // namespace holomorph

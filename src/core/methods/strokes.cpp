@@ -364,7 +364,7 @@ class StrokesDeformer final : public Deformer {
   bool draft_ = false;
 };
 
-std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
+std::unique_ptr<Deformer> make_strokes(const Rest& rest, const Deformer*) {
   if (rest.precision == Precision::full) return std::make_unique<StrokesDeformer<double>>(rest);
   return std::make_unique<StrokesDeformer<float>>(rest);
 }
@@ -372,26 +372,27 @@ std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer*) {
 }  // namespace
 
 Method strokes_method() {
-  Method method{
-      "strokes",
-      "Strokes",
-      "Draw lines on the picture and reshape them. The picture follows smoothly and slides along "
-      "them.",
-      {by_decades("smoothness", "Smoothness", "Higher values bend the picture less", 1e-5, 1e-8,
-                  1e-1),
-       by_decades(
-           "rigidity", "Rigidity",
-           "Higher values resist growing and shrinking; strokes slide along their lines instead",
-           1e-2, 1e-5, 1),
-       number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
-       by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1, 1e-3,
-                  1e3)},
-      true,
-      true,
-      false,
-      prepare};
-  method.uses_strokes = true;
-  return method;
+  return {
+      .id = "strokes",
+      .label = "Strokes",
+      .hint =
+          "Draw lines on the picture and reshape them. The picture follows smoothly and slides "
+          "along "
+          "them.",
+      .parameters = {by_decades("smoothness", "Smoothness", "Higher values bend the picture less",
+                                1e-5, 1e-8, 1e-1),
+                     by_decades("rigidity", "Rigidity",
+                                "Higher values resist growing and shrinking; strokes slide along "
+                                "their lines instead",
+                                1e-2, 1e-5, 1),
+                     number("softness", "Softness", "0 keeps all angles, 1 hardly any", 0, 0, 1),
+                     by_decades("pin_weight", "Pin weight",
+                                "Higher values meet the pins more closely", 1, 1e-3, 1e3)},
+      .uses_pins = true,
+      .uses_strokes = true,
+      .similar = false,
+      .make = make_strokes,
+  };
 }
 
 }  // namespace holomorph

@@ -1,5 +1,6 @@
 // Menu Cage: actions on the cage and on the map that it controls.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/tools/tool.h"
@@ -54,9 +55,6 @@ void switch_mode(Workspace& w) {
 bool converges(const Workspace& w) {
   return w.map().map().energies.size() > 1;
 }
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kMagic = "\uf0d0", *kMove = "\uf047";
 
 }  // namespace
 

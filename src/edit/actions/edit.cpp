@@ -1,5 +1,6 @@
 // Menus Edit and Tools, and the arrow keys.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
@@ -101,12 +102,6 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
   add("_10", " by 10", kShift, nudge<dx, dy, 100>);
   add("_fine", " by 0.1", kCtrl, nudge<dx, dy, 1>);
 }
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kSoft = "\uf192", *kSymmetry = "\uf0ec", *kSnap = "\uf076", *kUndo = "\uf0e2",
-                     *kRedo = "\uf01e", *kTrash = "\uf1f8", *kPointer = "\uf245", *kPen = "\uf040",
-                     *kPin = "\uf08d", *kOutline = "\uf044", *kAngle = "\uf14e",
-                     *kShield = "\uf132", *kStroke = "\uf1fc", *kReset = "\uf0e2";
 
 }  // namespace
 

@@ -1,14 +1,9 @@
 // Menu File, and copy and paste of pictures. The window carries out all of these requests.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
-namespace {
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kNew = "\uf016", *kOpen = "\uf07c", *kSave = "\uf0c7", *kExport = "\uf1c5",
-                     *kSearch = "\uf002";
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<Action> file_actions() {
   return {

@@ -1,5 +1,6 @@
 // Menu Layer: the stack of pictures, and the background behind it.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
@@ -48,10 +49,6 @@ template <Background::Fill fill>
 bool has_background(const Workspace& w) {
   return w.document.scene().background.fill == fill;
 }
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kAdd = "\uf067", *kDouble = "\uf24d", *kTrash = "\uf1f8", *kUp = "\uf062",
-                     *kDown = "\uf063";
 
 }  // namespace
 

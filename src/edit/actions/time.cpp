@@ -1,5 +1,6 @@
 // Menu Time: playback, keyframes and poses.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
@@ -26,11 +27,6 @@ void step_key(Workspace& w) {
   if (const auto time = next_key(w.shown.own(), w.shown.timeline.time, forwards))
     w.go_to_time(*time);
 }
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kPlay = "\uf04b", *kBack = "\uf048", *kForward = "\uf051", *kFirst = "\uf049",
-                     *kLast = "\uf050", *kKey = "\uf084", *kRecord = "\uf111", *kLoop = "\uf079",
-                     *kOnion = "\uf24d";
 
 }  // namespace
 

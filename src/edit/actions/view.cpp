@@ -1,5 +1,6 @@
 // Menus View and Help.
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 #include "edit/tools/posed_corners.h"
 
 namespace holomorph {
@@ -44,10 +45,6 @@ void frame_selection(Workspace& w) {
   }
   w.display.viewport.fit(box.empty() ? content_box(w) : box);
 }
-
-// Glyphs of Font Awesome 4.
-constexpr const char *kHalves = "\uf042", *kFilm = "\uf008", *kFit = "\uf065", *kHelp = "\uf059",
-                     *kSearch = "\uf002";
 
 }  // namespace
 

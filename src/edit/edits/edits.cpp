@@ -19,10 +19,6 @@ const Cage& cage_of(const Deformation& deformation, EditMode mode) {
 
 namespace {
 
-Cage& cage_of(Deformation& deformation, EditMode mode) {
-  return mode == EditMode::rest ? deformation.rest : deformation.pose;
-}
-
 /// The points of a stroke; const if the deformation is const.
 template <class AnyDeformation>
 auto& curve(AnyDeformation& deformation, Index stroke, EditMode mode) {
@@ -36,7 +32,8 @@ auto& point_of(AnyDeformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
     return mode == EditMode::rest ? deformation.pins[handle.index].rest
                                   : deformation.pins[handle.index].pose;
-  return cage_of(deformation, mode).segments[handle.index][handle.control];
+  auto& cage = mode == EditMode::rest ? deformation.rest : deformation.pose;
+  return cage.segments[handle.index][handle.control];
 }
 
 }  // namespace

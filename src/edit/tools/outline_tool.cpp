@@ -10,8 +10,8 @@
 namespace holomorph {
 namespace {
 
-constexpr double kStepPx = 4, kShortestPx = 60;
-constexpr double kReach = 0.12;  ///< reach of a pull, as a fraction of the outline's length
+constexpr double kOutlineStepPx = 4, kOutlineShortestPx = 60;
+constexpr double kOutlineReach = 0.12;  ///< reach of a pull, as a fraction of the outline's length
 
 class OutlineTool final : public Tool {
  public:
@@ -95,7 +95,8 @@ class OutlineTool final : public Tool {
     const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
       return std::abs(z - first) * workspace.display.viewport.zoom < kDragThresholdPx;
     });
-    Points outline = drawing_.finish(true, kStepPx, kShortestPx, workspace.display.viewport);
+    Points outline =
+        drawing_.finish(true, kOutlineStepPx, kOutlineShortestPx, workspace.display.viewport);
     if (clicked) {
       path_.set_point(first);
       path_.follow(input, workspace.display.viewport, workspace.display.handle_px);
@@ -121,7 +122,7 @@ class OutlineTool final : public Tool {
         for (Complex& z : deformation.outline) z += by;
       else
         deformation.outline =
-            pulled(before, true, pull_->point, by, kReach * Polyline(before, true).length());
+            pulled(before, true, pull_->point, by, kOutlineReach * Polyline(before, true).length());
       workspace.shown.preview = std::move(deformation);
     }
     if (input.down && !input.released) return;

@@ -4,7 +4,7 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kFewest = 3;
+constexpr size_t kFewestNodes = 3;
 
 }  // namespace
 
@@ -29,19 +29,19 @@ bool PenPath::follow(const Input& input, const Viewport& view, double handle_px)
   const auto near = [&](const Node& node, double px) {
     return std::abs(view.px_at_plane(node.at) - input.px) < px;
   };
-  closes_ = nodes_.size() >= kFewest && near(nodes_[0], handle_px);
+  closes_ = nodes_.size() >= kFewestNodes && near(nodes_[0], handle_px);
   if (input.mods.shift) pointer_ = constrained(input.position);
   if (!input.pressed) return false;
   // The second click of a double-click would repeat the last point. It closes the curve instead.
   const bool repeated = near(nodes_.back(), kDragThresholdPx);
-  if (closes_ || (input.double_clicked && repeated && nodes_.size() >= kFewest)) return true;
+  if (closes_ || (input.double_clicked && repeated && nodes_.size() >= kFewestNodes)) return true;
   if (!repeated) set_point(*pointer_);
   return false;
 }
 
 PenPath::Answer PenPath::key(Key key) {
   if (!active()) return Answer::ignored;
-  if (key == Key::enter) return nodes_.size() >= kFewest ? Answer::close : Answer::too_few;
+  if (key == Key::enter) return nodes_.size() >= kFewestNodes ? Answer::close : Answer::too_few;
   if (key == Key::backspace || key == Key::del) {
     nodes_.pop_back();
     placing_ = closes_ = false;

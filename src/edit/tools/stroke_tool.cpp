@@ -10,8 +10,9 @@
 namespace holomorph {
 namespace {
 
-constexpr double kStepPx = 6, kShortestPx = 12;
-constexpr double kReach = 0.25, kEndReach = 1;  ///< reach of a pull, in lengths of the stroke
+constexpr double kStrokeStepPx = 6, kStrokeShortestPx = 12;
+constexpr double kStrokeReach = 0.25,
+                 kStrokeEndReach = 1;  ///< reach of a pull, in lengths of the stroke
 
 class StrokeTool final : public HandleTool {
  public:
@@ -88,7 +89,8 @@ class StrokeTool final : public HandleTool {
   }
 
   void finish(Workspace& workspace) {
-    const Points drawn = drawing_.finish(false, kStepPx, kShortestPx, workspace.display.viewport);
+    const Points drawn =
+        drawing_.finish(false, kStrokeStepPx, kStrokeShortestPx, workspace.display.viewport);
     const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
     if (drawn.empty()) {
       workspace.selection.clear();  // a click on nothing
@@ -134,7 +136,7 @@ class StrokeTool final : public HandleTool {
     if (!end && !input.mods.ctrl) return false;
     const size_t at = !end ? point : off(curve.front()) <= off(curve.back()) ? 0 : curve.size() - 1;
     const double length = Polyline(without_repeats(curve), false).length();
-    pull_ = Pull{hover_->index,  at,       (end ? kEndReach : kReach) * length,
+    pull_ = Pull{hover_->index,  at,       (end ? kStrokeEndReach : kStrokeReach) * length,
                  input.position, input.px, workspace.shown.deformation()};
     return true;
   }

@@ -27,7 +27,7 @@ int take(GifFileType* file, GifByteType* out, int count) {
   return static_cast<int>(got);
 }
 
-struct Close {
+struct CloseGif {
   void operator()(GifFileType* file) const { DGifCloseFile(file, nullptr); }
 };
 
@@ -98,7 +98,7 @@ class GifReader {
 
   Stream stream_;
   const std::string& name_;
-  std::unique_ptr<GifFileType, Close> file_;
+  std::unique_ptr<GifFileType, CloseGif> file_;
   int transparent_ = NO_TRANSPARENT_COLOR;
 };
 

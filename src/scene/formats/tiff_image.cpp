@@ -61,7 +61,7 @@ void make_straight(Image& image) {
   }
 }
 
-struct Close {
+struct CloseTiff {
   void operator()(TIFF* file) const { TIFFClose(file); }
 };
 
@@ -82,9 +82,9 @@ Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), quiet, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), quiet, nullptr);
   Stream stream{bytes};
-  const std::unique_ptr<TIFF, Close> file(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
-                                                            no_write, seek, no_close, size_of,
-                                                            nullptr, nullptr, options.get()));
+  const std::unique_ptr<TIFF, CloseTiff> file(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
+                                                                no_write, seek, no_close, size_of,
+                                                                nullptr, nullptr, options.get()));
   const auto damaged = [&](const std::string& why) {
     return Error(ErrorKind::bad_input, name + ": the TIFF picture cannot be read" + why);
   };

@@ -8,14 +8,14 @@
 namespace holomorph {
 namespace {
 
-struct Close {
+struct CloseProfile {
   void operator()(void* profile) const { cmsCloseProfile(profile); }
 };
-using Profile = std::unique_ptr<void, Close>;
-struct Delete {
+using Profile = std::unique_ptr<void, CloseProfile>;
+struct DeleteTransform {
   void operator()(void* transform) const { cmsDeleteTransform(transform); }
 };
-using Conversion = std::unique_ptr<void, Delete>;
+using Conversion = std::unique_ptr<void, DeleteTransform>;
 
 constexpr size_t kLargestProfile = 8 << 20;
 

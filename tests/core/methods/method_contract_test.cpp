@@ -57,7 +57,8 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
                        << static_cast<int>(shape));
         check(method, setup(method, precision, shape), tolerance(precision));
-        if (outlines == Outlines::none || !method.uses_outline) continue;
+        // A fit to an outline sees the same polygon for raised edges as for straight ones.
+        if (outlines == Outlines::none || !method.uses_outline || shape == Shape::raised) continue;
         INFO("with an outline");
         // The basis has hundreds of short segments, whose control points lie off the smooth curve.
         constexpr double kFineBasis = 1e-5;
