@@ -19,7 +19,9 @@
 #include "app/state_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "edit/content.h"
 #include "edit/key_focus.h"
+#include "edit/picking.h"
 
 namespace holomorph {
 namespace {

@@ -182,29 +182,4 @@ struct Workspace {
   size_t fold_ = 0;
 };
 
-/// The rest position of the point of the displayed picture at z; none outside the picture or before
-/// there is a map.
-std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
-/// The image of a rest point under the map; the point itself outside the mesh or before there is a
-/// map.
-Complex posed_at(const LiveMap& map, Complex rest);
-/// The posed cage that gives the displayed map without pins, if the method can compute one.
-std::optional<Cage> solved_cage(const Workspace& workspace);
-/// The bounding box of everything on display: pictures, cage, outline and strokes.
-Box content_box(const Workspace& workspace);
-
-/// The word for these handles in labels of the history: "pin" or "stroke" if all are of that kind,
-/// else "point".
-std::string kind_of(const Selection& handles);
-
-/// The nearest handle of the current mode within picking distance. Points have priority over
-/// strokes.
-std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
-
-/// The nearest point on the current mode's cage within picking distance and not at a vertex: where
-/// a click can insert a vertex.
-std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
-/// Inserts a vertex there in one step and selects it. Returns false if the step is refused.
-bool insert_at(Workspace& workspace, const CageHit& hit);
-
 }  // namespace holomorph

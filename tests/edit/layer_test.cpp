@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
+#include "edit/content.h"
 #include "support/desk.h"
 
 using namespace holomorph;

@@ -139,11 +139,14 @@ TEST_CASE("A scene is refused exactly when its file could not be read again") {
   };
   std::vector<std::pair<const char*, Change>> changes = kNumbersChanged;
   changes.insert(changes.end(), kPartsChanged.begin(), kPartsChanged.end());
-  for (const auto& [what, change] : changes)
+  const auto apply = [](Scene& scene, const std::pair<const char*, Change>& row, double number) {
+    change_layer(scene, [&](Layer& layer) { row.second(layer, number); });
+  };
+  for (const auto& row : changes)
     for (const double number : kNumbers) {
-      INFO(what << " = " << number);
+      INFO(row.first << " = " << number);
       Scene changed = scene;
-      change_layer(changed, [&](Layer& layer) { change(layer, number); });
+      apply(changed, row, number);
       compare(changed);
     }
   for (const unsigned seed : seeds_of("check_scene", {1, 2})) {
@@ -153,10 +156,10 @@ TEST_CASE("A scene is refused exactly when its file could not be read again") {
     for (int i = 0; i < 300; ++i) {
       Scene changed = scene;
       for (int k = 0; k < 2; ++k) {
-        const auto& [what, change] = kNumbersChanged[random() % kNumbersChanged.size()];
+        const auto& row = kNumbersChanged[random() % kNumbersChanged.size()];
         const double number = unit(random) * std::pow(10, exponent(random));
-        INFO(what << " = " << number);
-        change_layer(changed, [&](Layer& layer) { change(layer, number); });
+        INFO(row.first << " = " << number);
+        apply(changed, row, number);
       }
       compare(changed);
     }

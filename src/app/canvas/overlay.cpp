@@ -3,6 +3,7 @@
 
 #include "app/canvas/canvas.h"
 #include "app/canvas/corner_overlay.h"
+#include "edit/content.h"
 #include "edit/edits/curve_edits.h"
 
 namespace holomorph {

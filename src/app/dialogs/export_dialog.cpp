@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/panels/panels.h"
+#include "edit/content.h"
 
 namespace holomorph {
 namespace {

@@ -1,6 +1,7 @@
 // Menus View and Help.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
+#include "edit/content.h"
 #include "edit/tools/posed_corners.h"
 
 namespace holomorph {

@@ -13,6 +13,13 @@
 
 namespace holomorph {
 
+std::string kind_of(const Selection& handles) {
+  const auto all = [&](Handle::Kind kind) {
+    return std::ranges::all_of(handles, [&](const Handle& h) { return h.kind == kind; });
+  };
+  return all(Handle::Kind::pin) ? "pin" : all(Handle::Kind::stroke) ? "stroke" : "point";
+}
+
 const Cage& cage_of(const Deformation& deformation, EditMode mode) {
   return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }

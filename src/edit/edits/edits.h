@@ -20,6 +20,10 @@ struct Handle {
 };
 using Selection = std::set<Handle>;
 
+/// The word for these handles in labels of the history: "pin" or "stroke" if all are of that kind,
+/// else "point".
+std::string kind_of(const Selection& handles);
+
 /// Whether a handle is a control point of the cage but not a vertex.
 inline bool is_tangent(const Handle& handle) {
   return handle.kind == Handle::Kind::cage && handle.control > 0;

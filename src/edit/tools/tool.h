@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "edit/input.h"
+#include "edit/picking.h"
 #include "edit/tools/posed_corners.h"
 #include "edit/tools/recording.h"
 #include "edit/tools/snapping.h"

@@ -1,0 +1,71 @@
+// A picture counts where the cage does not take all of its corners along.
+#include "edit/content.h"
+
+#include "core/geometry/polyline.h"
+#include "edit/edits/edits.h"
+
+namespace holomorph {
+
+std::optional<Cage> solved_cage(const Workspace& workspace) {
+  const LiveMap& map = workspace.map();
+  if (!map.has_map() || !map.posed()) return {};
+  const std::optional<Deformation>& posed = map.timed() ? map.timed() : map.posed();
+  if (map.timed() && key_at(*posed, workspace.shown.timeline.time) == posed->keyframes.size())
+    return {};  // between keyframes there is none
+  return map.prepared()->deformer->solved_cage(pose_of(*posed));
+}
+
+namespace {
+
+/// The rectangle of a layer's picture if some of its corners are outside the cage and stay where
+/// they are; else empty.
+Box resting_box(const Cage& cage, const Image* image) {
+  if (!image) return {};
+  constexpr double kOnEdge = 1e-6;  // px
+  const Points outline = outline_of(cage);
+  const double width = image->width, height = image->height;
+  Box box;
+  bool stays = false;
+  for (const Complex& corner : Points{{0, 0}, {width, 0}, {width, height}, {0, height}}) {
+    box.include(corner);
+    stays = stays || outline.empty() ||
+            (winding_number(outline, corner) == 0 &&
+             nearest_on_polygon(outline, corner).distance > kOnEdge);
+  }
+  return stays ? box : Box{};
+}
+
+}  // namespace
+
+Box content_box(const Workspace& workspace) {
+  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation = workspace.shown.deformation();
+  const bool at_rest = workspace.at_rest();
+  Box box;
+  const auto include = [&](const Box& part) {
+    if (part.empty()) return;
+    box.include({part.left, part.bottom});
+    box.include({part.right, part.top});
+  };
+  const auto include_map = [&](const LiveMap& map) {
+    for (const Complex& z : map.map().f)
+      if (is_finite(z)) box.include(z);
+  };
+  include(resting_box(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
+  for (const SharedLayer& layer : scene.layers) {
+    if (layer->id == scene.layer().id || !layer->visible) continue;
+    include(resting_box(layer->deformation.rest, workspace.document.pictures().of(*layer)));
+    include_map(workspace.maps.of(layer->id));
+  }
+  for (const Complex& z : outline_of(cage_of(deformation, workspace.mode))) box.include(z);
+  if (!at_rest)
+    for (const Complex& z : deformation.outline) box.include(z);
+  if (method_named(deformation.method).uses_strokes)
+    for (size_t i = 0; i < deformation.strokes.size(); ++i)
+      for (const Complex& z : curve_of(deformation, static_cast<Index>(i), workspace.mode))
+        box.include(z);
+  if (!at_rest && workspace.map().has_map()) include_map(workspace.map());
+  return box;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,79 @@
+// Points lie on top of strokes, pins on top of points.
+#include "edit/picking.h"
+
+#include <algorithm>
+
+#include "core/geometry/polyline.h"
+
+namespace holomorph {
+
+std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
+  const LiveMap& map = workspace.map();
+  if (!map.has_map()) return {};
+  const Mesh& mesh = *map.drawn();
+  const std::span<const Complex> positions =
+      workspace.at_rest() ? std::span<const Complex>(mesh.vertices) : as_span(map.map().f);
+  const auto found = locate(mesh, positions, z);
+  if (!found) return {};
+  return found->in(mesh, mesh.vertices);
+}
+
+Complex posed_at(const LiveMap& map, Complex rest) {
+  if (!map.has_map()) return rest;
+  const Mesh& mesh = *map.drawn();
+  const VectorXc& f = map.map().f;
+  const auto found = locate(mesh, mesh.vertices, rest);
+  return found ? found->in(mesh, as_span(f)) : rest;
+}
+
+std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
+  constexpr double kAtVertex = 1e-3;
+  const CageHit hit = nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
+                                      workspace.display.viewport.plane_at_px(px));
+  if (hit.distance * workspace.display.viewport.zoom > workspace.display.handle_px ||
+      hit.t < kAtVertex || hit.t > 1 - kAtVertex)
+    return {};
+  return hit;
+}
+
+bool insert_at(Workspace& workspace, const CageHit& hit) {
+  if (!workspace.commit("Insert point",
+                        inserted(workspace.shown.deformation(), hit.segment, hit.t)))
+    return false;
+  workspace.selection = {{Handle::Kind::cage, hit.segment + 1, 0}};
+  return true;
+}
+
+std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
+  std::optional<Handle> best;
+  if (!workspace.display.show_cage || workspace.display.hide_overlays) return best;
+  double distance = workspace.display.handle_px;
+  const Deformation& deformation = workspace.shown.deformation();
+  for (const Handle& handle : handles_of(deformation, workspace.mode)) {
+    if (handle.kind == Handle::Kind::stroke) continue;
+    const double here = std::abs(
+        workspace.display.viewport.px_at_plane(position_of(deformation, handle, workspace.mode)) -
+        px);
+    // A pin at the same position as a cage point is drawn on top and picked first.
+    if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
+      best = handle;
+      distance = here;
+    }
+  }
+  if (best) return best;
+  // Points are drawn on top of strokes and picked first.
+  for (const Handle& handle : handles_of(deformation, workspace.mode)) {
+    if (handle.kind != Handle::Kind::stroke) continue;
+    const double here =
+        workspace.display.viewport.zoom *
+        Polyline(without_repeats(curve_of(deformation, handle.index, workspace.mode)), false)
+            .nearest(workspace.display.viewport.plane_at_px(px))
+            .distance;
+    if (here >= distance) continue;
+    best = handle;
+    distance = here;
+  }
+  return best;
+}
+
+}  // namespace holomorph
