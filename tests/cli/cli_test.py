@@ -4,6 +4,7 @@ import io
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -17,9 +18,16 @@ import numpy
 from PIL import Image, ImageOps
 
 from case import PROGRAM, SOURCE, Case, run
+from golden import Marks
 
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
 SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
+
+
+def corner_of(said):
+    """The lower left corner of a rendered picture, from the command's message."""
+    x, y = re.search(r"lower left corner at \((\S+), (\S+)\)", said).groups()
+    return complex(float(x), float(y))
 
 
 class CommandLine(Case):
@@ -137,8 +145,18 @@ class CommandLine(Case):
         path = self.write("scene.json", scene)
         report = json.loads(self.good("info", path, "--json").stdout)
         self.assertIn("met to", report["note"])
-        # On a smooth outline the derivative vanishes at the cage's corners, so a few tiny triangles flip.
-        self.assertLessEqual(report["flipped_triangles"], 16)
+        # At a corner of 90 degrees, f behaves like z^2. A triangle of size h at the distance r from it can
+        # flip where h |f''| / |f'| = h / r is 1 or more, so only triangles that touch a corner can.
+        vertices, triangles = self.obj_of(path)
+        rest = dict(scene, method={"id": "cage"})
+        del rest["outline"]
+        at_rest = self.obj_of(self.write("rest.json", rest))[0].tolist()
+        corners = {at_rest.index(list(map(float, z))) for z, in scene["cage"]["rest"]}
+        a, b, c = (vertices[list(column)] @ [1, 1j] for column in zip(*triangles))
+        flipped = numpy.array(triangles)[((b - a).conj() * (c - a)).imag <= 0].tolist()
+        self.assertEqual(len(flipped), report["flipped_triangles"])
+        for triangle in flipped:
+            self.assertTrue(corners & set(triangle), triangle)
         self.assertNotIn("folds", report["note"])
         # The cage's corners are mapped onto the ellipse.
         corners = "\n".join(f"{x},{y}" for (x, y), *_ in scene["cage"]["rest"])
@@ -462,16 +480,20 @@ class CommandLine(Case):
 
     def test_golden_pictures(self):
         for name in SAMPLES:
+            marks = Marks(self, os.path.join(SOURCE, "assets", name + ".json"))
             for view in ("image", "angle", "area", "stretch", "checker"):
                 if view in ("angle", "checker") and name != "gecko":
                     continue
-                self.golden(f"{name}-{view}", name, "--view", view)
+                self.golden(f"{name}-{view}", name, marks, view)
         # Between one keyframe and the next.
-        self.golden("fern-between", "fern", "--time", 1.3)
+        marks = Marks(self, os.path.join(SOURCE, "assets/fern.json"), "--time", 1.3)
+        self.golden("fern-between", "fern", marks, "image", "--time", 1.3)
 
-    def golden(self, title, sample, *how):
+    def golden(self, title, sample, marks, view, *when):
+        """The picture is the golden one, and the golden one passes the checks of golden.py."""
         out = self.path(title + ".png")
-        self.good("render", os.path.join(SOURCE, "assets", sample + ".json"), "--out", out, "--scale", 0.3, *how)
+        scene = os.path.join(SOURCE, "assets", sample + ".json")
+        said = self.good("render", scene, "--out", out, "--scale", 0.3, "--view", view, *when).stderr
         golden = os.path.join(SOURCE, "tests/golden", title + ".png")
         if os.environ.get("HOLOMORPH_UPDATE_GOLDEN"):
             shutil.copy(out, golden)
@@ -484,6 +506,21 @@ class CommandLine(Case):
             shutil.copy(out, kept)
             Image.fromarray(numpy.clip(difference * 4, 0, 255).astype("uint8")).save(os.path.join(kept, title + "-difference.png"))
             self.fail(f"{title} differs from its golden picture; see {kept}")
+        self.assertEqual(marks.complaints(Image.open(golden), corner_of(said), view, 0.3), [], title)
+
+    def test_golden_checks_notice_wrong_pictures(self):
+        scene = os.path.join(SOURCE, "assets/gecko.json")
+        marks, out = Marks(self, scene), self.path("gecko.png")
+        for view in ("image", "area", "checker"):
+            corner = corner_of(self.good("render", scene, "--out", out, "--scale", 0.3, "--view", view).stderr)
+            pixels = numpy.asarray(Image.open(out).convert("RGBA"))
+            wrong = {"place": [numpy.roll(pixels, by, axis) for by in (3, -3) for axis in (0, 1)],
+                     "color": [(pixels * factors).astype("uint8") for factors in numpy.diag([-0.06] * 4)[:3] + 1],
+                     "area": [(pixels * [1, 1, 1, 0.9]).astype("uint8")]}
+            for kind, pictures in wrong.items():
+                for picture in pictures:
+                    found = marks.complaints(Image.fromarray(picture), corner, view, 0.3)
+                    self.assertIn(kind, [complaint.split(":")[0] for complaint in found], (view, found))
 
     def test_info(self):
         result = json.loads(self.good("info", os.path.join(SOURCE, "assets/gecko.json"), "--json").stdout)

@@ -264,10 +264,10 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
     // The coordinates are one similarity of the plane, so texture pixels are not stretched.
     const FlattenedSurface laid = flattened_surface_of(deformation);
     const Complex first = on.coordinates[0], last = on.coordinates.back();
-    CHECK((last - first).real() * w ==
-          Approx(scale * (laid.plane.back() - laid.plane[0]).real()).margin(1e-6));
-    CHECK((last - first).imag() * h ==
-          Approx(scale * (laid.plane.back() - laid.plane[0]).imag()).margin(1e-6));
+    CHECK_THAT((last - first).real() * w,
+               Catch::WithinAbs(scale * (laid.plane.back() - laid.plane[0]).real(), 1e-6));
+    CHECK_THAT((last - first).imag() * h,
+               Catch::WithinAbs(scale * (laid.plane.back() - laid.plane[0]).imag(), 1e-6));
   }
   CHECK_THROWS_AS(textured(flattened_surface_of(deformation), deformation, nullptr), Error);
 }

@@ -47,7 +47,9 @@ TEST_CASE("Inserting a vertex keeps the loop, and erasing it restores the segmen
   const Points curve = before.controls(1);
   CHECK(std::abs(bezier_point(cage.controls(1), 0.5) - bezier_point(curve, 0.15)) < 1e-12);
   CHECK(std::abs(bezier_point(cage.controls(2), 0.5) - bezier_point(curve, 0.65)) < 1e-12);
-  CHECK(joint_parameter(cage, 2) == Approx(0.3));
+  // The split rounds coordinates below 128 to 2^-47 = 7e-15 a few times, and the lengths whose
+  // ratio this is are 6 or more.
+  CHECK_THAT(joint_parameter(cage, 2), Catch::WithinAbs(0.3, 1e-14));
   erase_vertex(cage, 2, joint_parameter(cage, 2));
   REQUIRE(cage.size() == 4);
   CHECK(cage.degree(1) == 3);
@@ -65,7 +67,7 @@ TEST_CASE("A reversed cage is the same loop from the same vertex") {
   const Cage back = reversed(cage);
   CHECK(back.vertex(0) == cage.vertex(0));
   CHECK(reversed(back) == cage);
-  CHECK(signed_area(vertices_of(back)) == Approx(-signed_area(vertices_of(cage))));
+  CHECK(signed_area(vertices_of(back)) == -signed_area(vertices_of(cage)));  // of integers
 }
 
 TEST_CASE("A self-crossing is found with its position, and a simple polygon has none") {
@@ -89,8 +91,9 @@ TEST_CASE("Winding and turning numbers count turns") {
   for (int i = 0; i < 40; ++i)
     twice.push_back(std::polar(10.0 + 2 * std::cos(kPi * i / 20), 4 * kPi * i / 40));
   CHECK(winding_number(twice, {0, 0}) == 2);
-  CHECK(turning_number(twice) == Approx(2));
-  CHECK(turning_number(square) == Approx(1));
+  constexpr double kRounding = 1e-14;  // 40 sums below 16, each rounded to 2^-50, over 2 pi
+  CHECK_THAT(turning_number(twice), Catch::WithinAbs(2, kRounding));
+  CHECK_THAT(turning_number(square), Catch::WithinAbs(1, kRounding));
 }
 
 TEST_CASE("A rest cage that cannot be used is rejected with the reason") {
