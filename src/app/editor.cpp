@@ -152,8 +152,8 @@ class Editor {
     if (std::exchange(fit_, false)) view.fit(content_box(workspace_));
   }
 
-  /// The extent of an opened scene's picture is known only when its map is. Fits the view to all of
-  /// it then, unless the user has already started to work.
+  /// The extent of an opened scene's picture is known only once its map is ready. Fits the view to
+  /// all of it then, unless the user has already started to work.
   void show_whole_map() {
     if (workspace_.document.history().can_undo()) opened_ = false;
     if (!opened_ || !workspace_.map().has_map() || workspace_.map().busy()) return;
@@ -234,8 +234,8 @@ class Editor {
       holomorph::run(*action, workspace_);
   }
 
-  /// During a gesture only those actions run that allow it, such as changes of the view. Undo takes
-  /// back a part of the gesture.
+  /// During a gesture only actions that allow it can run, such as changes of the view. Undo reverts
+  /// part of the gesture.
   void handle_key_in_gesture(const Shortcut& key) {
     const Action* action = workspace_.actions.owner_of(key);
     if (!action) return;

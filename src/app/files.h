@@ -15,7 +15,7 @@ namespace holomorph {
 /// unsaved work is lost.
 class Files {
  public:
-  /// `replaced` is called whenever the workspace has got another document; `wake` is called on
+  /// `replaced` is called whenever the workspace gets another document; `wake` is called on
   /// other threads when their work has ended. With `allow_outside`, scenes show pictures from any
   /// folder.
   Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
@@ -25,9 +25,9 @@ class Files {
   /// unsaved work. Returns what is wrong, or "".
   std::string open(const Path& path);
   void ask_open(const Path& path);
-  /// Takes a dropped file. If there is a cage, surfaces and SVG paths become its outline; if there
-  /// is none, an SVG path becomes the cage. If a document is open, asks what to do with a dropped
-  /// picture or scene; otherwise opens it.
+  /// Takes a dropped file. With a cage, surfaces and SVG paths become its outline. With a picture
+  /// but no cage, an SVG path becomes the cage and a surface is refused. Any other file is opened;
+  /// if a document is open, asks whether to add, replace or open.
   void drop(const Path& path);
   /// Opens a copy of a scene, which has no file yet. Asks about unsaved work first.
   void ask_sample(const Path& scene);
@@ -100,7 +100,7 @@ class Files {
   PictureWatch watch_;
   std::vector<Recovery> recoverable_;
   /// Change times of the scene's file. `last_seen_change_` is the one found last: the file is read
-  /// when two looks in a row find the same time, because until then it may still be written.
+  /// when two consecutive checks find the same time, because until then it may still be written.
   /// `handled_change_` is that of the version that has been dealt with.
   std::optional<std::filesystem::file_time_type> last_seen_change_, handled_change_;
   bool quit_ = false, autosave_failed_ = false;

@@ -60,7 +60,7 @@ void CommandLine::add_budget(CLI::App* sub) {
           double value = 0;
           return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
                      ? std::string()
-                     : "'" + text + "' is not a limit; give a number above 0";
+                     : "'" + text + "' is not a valid limit; give a number above 0";
         })
         ->group("Limits");
 }

@@ -10,8 +10,8 @@
 
 namespace holomorph {
 
-/// What an edited deformation was derived from: the displayed one, which may have the pose at a
-/// time, or the document's own one. In the second case the result is entered unchanged.
+/// What an edited deformation was derived from: the displayed one, which may be posed by keyframes,
+/// or the document's own. In the second case the result is committed unchanged.
 enum class EditBase { shown, document };
 
 /// The displayed deformation: the document's own, the document's with its handles at a time of the
@@ -70,7 +70,7 @@ class Shown {
     Deformation deformation;  ///< the deformation to enter, before a keyframe is set
   };
   /// Classifies an edit. With EditBase::shown, there are three cases:
-  /// - An edit of the pose becomes a keyframe with auto-key. Otherwise it becomes the document's
+  /// - With auto-key, an edit of the pose becomes a keyframe. Otherwise it becomes the document's
   ///   own pose, and the timeline leaves the displayed time.
   /// - An edit of the structure makes the displayed pose the document's own pose.
   /// - Any other edit keeps the document's own pose.

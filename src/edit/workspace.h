@@ -16,7 +16,7 @@
 
 namespace holomorph {
 
-/// A request of an action to the window, which is the only part that can show dialogs.
+/// A request from an action to the window, which is the only part that can show dialogs.
 enum class Request {
   none,
   new_scene,
@@ -101,7 +101,7 @@ struct Workspace {
   Playback playback;
   std::optional<Pose> copied;  ///< by Copy pose
   Request request = Request::none;
-  /// Runs work that may take long on another thread, and `then` on this one. Set by the window.
+  /// Runs long work on another thread, and `then` on this one. Set by the window.
   std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>
       run_in_background;
 
@@ -123,7 +123,7 @@ struct Workspace {
   /// is invalid, with a toast that shows where. Shown::entry_of says how an edit changes poses and
   /// keyframes. Returns whether the step was added.
   bool commit(const std::string& label, Deformation deformation, EditBase base = EditBase::shown);
-  /// Replaces the result of the last undo step; refuses as commit does.
+  /// Replaces the result of the last undo step; refuses what commit refuses.
   bool amend(Deformation deformation, EditBase base = EditBase::shown);
   /// Merges small edits into one step: amends the last step if that has the same label and the
   /// selection has not changed since; else commits.
@@ -131,7 +131,7 @@ struct Workspace {
                        EditBase base = EditBase::shown);
   /// Adds an undo step that changes layers, or settings that all layers share.
   bool commit_layers(const std::string& label, Scene scene);
-  /// As commit_or_amend, for layers.
+  /// Like commit_or_amend, for layers.
   void commit_or_amend_layers(const std::string& label, Scene scene);
   /// Makes the next commit_or_amend a separate step.
   void end_mergeable_step() { mergeable_selection_.reset(); }
@@ -145,7 +145,7 @@ struct Workspace {
   /// Goes to another entry of the history. Deselects the handles of a structure (cage, pins or
   /// strokes) whose number of elements differs there.
   void go_to(size_t entry);
-  /// Goes to a time and displays it. A toast says when that leaves a pose without a keyframe.
+  /// Goes to a time and displays it. If that leaves a pose that has no keyframe, a toast says so.
   void go_to_time(double seconds);
   /// Stores the displayed pose as the keyframe at the current time.
   void set_key();
@@ -154,8 +154,8 @@ struct Workspace {
   /// The maps at the keyframes before and after the current time. Empty when the onion skin is off,
   /// while the timeline plays, at rest and before there is a map.
   std::vector<OnionSkin> onion_skins() const;
-  /// Does work that may take long, and then calls `then`: in the background where the window has
-  /// set run_in_background, else immediately. In the second case errors of the work are thrown.
+  /// Does long work, then calls `then`: in the background where the window has
+  /// set run_in_background, else immediately. Without it, errors in the work are thrown.
   void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
   /// Goes to a fold of the picture: to the worst one first, then to the others in turn.
   void show_next_fold();

@@ -22,7 +22,7 @@ struct RasterJob {
   bool surroundings = true;    ///< also draw the source outside the rest cage
   bool crop = false;           ///< crop to the source's rectangle; else nothing is cut off
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
-  std::optional<double> top;   ///< y from which pixel rows count; none: the source's height
+  std::optional<double> top;   ///< y of the top edge of pixel row 0; none: the source's height
   int threads = 0;             ///< 0: one per processor core
 };
 
@@ -34,10 +34,9 @@ struct RasterResult {
 
 /// Draws a job. Colors are interpolated bilinearly in premultiplied form, with up to 8 x 8 samples
 /// per pixel where the map shrinks. The edges of the cage's image are antialiased by 4 x 4 coverage
-/// samples. Triangles are drawn in mesh order, later ones on top. The identity map gives the source
-/// back bit for bit.
-/// Throws Error{bad_input} if the result would be empty or have more than 16384 pixels on a side.
-/// Cost: about 10 ns per pixel on one core.
+/// samples. Triangles are drawn in mesh order, later ones on top. The identity map reproduces the
+/// source bit for bit. Throws Error{bad_input} if the result would be empty or have more than 16384
+/// pixels on a side. Cost: about 10 ns per pixel on one core.
 RasterResult rasterized(const RasterJob& job);
 
 }  // namespace holomorph

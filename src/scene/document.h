@@ -14,7 +14,7 @@ class Document {
  public:
   Document();  ///< an empty scene without unsaved changes
   /// Opens a scene (recognized by its name), a textured surface (.obj) or a picture (anything
-  /// else). Throws Error without side effects.
+  /// else). If this fails, throws Error and changes nothing.
   static Document open(const Path& path, const Reach& reach = {});
   /// A copy of a scene to start from. It counts as saved but has no file. Throws Error.
   static Document copy_of(const Path& scene);
@@ -43,7 +43,7 @@ class Document {
   bool changed_on_disk();
   /// The name of its file, or of its lowest picture.
   std::string name() const;
-  /// The name, and whether there is no file yet.
+  /// The name, with "(not saved)" if there is no file yet.
   std::string title() const;
   bool modified() const { return unsaved_ || scene() != saved_; }
   bool empty() const {

@@ -19,9 +19,11 @@ std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t ke
 Deformation with_ease(Deformation deformation, size_t key, Ease ease);
 /// The indices of the keyframes that play: those with the structure of the deformation.
 std::vector<size_t> playing_keys(const Deformation& deformation);
-/// Whether any layer has keyframes, has keyframes that play, and has at least two that play.
+/// Whether any layer has keyframes.
 bool has_keyframes(const Scene& scene);
+/// Whether any layer has a keyframe that plays.
 bool has_playing_keys(const Scene& scene);
+/// Whether any layer has at least two keyframes that play: whether the scene moves.
 bool plays(const Scene& scene);
 /// The error to throw if there are keyframes but none of them plays.
 Error no_key_plays();

@@ -28,8 +28,8 @@ class LiveMap {
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
   /// Takes over the worker's result, requests what the deformation needs, and poses the map if it
-  /// matches the deformation. If `moment` has a time and there are keyframes that play, the map is
-  /// the one of the keyframes at that time. Returns whether the map changed.
+  /// matches the deformation. If `moment` has a time and there are keyframes that play, it becomes
+  /// the keyframes' map at that time. Returns whether the map changed.
   bool update(const Deformation& deformation, EvalOptions options, const Moment& moment = {});
   /// Discards the deformation, the map and what the worker is preparing.
   void clear();
@@ -40,7 +40,7 @@ class LiveMap {
   const PreparedMap* prepared() const { return prepared_.get(); }
   /// The prepared mesh in drawing order, as it is drawn and picked.
   const std::shared_ptr<const Mesh>& drawn() const { return drawn_; }
-  /// The map at mesh->vertices; empty until there is one.
+  /// The map at the mesh's vertices; empty until there is one.
   const SampledMap& map() const { return map_; }
   bool has_map() const { return prepared_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }

@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// The time of its keyframes at which a deformation is displayed (none: its own pose), and how
+/// The time at which a deformation is displayed (none: in its own pose), and how
 /// poses are blended between keyframes, as in AnimationSettings.
 struct Moment {
   std::optional<double> time = {};  ///< seconds

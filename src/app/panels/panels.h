@@ -48,7 +48,7 @@ struct Look {
 };
 std::vector<Look> looks(const Preferences& now);
 
-/// Draws a menu for each name in the action table. If `focus` is given, the first menu takes the
+/// Draws the menus, whose names are listed here. If `focus` is given, the first menu takes the
 /// keys. Returns recent files to open and changes of the style.
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus);
 void draw_toolbar(Workspace& workspace, double scale);

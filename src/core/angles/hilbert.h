@@ -17,7 +17,7 @@ struct RealParts {
   /// Their values, one row per boundary point; never evaluated at vertices.
   std::function<MatrixXd(std::span<const BoundaryPoint>)> values;
   MatrixXd jumps;   ///< their jumps, one row per vertex of the cage
-  MatrixXd linear;  ///< weights of the sums that equal 1, x and y (or 1 alone)
+  MatrixXd linear;  ///< weights with which the functions add up to 1, x and y (or only to 1)
 };
 
 /// Functions that are linear in arc length between corners. Columns 2 j and 2 j + 1 are 1 just

@@ -1,4 +1,4 @@
-// A proof, from samples of the boundary, that a map keeps its bounds everywhere.
+// A proof, from samples of the boundary, that a map stays within its bounds everywhere.
 //
 // ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
 // superharmonic. Bounds that hold on the boundary therefore hold inside. Between two samples, l and
@@ -20,8 +20,8 @@ struct Bounds {
 
   /// Throws Error unless 0 <= k < 1 and 0 < sigma < Sigma.
   void check_usable() const;
-  /// Bounds narrowed by a fraction, in k and in ln of the stretches. A map that is solved for these
-  /// can be proved to keep the original ones.
+  /// Bounds narrowed by a fraction, in k and in the logarithms of the stretches. A map that is
+  /// solved for these can be proved to satisfy the original ones.
   Bounds tightened(double fraction) const;
   /// The Re l that is farthest from both stretch bounds.
   double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }

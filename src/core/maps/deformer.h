@@ -1,7 +1,7 @@
 // The public interface of the maps: the input of a method (Rest, Pose) and its output (SampledMap).
 //
-// To add a method, write one file in methods/ and one row of the table in methods.cpp. Menus,
-// sliders, JSON fields, contract tests and benchmarks iterate over the table.
+// To add a method, write one file in methods/ that returns its row, and add that to rows.h and
+// methods.cpp. Sliders, the palette, JSON fields and the contract tests iterate over the table.
 #pragma once
 
 #include <map>
@@ -70,10 +70,11 @@ struct PoseCorner {
 
 /// The inputs whose changes require precomputation. Value type.
 struct Rest {
-  Cage cage;  ///< straight or curved; the degree of each segment is at least that of its posed one
+  Cage cage;  ///< straight or curved; the degree of each segment is at least the degree of the
+              ///< posed segment
   std::vector<RestPin> pins;
-  std::vector<Points> strokes = {};      ///< open curves, each with at least two different points
-  Points outline = {};                   ///< closed target of the cage's shape; empty: none
+  std::vector<Points> strokes = {};  ///< open curves, each with at least two distinct points
+  Points outline = {};  ///< closed curve that the cage's shape is mapped onto; empty: none
   std::vector<Index> corners = {};       ///< cage vertices with angles, in order; empty: all
   std::vector<BrushDab> stiffness = {};  ///< of the picture; empty: uniform
   Points samples;                        ///< where the map is evaluated, inside or on the cage
@@ -169,16 +170,17 @@ struct Preset {
   Parameters parameters;
 };
 
-/// A row of the table of methods. Rows name their fields; what is missing has the default.
+/// A row of the table of methods. Rows set fields by name; omitted fields keep their defaults.
 struct Method {
   std::string id, label, hint;
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
        uses_stiffness = false;
-  bool harmonic = true;         ///< f_z and conj(f_zbar) are holomorphic
-  bool similar = true;          ///< if all handles move by a similarity, the map is that similarity
-  bool needs_mesh = false;      ///< Rest::mesh must be set
-  bool follows_others = false;  ///< its map approximates another method's, with its parameters
+  bool harmonic = true;     ///< f_z and conj(f_zbar) are holomorphic
+  bool similar = true;      ///< if all handles move by a similarity, the map is that similarity
+  bool needs_mesh = false;  ///< Rest::mesh must be set
+  bool follows_others =
+      false;  ///< its map approximates that of another method, which uses its own parameters
   /// Called by `prepare` with a checked rest.
   std::unique_ptr<Deformer> (*make)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
@@ -194,21 +196,21 @@ struct Method {
 
 /// The table of methods, in menu order.
 const std::vector<Method>& methods();
-/// The row with this id. Throws Error that lists the existing ids.
+/// The row with this id. Throws Error with a list of the known ids.
 const Method& method_named(const std::string& id);
 
 /// What an edit or a tool needs a method for.
 enum class MethodUse { cage, pins, strokes, outline, corners, stiffness, bounds };
-/// The method that they choose unless the present one serves.
+/// The method to switch to for this use if the current one does not support it.
 const Method& usual_method(MethodUse use);
-/// The method whose map is meant: the one that a method follows, or itself.
+/// The method that this one follows, or the method itself if it follows none.
 const Method& followed_method(const Method& method, const Parameters& values);
 
 /// The rest or the pose without the handles that the method does not use.
 Rest used_by(const Method& method, Rest rest);
 Pose used_by(const Method& method, Pose pose);
 
-/// The parameters in a rest for the method that the rest's own method follows.
+/// The parameters that a rest stores for the followed method.
 Parameters parameters_of(const Rest& rest, const Method& followed);
 
 /// The parameter's value, or its default when it is missing.

@@ -18,16 +18,16 @@ namespace holomorph {
 inline constexpr double kOutlineMatched = 0.01;
 
 struct OutlineSettings {
-  /// The published method: vertices at equal arc lengths, no smoothing, and zeroth-order steps from
-  /// an arc-length start. Otherwise, the conformal map between the interiors is the start and
-  /// determines where vertices are needed, and the steps are of first order (eq. 13).
+  /// The published method: vertices equally spaced in arc length, no smoothing, and zeroth-order
+  /// steps from an arc-length start. Otherwise, the conformal map between the interiors is the
+  /// start and determines where vertices are needed, and the steps are of first order (eq. 13).
   bool published = false;
   int vertices = 200;        ///< approximate number along the outline; more if the cage has more
   double smoothness = 0.01;  ///< alpha_h: weight of mean |h^2 f''|^2
   double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; 0: f_zbar = 0
   double pin_weight = 0.1;   ///< beta
-  /// Weight of the picture's squared rotation in the choice of the start, relative to the mean
-  /// square of ln of the stretch.
+  /// When the start is chosen: weight of the picture's squared rotation, relative to the mean
+  /// square of the logarithmic stretch.
   double upright = 1;
   int most_iterations = 30;
 };
@@ -39,7 +39,8 @@ struct OutlineTask {
   Points pins, pinned;  ///< positions at rest, and targets
 };
 
-/// f = C phi + conj(C) psi, with C over the basis; psi is empty for conformal maps.
+/// f = C phi + conj(C) psi, where C are the Cauchy coordinates of `basis`; psi is empty for
+/// conformal maps.
 struct OutlineMatch {
   Cage basis;  ///< the source cut into more segments
   VectorXc phi, psi;
@@ -47,10 +48,10 @@ struct OutlineMatch {
   double hausdorff = 0;    ///< two-sided distance of that image and the outline
   double pins_missed = 0;  ///< the largest distance of a pin's image from its target
   int pins_held = 0;       ///< number of targets outside the outline, which are held just inside
-  /// The number of zeros of f_z, by the argument principle, that are at least a thousandth of the
-  /// shape's size inside (five thousandths with stiffness). The picture folds around each zero, and
-  /// each zero adds one to the turning number. Where a corner is flattened, the exact f_z is 0 at
-  /// the corner itself.
+  /// The number of zeros of f_z, by the argument principle, that lie inside the shape by at least a
+  /// thousandth of its size (five thousandths with stiffness). The picture folds around each zero,
+  /// and each zero adds one to the turning number. Where a corner is flattened, the exact f_z is 0
+  /// at the corner itself.
   int zeros = 0;
   int iterations = 0;
   /// Energies before the first iteration and after each one, in units of L^2.
@@ -67,10 +68,10 @@ class OutlineFit {
   OutlineFit(const OutlineFit&) = delete;
   OutlineFit& operator=(const OutlineFit&) = delete;
 
-  /// Solves from scratch for these targets of the pins. If the result misses the outline by more
-  /// than 0.8 % of its diameter, or if f' has zeros, the conformal map itself is followed with as
-  /// many vertices as it needs. Cost: for 200 vertices 5 ms per iteration, plus 60 ms for a basis
-  /// if there are pins; 0.1 to 1 s where the conformal map is followed.
+  /// Solves from scratch for these pin targets. If the result misses the outline by more
+  /// than 0.8 % of its diameter, or if f' has zeros, the fit is repeated on the conformal map
+  /// itself, with as many vertices as that needs. Cost: for 200 vertices 5 ms per iteration, plus
+  /// 60 ms for a basis if there are pins; 0.1 to 1 s where the conformal map is followed.
   void solve(const Points& pinned);
   /// The same with less accuracy: at most four iterations, from a start near the last one if there
   /// are pins, else from the last solution.
@@ -83,7 +84,7 @@ class OutlineFit {
   int iterations() const {
     return static_cast<int>(before_.iterates.size() + now_.iterates.size()) - 1;
   }
-  /// The map after this many of them.
+  /// The map after this many iterations.
   OutlineMatch after(int iteration) const;
 
  private:
@@ -98,7 +99,7 @@ class OutlineFit {
   VectorXc graded_targets() const;
   bool may_refine() const;
   bool is_matched() const;
-  /// The defects of the last map: zeros, and distances relative to the accepted ones.
+  /// The defects of the last map: zeros, and distances as multiples of the tolerance.
   struct Misses {
     int zeros = 0;
     double outline = 0, pins = 0;
@@ -120,8 +121,8 @@ class OutlineFit {
   void set_up_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
-  /// Targets that pins can reach: those outside the outline are moved just inside its nearest
-  /// point.
+  /// Targets that pins can reach: targets outside the outline are moved to just inside it, at its
+  /// nearest point.
   Points held(const Points& pinned) const;
   VectorXc pin_targets(const Points& pinned) const;
   void project(const VectorXc& values, VectorXc& targets);
@@ -138,7 +139,7 @@ class OutlineFit {
   Points loop_;     ///< just inside the source; zeros inside this loop are counted
   double unit_;     ///< L
   Complex center_;  ///< f minus this is what is fitted
-  /// Null for the published method, and for strips that are too long for it.
+  /// Null for the published method, and for strips too long for a conformal start.
   std::unique_ptr<ConformalStart> start_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
@@ -148,7 +149,7 @@ class OutlineFit {
   int builds_ = 0;
   bool refined_ = false;  ///< whether the basis is the graded one
   std::optional<AlternatingFit> fit_;
-  /// A basis and the maps over it that were found.
+  /// A basis, and the maps found over it.
   struct Stage {
     Cage basis, given_basis;             ///< the cut source, in its own frame and as given
     MatrixXc at_samples;                 ///< C at the samples

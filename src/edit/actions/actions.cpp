@@ -21,7 +21,10 @@ std::vector<std::string> names_of(const std::vector<Shortcut>& keys) {
 ActionTable::ActionTable() {
   for (const auto group : {file_actions, edit_actions, cage_actions, layer_actions, time_actions,
                            view_actions, held_actions})
-    for (Action& action : group()) rows_.push_back(std::move(action));
+    for (Action& action : group()) {
+      check(action.enabled, "every action says when it is enabled");
+      rows_.push_back(std::move(action));
+    }
   as_built_ = rows_;
 }
 

@@ -15,7 +15,7 @@ struct Action {
   const char* icon = "";  ///< a glyph of the icon font; empty: none
   const char* menu = "";  ///< the menu that lists the action; empty: none
   std::vector<Shortcut> keys = {};
-  bool (*enabled)(const Workspace&) = nullptr;
+  bool (*enabled)(const Workspace&) = nullptr;  ///< required; `always` if there is no condition
   void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
   bool (*checked)(const Workspace&) = nullptr;  ///< for actions that can be on or off, else null
   bool during_gesture = false;                  ///< its keys also act during a tool's gesture

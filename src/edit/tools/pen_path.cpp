@@ -75,7 +75,8 @@ Cage PenPath::cage() const {
   return cage;
 }
 
-/// The open curve so far as a polyline, with the last point's tangent while that is pulled out.
+/// The open curve so far as a polyline, with the last point's tangent while it is being dragged
+/// out.
 Points PenPath::drawn() const {
   Points line;
   for (size_t i = 0; i + 1 < nodes_.size(); ++i) {

@@ -35,7 +35,7 @@ struct ToolOverlay {
 inline constexpr double kDragThresholdPx = 3;
 inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
 
-/// A tool gives the pointer its function on the canvas. Tools live as long as the editor; their
+/// A tool determines what the pointer does on the canvas. Tools live as long as the editor; their
 /// only state is that of an unfinished gesture.
 class Tool {
  public:
@@ -76,8 +76,8 @@ std::unique_ptr<Tool> angle_tool();
 std::unique_ptr<Tool> brush_tool();
 
 /// A drag of handles with the pointer: threshold, axis constraint, preview and one commit. With
-/// Ctrl, a drag in the pose is recorded as motion, and a click makes a vertex smooth or a corner.
-/// Shared by the tools that drag handles.
+/// Ctrl, a drag in pose mode is recorded as motion, and a click toggles a vertex between smooth and
+/// corner. Shared by the tools that drag handles.
 class HandleDrag {
  public:
   /// Starts a drag that amends the last step, which added the dragged handle.
@@ -99,7 +99,7 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
-  /// The guide lines of what the pressed handle lines up with.
+  /// The guide lines through whatever the pressed handle lines up with.
   const std::vector<Guide>& guides() const { return guides_; }
   /// Follows the pointer and commits on release. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
@@ -133,7 +133,7 @@ bool set_outline(Workspace& workspace, const std::string& label, Points outline,
 void toggle_corners(Workspace& workspace);
 
 /// Deletes the handle under the pointer if Alt is held and it is a vertex, pin or stroke. Returns
-/// whether that is so.
+/// whether these conditions were met.
 bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around a single selected pin. A drag of the ring rotates the picture around the pin;
