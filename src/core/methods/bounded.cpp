@@ -166,7 +166,7 @@ class BoundedDeformer final : public Deformer {
   /// if that fails.
   void align(const Pose& pose) {
     Points from, to;
-    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
+    const std::span<const Complex> f = as_span(f_);
     if (reference_->uses_pins())
       for (size_t i = 0; i < pins_.size(); ++i)
         if (pins_[i]) {
@@ -208,10 +208,13 @@ class BoundedDeformer final : public Deformer {
     out.fzbar = std::move(map.fzbar);
   }
 
-  std::string bounds_text() const {
-    char text[120];
-    std::snprintf(text, sizeof text, "No folds (shear up to %.4g, size %.4g to %.4g)", bounds_.k,
-                  bounds_.sigma, bounds_.Sigma);
+  /// "smallest size 20 %".
+  std::string limit_text(Bound bound) const {
+    const double value = bound == Bound::k       ? bounds_.k
+                         : bound == Bound::sigma ? bounds_.sigma
+                                                 : bounds_.Sigma;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %.3g %%", bound_name(bound), 100 * value);
     return text;
   }
 
@@ -220,7 +223,7 @@ class BoundedDeformer final : public Deformer {
     if (!solution_.certificate.holds)
       return std::string("Not proved: limit on ") + bound_name(solution_.certificate.failed) +
              " near " + point_text(solution_.certificate.where);
-    std::string text = bounds_text() + pin_note(pose);
+    std::string text = "No folds" + pin_note(pose);
     if (!reference_->note().empty()) text += ". " + reference_->note();
     if (solution_.solution.status != ConeSolution::Status::solved)
       text += ". Not quite the nearest such map";
@@ -233,7 +236,7 @@ class BoundedDeformer final : public Deformer {
   /// Names the pin that is farthest from its target, and the bound that holds it back.
   std::string pin_note(const Pose& pose) const {
     if (!reference_->uses_pins()) return pins_.empty() ? "" : ". The followed method ignores pins";
-    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
+    const std::span<const Complex> f = as_span(f_);
     double farthest = 0;
     size_t which = 0;
     for (size_t i = 0; i < pins_.size(); ++i) {
@@ -244,10 +247,9 @@ class BoundedDeformer final : public Deformer {
     if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return "";
     char more[120];
     std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
-                  farthest < 10 ? 2 : 0, farthest);
+                  farthest < 10 ? 1 : 0, farthest);
     const auto bound = binding_constraint({&conformal_.solution, &solution_.solution});
-    return more +
-           (bound ? std::string("; limit: ") + bound_name(*bound) : ", as in the followed map");
+    return more + (bound ? " (limit: " + limit_text(*bound) + ")" : ", as in the followed map");
   }
 
   Rest rest_;

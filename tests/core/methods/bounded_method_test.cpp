@@ -167,7 +167,7 @@ TEST_CASE(
   far.pose.pins[2].position = {1500, 50};
   const std::string note = far.map().note;
   INFO(note);
-  CHECK(note.find("px short; limit: max growth") != std::string::npos);
+  CHECK(note.find("px short (limit: max growth 150 %)") != std::string::npos);
 }
 
 namespace {
