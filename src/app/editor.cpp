@@ -179,14 +179,14 @@ class Editor {
       workspace_.shown.preview.reset();
     was_active_ = active;
     panel_focus_.look();
-    const KeyFocus focus = key_focus(window_focus());
-    menu_was_open_ = has_popup();
     for (const auto& [key, repeats] : window_.take_keys()) {
+      const KeyFocus focus = key_focus(window_focus());                // a key may have changed it
       if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key counts once
       if (focus == KeyFocus::panel) handle_panel_key(key);
       if (focus == KeyFocus::canvas) take_key(key);
     }
-    const bool holds = focus == KeyFocus::canvas;
+    const bool holds = key_focus(window_focus()) == KeyFocus::canvas;
+    menu_was_open_ = has_popup();
     workspace_.display.hide_overlays = holds && is_held("hold.overlays");
     workspace_.display.show_original = holds && is_held("hold.original");
     window_.set_alt_override(holds && is_held("hold.alt"));

@@ -18,16 +18,11 @@ enum class EditBase { shown, document };
 /// keyframes, or the preview of a drag.
 class Shown {
  public:
-  enum class Source { document, timed, preview };
-
   explicit Shown(const Document& document) : document_(&document) {}
 
   std::optional<Deformation> preview;  ///< result of a drag that is not committed yet
   Timeline timeline;
 
-  Source source() const {
-    return preview ? Source::preview : timed_ && timeline.active ? Source::timed : Source::document;
-  }
   const Deformation& deformation() const { return preview ? *preview : base(); }
   /// The displayed deformation without a preview: what edits start from.
   const Deformation& base() const { return timed_ && timeline.active ? *timed_ : own(); }

@@ -18,7 +18,7 @@ struct Timeline {
   bool visible = false;                 ///< the panel is open
   std::optional<double> clock_ms = {};  ///< the clock when `time` was advanced last
 
-  /// Goes to a time, clamped to 0 ... kLongestTime, and displays it.
+  /// Goes to a time, clamped to 0 ... kMaxTime, and displays it.
   void go_to(double seconds) {
     time = std::clamp(seconds, 0.0, kMaxTime);
     active = true;
@@ -33,7 +33,7 @@ bool advance(Timeline& timeline, const Scene& scene, double now_ms);
 
 /// The number of the frame nearest to a time.
 int frame_at(const Scene& scene, double time);
-/// The time of a frame in seconds, clamped to 0 ... kLongestTime.
+/// The time of a frame in seconds, clamped to 0 ... kMaxTime.
 double time_of_frame(const Scene& scene, int frame);
 
 /// The time of the next keyframe after a time, or of the previous one before it; none if there is

@@ -68,14 +68,15 @@ bool Workspace::amend(Deformation deformation, EditBase base) {
 }
 
 bool Workspace::commit_layers(const std::string& label, Scene scene) {
-  if (scene.layer().id != document.scene().layer().id) leave_layer();
+  const bool leaves = scene.layer().id != document.scene().layer().id;
+  if (leaves) leave_layer();
   mergeable_selection_.reset();
   shown.preview.reset();
   const std::optional<double> at = shown.time();
   if (!enter(std::move(scene), EditBase::document,
              [&](Scene entered) { document.commit(label, std::move(entered), at); }))
     return false;
-  if (!document.scene().deformation().has_cage() && tools.active != ToolId::pen)
+  if (leaves && !shown.own().has_cage() && tools.active != ToolId::pen)
     tools.active = ToolId::select;
   return true;
 }
@@ -100,7 +101,8 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Layer& after = *scene.layers[number];
   if (after.locked != before.locked || after.visible != before.visible) return false;
   // A missing picture may be found: that is not a change.
-  const bool other_image = before.image && document.image() && after.image != before.image;
+  const bool is_missing = before.image && !document.image(),
+             other_image = !is_missing && after.image != before.image;
   return other_image || after.deformation != before.deformation;
 }
 

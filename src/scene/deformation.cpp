@@ -10,9 +10,14 @@ Rest rest_of(const Deformation& deformation, Precision precision) {
     throw Error(ErrorKind::bad_input,
                 "the scene has no cage yet; draw one, or make one with 'holomorph new'");
   Rest rest;
-  rest.cage = elevated_to(deformation.rest, deformation.pose);
+  rest.cage = deformation.rest;
+  const auto raise_to = [&](const Cage& posed) {
+    for (Index i = 0; i < posed.size(); ++i)
+      if (posed.degree(i) > rest.cage.degree(i)) rest.cage = elevated_to(rest.cage, posed);
+  };
+  raise_to(deformation.pose);
   for (const Keyframe& key : deformation.keyframes)
-    if (fits(deformation, key.pose)) rest.cage = elevated_to(rest.cage, key.pose.cage);
+    if (fits(deformation, key.pose)) raise_to(key.pose.cage);
   for (const Pin& pin : deformation.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
   for (const Stroke& stroke : deformation.strokes) rest.strokes.push_back(stroke.rest);
   for (const Corner& corner : deformation.corners) rest.corners.push_back(corner.vertex);

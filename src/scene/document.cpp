@@ -81,7 +81,7 @@ std::string Document::name() const {
 }
 
 std::string Document::title() const {
-  return name() + (path_.empty() && name() != "Untitled" ? " (not saved)" : "");
+  return name() + (path_.empty() && !first_picture().empty() ? " (not saved)" : "");
 }
 
 Path Document::first_picture() const {

@@ -7,7 +7,8 @@ namespace holomorph {
 
 inline constexpr double kMaxCoordinate = 1e8;  ///< plane units, from the origin along each axis
 inline constexpr size_t kMaxLayers = 100;
-inline constexpr size_t kMaxSegments = 5000;  ///< of a cage
+inline constexpr int kMaxImageSide = 1 << 20;  ///< pixels
+inline constexpr size_t kMaxSegments = 5000;   ///< of a cage
 inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
 inline constexpr size_t kMaxCurvePoints = 20000;  ///< of a stroke or an outline
 inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value

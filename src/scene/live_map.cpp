@@ -154,7 +154,10 @@ Points LiveMap::images_at(double time, std::span<const Complex> rest) {
 }
 
 std::optional<Complex> LiveMap::pin_image(const Deformation& deformation, size_t i) const {
-  if (!posed_ || !same_rest(*posed_, deformation)) return {};
+  return posed_ && same_rest(*posed_, deformation) ? pin_image(i) : std::nullopt;
+}
+
+std::optional<Complex> LiveMap::pin_image(size_t i) const {
   if (!has_map() || map_.ignores_pins || i >= prepared_->pins.size() || !prepared_->pins[i])
     return {};
   return prepared_->pins[i]->in(*prepared_->mesh, as_span(map_.f));
@@ -212,13 +215,13 @@ bool LiveMap::update(const Deformation& deformation, EvalOptions options, const 
     return changed;
   }
   if (!requested_ || !same_rest(*requested_, deformation) || needs_worker(deformation)) {
+    if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
     requested_ = deformation;
     requested_keys_ = moment_.time.has_value();
     error_.reset();
     failed_ = false;
     const std::lock_guard lock(mutex_);
     ++generation_;
-    if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
     waiting_ = deformation;
     waiting_keys_ = requested_keys_;
     waiting_blend_ = moment_.linear_blend;

@@ -50,6 +50,8 @@ class LiveMap {
   /// The image of the rest position of pin `i` of a deformation. None if the map ignores pins, if
   /// the pin lies outside the mesh, or if the map belongs to another rest state.
   std::optional<Complex> pin_image(const Deformation& deformation, size_t i) const;
+  /// The same for a deformation that is known to have the rest of posed().
+  std::optional<Complex> pin_image(size_t i) const;
   /// The images of the zeros that the map reports.
   const Points& zero_images() const { return zero_images_; }
   /// The deformation to which map() belongs. It may lag behind the one being edited.

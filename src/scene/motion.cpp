@@ -216,7 +216,7 @@ std::vector<Motion::KeyInterval> Motion::key_intervals() const {
   return all;
 }
 
-double Motion::rotation_at(double time) {
+double Motion::rotation_at(double time) const {
   const auto [i, u] = position_of(time);
   const double from = keys_[i].turned;
   if (u == 0) return from;

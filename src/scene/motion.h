@@ -46,7 +46,7 @@ class Motion {
   /// and after the last one. Null while the pose changes between two keys.
   const Pose* pose_at(double time);
   /// The average rotation of the picture at a time, in radians, including whole turns.
-  double rotation_at(double time);
+  double rotation_at(double time) const;
   /// Whether a time is between the first key and the last.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,7 +31,11 @@ void parallel_for(int count, const std::function<void(int)>& body,
   };
   {
     std::vector<std::jthread> others;
-    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(work, false);
+    try {
+      for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(work, false);
+    } catch (const std::system_error&) {
+      // The threads that could be started, this one at least, do all of it.
+    }
     work(true);
   }
   if (failure) std::rethrow_exception(failure);

@@ -104,6 +104,18 @@ const std::vector<std::pair<const char*, Change>> kNumbersChanged{
      }},
     {"a key's angle",
      [](Layer& l, double x) { l.deformation.keyframes[0].pose.pins[0].angle = x; }},
+    {"a key's scale",
+     [](Layer& l, double x) { l.deformation.keyframes[1].pose.pins[0].scale = x; }},
+    {"a key's tension",
+     [](Layer& l, double x) { l.deformation.keyframes[1].pose.corners[0].tension = x; }},
+    {"a key's stroke",
+     [](Layer& l, double x) {
+       l.deformation.keyframes[1].pose.strokes[0][1] = {x, 0};
+     }},
+    {"a choice",
+     [](Layer& l, double x) { l.deformation.parameters["space"] = std::abs(whole(x)) % 3; }},
+    {"a picture's size", [](Layer& l, double x) { l.image->height = whole(x); }},
+    {"an unknown key", [](Layer& l, double) { l.extra = R"({"mood":"glad"})"; }},
     {"a key's corner",
      [](Layer& l, double x) { l.deformation.keyframes[0].pose.corners[1].after = x; }},
     {"name", [](Layer& l, double x) { l.name = x > 0 ? "b\xff" : "b\xc3\xa4r"; }},
@@ -179,6 +191,35 @@ TEST_CASE("A scene that would be larger than the budget is refused, with its siz
   set_budget(small);
   CHECK_THROWS_WITH(check_scene(scene), Catch::Contains("--max-scene-size"));
   set_budget(before);
+}
+
+TEST_CASE("Unknown keys that are too large or too deep for a file are refused") {
+  Scene scene = full_scene();
+  CHECK_NOTHROW(check_scene(scene));
+  // Readers accept 200 levels: this is allowed in a layer, and too deep one level further down.
+  std::string deep = "0";
+  for (int i = 0; i < 300; ++i) deep = "[" + deep + "]";
+  change_layer(scene, [&](Layer& layer) { layer.extra = "{\"deep\":" + deep + "}"; });
+  CHECK_THROWS_AS(check_scene(scene), Error);
+  CHECK_THROWS_AS(scene_from_json(json_of(scene), "s.json"), Error);
+}
+
+TEST_CASE("The frame rate, choices and the number of the edited layer are checked") {
+  for (const double rate : {0.5, 1.0, 24.0, 240.0, 241.0, kNan}) {
+    Scene scene = full_scene();
+    scene.animation.frames_per_second = rate;
+    INFO(rate);
+    CHECK(is_refused([&] { check_scene(scene); }) ==
+          is_refused([&] { scene_from_json(json_of(scene), "s.json"); }));
+  }
+  Scene scene = full_scene();
+  scene.edited = 1;
+  CHECK_THROWS_AS(check_scene(scene), Error);
+  for (const double none : {-1.0, 3.0}) {  // choices that cannot even be written
+    Scene chosen = full_scene();
+    change(chosen, [&](Deformation& deformation) { deformation.parameters["space"] = none; });
+    CHECK_THROWS_AS(check_scene(chosen), Error);
+  }
 }
 
 TEST_CASE("What is wrong with one layer of several is said with its number") {

@@ -390,7 +390,7 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
     if (posed && same_rest(*posed, deformation)) {
       const bool at_rest = mode == EditMode::rest;
       for (size_t i = 0; i < deformation.pins.size() && !at_rest; ++i)
-        if (const auto place = workspace.map().pin_image(deformation, i))
+        if (const auto place = workspace.map().pin_image(i))
           draw_miss(list, px(workspace, deformation.pins[i].pose), px(workspace, *place), style);
       for (const Complex& zero :
            at_rest ? workspace.map().map().zeros : workspace.map().zero_images())

@@ -37,6 +37,7 @@ void KeysWindow::report_lost_keys(const std::vector<std::string>& labels) {
 }
 
 void KeysWindow::take(const Shortcut& key) {
+  if (!waits_for_key()) return;
   if (key == Shortcut(Key::escape)) return stop_waiting();
   if (key == Shortcut(Key::del) && waiting_ != "edit.delete") return assign({});
   const Action* owner = workspace_.actions.owner_of(key);

@@ -78,22 +78,23 @@ void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
 
 void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
   const Scene& scene = workspace.document.scene();
-  Layer state = *scene.layers[layer];
+  const SharedLayer shared = scene.layers[layer];  // commits replace the scene
+  const Layer& state = *shared;
   ImGui::PushID(state.id);
-  const auto change = [&](const char* label) {
-    workspace.commit_layers(label, with_layer_at(workspace.document.scene(), layer, state));
+  const auto toggle_flag = [&](bool Layer::*flag, const char* label) {
+    Layer changed = state;
+    changed.*flag = !(state.*flag);
+    workspace.commit_layers(label, with_layer_at(workspace.document.scene(), layer, changed));
   };
   if (toggle("shown", state.visible, kShown, kHidden,
              state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", 30 * s)) {
-    state.visible = !state.visible;
-    change(state.visible ? "Show layer" : "Hide layer");
+    toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
   }
   ImGui::SameLine(0, 0);
   if (toggle("locked", state.locked, kLocked, kUnlocked,
              state.locked ? "Locked. Click to unlock." : "Unlocked. Click to prevent edits.",
              30 * s)) {
-    state.locked = !state.locked;
-    change(state.locked ? "Lock layer" : "Unlock layer");
+    toggle_flag(&Layer::locked, state.locked ? "Unlock layer" : "Lock layer");
   }
   ImGui::SameLine(0, 8 * s);
   if (renamed_id_ == state.id) {

@@ -54,7 +54,9 @@ std::string ActionTable::key_of(const std::string& id) const {
 }
 
 const std::vector<Shortcut>& ActionTable::built_in(const std::string& id) const {
-  return std::ranges::find(as_built_, id, &Action::id)->keys;
+  const auto found = std::ranges::find(as_built_, id, &Action::id);
+  check(found != as_built_.end(), "built_in: the id of an action");
+  return found->keys;
 }
 
 std::vector<std::string> ActionTable::use_keys(const KeyNames& changes) {
@@ -103,7 +105,9 @@ std::vector<std::string> ActionTable::set_keys(const std::string& id,
     });
     if (removed > 0) unbound.push_back(action.label);
   }
-  std::ranges::find(rows_, id, &Action::id)->keys = keys;
+  const auto found = std::ranges::find(rows_, id, &Action::id);
+  check(found != rows_.end(), "set_keys: the id of an action");
+  found->keys = keys;
   return unbound;
 }
 

@@ -103,10 +103,6 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
   add("_fine", " by 0.1", kCtrl, nudge<dx, dy, 1>);
 }
 
-}  // namespace
-
-namespace {
-
 bool has_pin(const Workspace& w) {
   return std::ranges::any_of(w.selection,
                              [](const Handle& handle) { return handle.kind == Handle::Kind::pin; });

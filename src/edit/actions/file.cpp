@@ -3,8 +3,6 @@
 #include "edit/actions/icons.h"
 
 namespace holomorph {
-namespace {}  // namespace
-
 std::vector<Action> file_actions() {
   return {
       {

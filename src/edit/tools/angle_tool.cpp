@@ -224,7 +224,7 @@ class AngleTool final : public Tool {
                      : mark_->hovered == CornerMark::Region::ring ? "Turn corner"
                                                                   : "Open corner",
                      *workspace.shown.preview);
-    if (switches_) workspace.messages.say("Switched to Angles, which never folds.");
+    if (switches_) workspace.messages.say(switched_to(MethodUse::corners));
   }
 
   std::optional<CornerMark> mark_, shown_;

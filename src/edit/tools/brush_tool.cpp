@@ -78,9 +78,7 @@ class BrushTool final : public Tool {
                                        : "Soften",
                           std::move(deformation)))
       return;
-    if (switches)
-      workspace.messages.say(
-          "Switched to As rigid as possible, which takes stiffness into account.");
+    if (switches) workspace.messages.say(switched_to(MethodUse::stiffness));
   }
 
   bool painting_ = false, erases_ = false, full_ = false;

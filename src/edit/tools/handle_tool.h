@@ -11,7 +11,7 @@ class HandleTool : public Tool {
   bool busy() const override { return drag_.active() || ring_.active(); }
   bool selects() const override { return true; }
   bool scroll(const Input& input, Workspace& workspace) override {
-    return ring_.scroll(input, workspace);
+    return has_ring() && ring_.scroll(input, workspace);
   }
   ToolOverlay overlay() const override;
 
@@ -28,8 +28,11 @@ class HandleTool : public Tool {
   /// Returns false if there is none.
   virtual bool start_gesture(const Input&, Workspace&) { return false; }
 
+  /// Whether the tool shows the ring of the selected pin. Tools that do call its `hover`.
+  virtual bool has_ring() const { return false; }
+
   HandleDrag drag_;
-  PinRing ring_;  ///< displayed by tools that call its `hover`
+  PinRing ring_;
   std::optional<Handle> hover_;
 
  private:

@@ -32,12 +32,13 @@ class PinTool final : public HandleTool {
     if (!workspace.commit("Add pin", with_pin(workspace.shown.deformation(), *rest, pose,
                                               workspace.keyframe_images({&*rest, 1}))))
       return;
-    if (switches)
-      workspace.messages.say("Switched to Elastic pins. Cage points and pins act together.");
+    if (switches) workspace.messages.say(switched_to(MethodUse::pins));
     workspace.selection = {
         {Handle::Kind::pin, static_cast<Index>(workspace.shown.deformation().pins.size()) - 1, 0}};
     drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
   }
+
+  bool has_ring() const override { return true; }
 
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())

@@ -50,6 +50,8 @@ class SelectTool final : public HandleTool {
     return overlay;
   }
 
+  bool has_ring() const override { return true; }
+
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
       return needs_a_cage(workspace, "Bending needs a cage");

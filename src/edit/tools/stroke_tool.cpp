@@ -119,8 +119,7 @@ class StrokeTool final : public HandleTool {
                             static_cast<Index>(workspace.shown.deformation().strokes.size()) - 1,
                             0}};
     if (clipped) workspace.messages.say("The part of the stroke outside the picture was left out.");
-    if (switches)
-      workspace.messages.say("Switched to Strokes. Strokes, pins and cage points act together.");
+    if (switches) workspace.messages.say(switched_to(MethodUse::strokes));
   }
 
   /// A drag at an end of a stroke, or anywhere on it with Ctrl, bends it instead of moving it.

@@ -149,6 +149,10 @@ void PinRing::cancel(Workspace& workspace) {
   active_ = false;
 }
 
+std::string switched_to(MethodUse use) {
+  return "Switched to " + usual_method(use).label + ".";
+}
+
 std::string needs_a_cage(const Workspace& workspace, const std::string& what) {
   return what + ". Draw one with " + workspace.actions.key_of("tool.pen") +
          ", or use Make from picture.";

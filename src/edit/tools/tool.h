@@ -63,6 +63,9 @@ class Tool {
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
+/// "Switched to Elastic pins.", with the label of the usual method for a use.
+std::string switched_to(MethodUse use);
+
 /// "Pins need a cage. Draw one with P, or use Make from picture.", where `what` is the first
 /// sentence without its period.
 std::string needs_a_cage(const Workspace& workspace, const std::string& what);

@@ -54,8 +54,8 @@ ImageReference read_image(const Reader& reader) {
   if (reader.has("size")) {
     const Reader size = reader["size"].array();
     if (size.size() != 2) size.fail("expected [width, height]");
-    image.width = size[size_t{0}].whole(1, 1 << 20);
-    image.height = size[1].whole(1, 1 << 20);
+    image.width = size[size_t{0}].whole(1, kMaxImageSide);
+    image.height = size[1].whole(1, kMaxImageSide);
   }
   if (reader.has("sha256")) image.sha256 = reader["sha256"].text();
   image.extra = reader.others({"file", "entry", "size", "sha256"});

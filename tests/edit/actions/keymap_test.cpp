@@ -78,7 +78,8 @@ TEST_CASE("The list of keys contains every key") {
   for (const Action& action : actions.rows()) {
     INFO(action.id);
     if (action.keys.empty()) continue;
-    CHECK(list.find("| " + action.label) != std::string::npos);
+    CHECK(list.find("| " + action.label + (*action.hint ? std::string(": ") + action.hint : "") +
+                    " |") != std::string::npos);
     const std::string text = keys_text(action);
     if (text.find('|') == std::string::npos)
       CHECK(list.find("`" + text + "`") != std::string::npos);

@@ -323,6 +323,26 @@ TEST_CASE("Nudging, resetting and switching methods change the scene as expected
   CHECK(with_method(deformation, "cage").parameters.empty());
 }
 
+TEST_CASE("Tools that show no ring leave the wheel to zooming, with a pin selected") {
+  TestWorkspace desk(shapes::rectangle(200, 200));
+  Workspace& w = desk.workspace;
+  w.commit("Pin", with_pin(desk.deformation(), {100, 100}, {100, 100}));
+  desk.settle();
+  w.selection = {{Handle::Kind::pin, 0, 0}};
+  const size_t steps = desk.steps();
+  Input on_ring = desk.at(Complex(100, 100) + kRingRadius * w.display.handle_px);
+  on_ring.wheel = 1;
+  for (const ToolId id : {ToolId::pen, ToolId::stroke}) {
+    w.tools.active = id;
+    CHECK_FALSE(desk.tool().scroll(on_ring, w));
+    CHECK(desk.steps() == steps);
+  }
+  for (const ToolId id : {ToolId::select, ToolId::pin}) {
+    w.tools.active = id;
+    CHECK(desk.tool().scroll(on_ring, w));
+  }
+}
+
 TEST_CASE("The action table: ids and keys are unique, and every action has a label") {
   TestWorkspace desk(shapes::l_shape());
   std::set<std::string> ids, keys;
