@@ -19,8 +19,8 @@ inline Complex quotient(Complex x, Complex y) {
   return {over * dot(y, x), over * cross(y, x)};
 }
 
-/// The smallest number that equals `number` up to whole multiples of `turn` and is not below
-/// `before`. A number that rounding has put just below `before` counts as `before`.
+/// Adds a whole multiple of `turn` to `number` to get the smallest result that is at least
+/// `before`. A result that falls short of `before` only by rounding counts as equal to it.
 inline double next_modulo(double before, double number, double turn) {
   constexpr double kRounding = 1e-6;
   const double step = (number - before) / turn, on = step - std::floor(step);

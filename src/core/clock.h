@@ -1,4 +1,4 @@
-// A clock that measures how long things take.
+// A clock for measuring durations.
 #pragma once
 
 #include <chrono>

@@ -14,8 +14,8 @@ enum class ErrorKind {
   failed      ///< the input is valid, but the work failed (disk full): exit status 1
 };
 
-/// Bad input or failed work. The message says what, where and what to do about it. `where`, if any,
-/// is the position in the plane that an editor can show.
+/// Bad input or failed work. The message says what is wrong, where it is and what to do about it.
+/// `where`, if set, is a position in the plane that an editor can show.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message, std::optional<Complex> where = {})
@@ -29,7 +29,7 @@ class Error : public std::runtime_error {
   std::optional<Complex> where_;
 };
 
-/// What went wrong, in words. Covers exceptions of the standard library, too.
+/// The message of an exception, in words. Also handles exceptions of the standard library.
 std::string what_of(const std::exception& error);
 
 /// Aborts with a message when an invariant of the program itself is broken. Active in every build.

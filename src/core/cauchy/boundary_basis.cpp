@@ -22,8 +22,8 @@ Points mitered(const Points& polygon, const std::vector<double>& distances) {
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
     Complex miter = u + v;
     const double size = std::norm(miter);
-    // At a spike the miter would be too long. In a notch it must be long, or the sides meet before
-    // its end.
+    // At a spike, the miter would be too long and is cut. In a notch, it must keep its length, or
+    // the sides intersect before its end.
     const bool spike = cross(before, after) >= 0;
     if (spike && size < 4 / (kLongest * kLongest))
       miter = kLongest * before / std::abs(before);
@@ -34,7 +34,8 @@ Points mitered(const Points& polygon, const std::vector<double>& distances) {
   return outer;
 }
 
-/// The number of equal parts for each length: at least one, and about `wanted` in total.
+/// The number of equal parts into which each length is divided: at least one each, about `wanted`
+/// in total.
 std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
   double total = 0;
   for (const double length : lengths) total += length;
@@ -60,7 +61,7 @@ std::vector<double> lengths_of(const Cage& domain) {
   return lengths;
 }
 
-/// A piece, divided into parts that are equal in its parameter.
+/// The piece divided into parts of equal parameter length.
 std::vector<BoundaryPiece> subdivided(const Cage& domain, const BoundaryPiece& piece, int parts) {
   std::vector<BoundaryPiece> pieces;
   const double step = (piece.to - piece.from) / parts;
@@ -70,7 +71,7 @@ std::vector<BoundaryPiece> subdivided(const Cage& domain, const BoundaryPiece& p
   return pieces;
 }
 
-/// A bound of the distance of a piece from its chord.
+/// An upper bound of the distance between a piece and its chord.
 double sagitta(const BoundaryPiece& piece) {
   return piece.bend / 8;
 }
@@ -103,7 +104,7 @@ bool crosses(Complex a, Complex b, Complex c, Complex d) {
          cross(d - c, a - c) * cross(d - c, b - c) <= 0;
 }
 
-/// Whether a polygon is simple and surrounds another one at more than `distance` everywhere.
+/// Whether a polygon is simple and surrounds `inner` at a distance above `distance` everywhere.
 bool is_around(const Points& polygon, const Points& inner, double distance) {
   if (self_crossing(polygon)) return false;
   for (const Complex& z : inner)
@@ -178,7 +179,7 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   check_rest_cage(domain);
   const double around = perimeter(flattened(domain_).points);
   const int vertices = std::max(basis, 25);
-  constexpr double kOffset = 0.05;  // of the mean edge: 0.1 % of the perimeter for 50 vertices
+  constexpr double kOffset = 0.05;  // of the mean edge length: for 50 vertices, 0.1 % of the loop
   Surrounding around_domain = surrounding(domain_, vertices, kOffset * around / vertices);
   polygon_ = std::move(around_domain.polygon);
   const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));
@@ -204,7 +205,7 @@ Points BoundaryBasis::inset(double share) const {
     const Complex in = samples_[(i + n - 1) % n] - samples_[i],
                   out = samples_[(i + 1) % n] - samples_[i];
     Complex step = share * std::min(std::abs(in), std::abs(out)) * interior_bisector(out, in);
-    // Do not go beyond the middle of a thin part.
+    // Do not move beyond the middle of a thin part.
     for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
                                            winding_number(fine, samples_[i] + 2.0 * step) != 1);
          ++halving)

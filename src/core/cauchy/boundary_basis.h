@@ -1,8 +1,8 @@
 // A basis of holomorphic functions on a domain, given by their values at boundary samples.
 //
 // F = sum of C_j a_j, where C_j are the Cauchy coordinates of a polygon slightly outside the
-// domain, so that F is smooth up to the boundary of the domain, including its corners. The unknowns
-// are the whitened a_j: the mean of |F|^2 over the samples is the squared norm of the unknowns.
+// domain. F is therefore smooth up to the boundary of the domain, including the corners. The
+// unknowns are the whitened a_j: their squared norm is the mean of |F|^2 over the samples.
 #pragma once
 
 #include <Eigen/QR>
@@ -19,8 +19,8 @@ struct BoundaryPiece {
   double from = 0, to = 1;  ///< parameters on the segment
 
   Complex start, end;
-  double length = 0;  ///< bound of |dz/dx| for x from 0 to 1 along the piece
-  double bend = 0;    ///< bound of |d^2 z/dx^2|; 0 if straight
+  double length = 0;  ///< upper bound of |dz/dx| for x from 0 to 1 along the piece
+  double bend = 0;    ///< upper bound of |d^2 z/dx^2|; 0 if straight
 };
 
 /// The part of a segment of a counter-clockwise cage between two parameters.
@@ -28,18 +28,19 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 
 class BoundaryBasis {
  public:
-  /// The usual number of vertices: `wanted`, clamped to a range that is neither too coarse nor too
-  /// slow.
+  /// The recommended number of vertices: `wanted`, clamped to a range that is neither too coarse
+  /// nor too slow.
   static int usual_size(Index wanted) {
     return static_cast<int>(std::clamp<Index>(wanted, 50, 150));
   }
 
   /// The domain may have either orientation. The polygon has about `basis` >= 25 vertices: at least
   /// one for each vertex of the cage, more along sharp bends, and up to four times as many around
-  /// curves that nearly touch. Each of its edges has `samples` / `basis` samples, but at least two,
-  /// and all cage vertices are samples. The polygon is a twentieth of its mean edge length outside
-  /// the domain, or closer where the domain nearly touches itself. Throws Error for cages that
-  /// check_rest_cage rejects. Cost: `basis` x `samples`, and a QR factorization of that size.
+  /// curves that nearly touch. Each edge of the polygon has `samples` / `basis` samples, but at
+  /// least two. All cage vertices are samples. The polygon is outside the domain, at a distance of
+  /// a twentieth of the mean edge length. It is closer if the domain nearly touches itself. Throws
+  /// Error for cages that check_rest_cage rejects. Cost: `basis` x `samples`, and a QR
+  /// factorization of that size.
   BoundaryBasis(const Cage& domain, int basis, int samples);
 
   const Cage& domain() const { return domain_; }      ///< counter-clockwise
@@ -49,18 +50,18 @@ class BoundaryBasis {
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   Index size() const { return static_cast<Index>(polygon_.size()); }
 
-  /// The samples, moved inwards by the fraction `share` of the distance to the nearer neighbor, but
-  /// no farther than the middle of a thin part.
+  /// The samples, moved inwards. Each one moves by the fraction `share` of the distance to the
+  /// nearer neighboring sample, but in thin parts no farther than the middle.
   Points inset(double share) const;
 
-  /// C at points of the domain, or C' for order 1, with one row per point.
+  /// C (or C' for order 1) at points of the domain, with one row per point.
   MatrixXc values(std::span<const Complex> points, int order = 0) const;
-  /// The whitened basis at the points whose C is given: F = row . unknowns.
+  /// The whitened basis at the points for which `values` holds C. There F = row . unknowns.
   MatrixXc whitened(const MatrixXc& values) const { return values * coefficients_; }
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
-  /// The coefficients a of the polygon for the given unknowns.
+  /// The coefficients a_j for the given unknowns.
   VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }
-  /// The coefficients for all unknowns, with one column per unknown.
+  /// The matrix that maps unknowns to coefficients, with one column per unknown.
   const MatrixXc& coefficients() const { return coefficients_; }
   /// The unknowns of the constant function 1.
   VectorXc one() const { return one_; }
@@ -85,7 +86,7 @@ class HolomorphicFit {
   const MatrixXc& rows() const { return rows_; }
   VectorXc unknowns(const VectorXc& values) const { return qr_.solve(values); }
 
-  /// The closest function: its whitened unknowns, and its values at the points.
+  /// The function that fits best: the whitened unknowns, and the values at the points.
   struct Fit {
     VectorXc unknowns, values;
   };

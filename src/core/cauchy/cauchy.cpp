@@ -1,9 +1,9 @@
 // Stable evaluation of the Bernstein moments of one segment,
 // M_n[m] = integral_0^1 B_m^N(t) / (t - s)^(n+1) dt.
 //
-// Near an edge (small ellipse |s| + |q|), degree raising from one logarithm is stable. Far from it
-// the same sums cancel, but Gauss-Legendre quadrature converges fast. Together they are accurate to
-// 1e-14.
+// Near an edge (small ellipse |s| + |q|), degree raising from one logarithm is stable. Far from the
+// edge, the same sums suffer from cancellation, but Gauss-Legendre quadrature converges fast.
+// Together they are accurate to 1e-14.
 #include "core/cauchy/cauchy.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<int, 12> kRuleSizes{4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
 
-/// A rule with at least this many nodes, chosen from a few sizes; at most 64.
+/// A rule with at least `size` nodes, chosen from a few sizes. The largest rule has 64 nodes.
 const GaussRule& gauss_rule_of_at_least(int size) {
   for (const int rule : kRuleSizes)
     if (rule >= size) return gauss_rule(rule);
@@ -111,8 +111,8 @@ MatrixXc moments_at(const View& view, int degree, int order) {
              : moments_far(view, degree, order, nodes_for(ellipse, degree, order));
 }
 
-/// Reversion of series: the Taylor coefficients 1..order of the branch t(z + h) - t(z), in powers
-/// of h, of the inverse of a curve with the given Taylor coefficients.
+/// Reversion of series. `curve` holds the Taylor coefficients of a curve. Returns the coefficients
+/// 1..order of the branch t(z + h) - t(z) of its inverse, in powers of h.
 std::vector<Complex> reversion(const std::vector<Complex>& curve, int order) {
   std::vector<Complex> branch(order + 1);
   const Complex unit = inverse(curve[1]);
@@ -154,7 +154,7 @@ void add_branch(const SegmentPolynomial& segment, const Root& root, const Matrix
 }
 
 /// Adds the integral of B_m c' / (c - z)^(order + 1) over [from, to] by quadrature. The interval is
-/// halved until every root is far from its piece. Returns false if a root is on the curve.
+/// halved until every root is far from each piece. Returns false if a root is on the curve.
 bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> roots, Complex z,
                     double from, double to, int order, VectorXc& sum) {
   constexpr double kFar = 1.3, kShortest = 1.0 / 4096;
@@ -184,9 +184,8 @@ bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> root
   return true;
 }
 
-/// Whether two roots are so close to each other that they are better handled together, by
-/// quadrature: a double root has only half the digits, and the derivatives of two close roots
-/// cancel.
+/// Whether two roots are so close to each other that quadrature is more accurate. A double root has
+/// only half the digits, and the derivatives of two close roots cancel each other.
 bool has_close_roots(std::span<const Root> roots, int order) {
   const double apart = order == 0 ? 1e-3 : 0.05;
   for (size_t i = 0; i < roots.size(); ++i)
@@ -202,7 +201,7 @@ Complex cauchy_factor(int order) {
   return factor;
 }
 
-/// Removes the poles of a segment's first and last control points at its own ends.
+/// Removes the poles that the first and the last control point of a segment have at its ends.
 ///
 /// Integration by parts turns the integral of B / (t - s)^2 into the pole plus the integral of
 /// B' / (t - s).
@@ -218,7 +217,7 @@ void drop_poles(const View& view, Ends ends, MatrixXc& moments) {
   }
 }
 
-/// The pole at an end of the segment, given the difference of this end from z.
+/// The pole at an end of the segment, given the offset from z to this end.
 Complex pole_at(Complex from_end, int order) {
   Complex power = 1;
   for (int n = 0; n < order; ++n) power = times(power, inverse(from_end));
@@ -237,7 +236,7 @@ VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const
   std::vector<Root> roots(static_cast<size_t>(segment.degree()));
   segment.roots(z, roots);
   auto on = roots.end();
-  if (own) {  // the nearest root is this parameter, exactly
+  if (own) {  // the nearest root is exactly this parameter
     on = std::min_element(roots.begin(), roots.end(), [&](const Root& x, const Root& y) {
       return std::norm(x.s - own->s) < std::norm(y.s - own->s);
     });
@@ -278,7 +277,7 @@ double harmonic_number(int n) {
   return sum;
 }
 
-/// The sum over the roots of a segment at its own end, without the root at that end.
+/// The sum over the roots of a segment for z at one of its ends, without the root at that end.
 VectorXc other_roots(const SegmentPolynomial& segment, int degree, bool at_start) {
   VectorXc sum = VectorXc::Zero(degree + 1);
   if (segment.is_straight()) return sum;

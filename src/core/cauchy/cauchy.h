@@ -5,8 +5,8 @@
 // is the k-th derivative in z of the m-th coordinate. For straight segments these are eqs. 13 and
 // 14 of Lin, Chen 2024 with the missing factor 1 / (2 pi i). Degree 1 gives the Cauchy-Green
 // coordinates C_j, D_j and D2_j of Weber, Ben-Chen, Gotsman 2009 and of Segall, Ben-Chen 2016,
-// appendix A. Curved segments are no harder: c' / (c - z) is the sum of 1 / (t - t_r) over the
-// roots of c(t) = z, so that each root contributes like a straight edge.
+// appendix A. Curved segments need no other formula: c' / (c - z) is the sum of 1 / (t - t_r) over
+// the roots t_r of c(t) = z. Each root therefore contributes like a straight edge.
 #pragma once
 
 #include <span>
@@ -20,21 +20,21 @@ namespace holomorph {
 /// control point c (in the order of controls_of) at points[i], differentiated `order` >= 0 times.
 ///
 /// Identities inside the cage: with b = controls_of(cage), order 0: rows sum to 1 and C b = z;
-/// order 1: rows sum to 0 and D b = 1. Outside, all of these are 0. On the boundary, or within
-/// rounding of it (see contact.h), the result is the limit from inside. At a vertex this limit
-/// exists only for order 0; the row is NaN for higher orders. The cage may have either orientation,
-/// and straight and curved segments. Scaling all inputs by 2^k scales the results exactly. The
-/// relative error per straight edge is below 1e-13 for degrees up to 8 and orders up to 3. Throws
-/// Error if the order is negative. Cost: one complex logarithm per point and root; see
-/// cauchy_array.h for the fast path.
+/// order 1: rows sum to 0 and D b = 1. Outside the cage, all of these sums are 0. On the boundary,
+/// or within rounding of it (see contact.h), the result is the limit from inside. At a vertex this
+/// limit exists only for order 0; the row is NaN for higher orders. The cage may have either
+/// orientation, and it may mix straight and curved segments. Scaling all inputs by 2^k scales the
+/// results exactly. The relative error per straight edge is below 1e-13 for degrees up to 8 and
+/// orders up to 3. Throws Error if the order is negative. Cost: one complex logarithm per point and
+/// root; see cauchy_array.h for the fast path.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0);
 
-/// The same at boundary points that are given by segment and parameter: the limits from inside.
+/// The coordinates at boundary points given by segment and parameter, as limits from inside.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order = 0);
 
-/// Whether z lies inside the cage or, within rounding, on it. The answer is exact for curved cages,
-/// too: the winding number is the sum of the same logarithms. The cage may have either orientation.
-/// Cost: that of a row of order 0.
+/// Whether z lies inside the cage or, within rounding, on it. The answer is exact even for curved
+/// cages, because the winding number is the sum of the imaginary parts of the same logarithms. The
+/// cage may have either orientation. Costs as much as a row of order 0.
 bool contains(const Cage& cage, Complex z);
 
 /// A flag for each end of a segment.
@@ -43,11 +43,11 @@ struct Ends {
 };
 
 /// The degree + 1 coordinates of a single segment for a basis of the given degree, differentiated
-/// `order` times. z must differ from both ends. If z lies on the segment, `own` says where, and the
-/// result is the limit from the left. The first coordinate of a derivative has a pole at the start
-/// of the segment, and the last one has a pole at its end. The poles of the neighboring segments
-/// cancel them. `without_poles` omits these poles; it must do so for both segments at a vertex or
-/// for neither.
+/// `order` times. z must differ from both ends. If z lies on the segment, `own` must give its
+/// location there, and the result is the limit from the left. Among the derivatives, the first
+/// coordinate has a pole at the start of the segment, and the last coordinate has a pole at the
+/// end. The poles of the neighboring segments cancel them. `without_poles` says at which ends to
+/// omit the pole. At each vertex, the pole must be omitted for both segments or for neither.
 VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const FinePoint& z,
                              int order, const Contact* own = nullptr, Ends without_poles = {});
 
@@ -57,13 +57,13 @@ VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const
 VectorXc edge_coordinates(Complex a, Complex b, int degree, Complex z, int order,
                           bool on_edge = false);
 
-/// The imaginary part of ln(q / -s): the angle that the segment subtends for one root, positive on
-/// its left. Close to an end it is exact for the rounded s or q.
+/// The imaginary part of ln(q / -s): the angle that the segment subtends for one root, positive to
+/// the left of the segment. Close to an end, it is exact for the rounded value of s or q.
 double angle_of(const Root& root);
 
-/// The contributions of the two segments at a vertex to its row of order 0, as limits from inside a
-/// counter-clockwise cage. own[0] is the coordinate of the vertex itself, and the last entry of
-/// `before` is 0. Between straight edges of degree 1, own[0] is
+/// The row of order 0 at a vertex: the contributions of the two adjacent segments, as limits from
+/// inside a counter-clockwise cage. own[0] is the coordinate of the vertex itself, and the last
+/// entry of `before` is 0. Between straight edges of degree 1, own[0] is
 /// (ln|A_{j+1} / A_j| + i (2 pi - alpha_j)) / (2 pi i).
 struct VertexLimit {
   VectorXc before, own;

@@ -62,8 +62,8 @@ class BlockFiller {
     here_ = points.subspan(first, count);
     set_up_points();
     needs_patch_.fill(false);
-    // The column of a vertex is the end of the segment before it plus the start of the one after
-    // it.
+    // The column of a vertex is the last moment of the segment before it plus the first moment of
+    // the segment after it.
     const Index n = cage_.size();
     moments_of(n - 1, moments_[1]);
     for (Index e = 0; e < n; ++e) {
@@ -107,11 +107,11 @@ class BlockFiller {
       if (moments.on_edge[i] != 0) needs_patch_[i] = true;
   }
 
-  /// Each root of a curve acts as the s of a straight edge. Points whose roots need care are left
-  /// to the exact path.
+  /// Each root of a curve takes the role of s in a straight edge. Points whose roots need care take
+  /// the exact path.
   void curved_moments_of(Index e, kernel::Moments& moments) {
     const SegmentPolynomial& segment = segments_[e];
-    std::vector<Root>& roots = roots_[e];  // of the previous point, which is near
+    std::vector<Root>& roots = roots_[e];  // the roots of the previous point, which is nearby
     std::array<bool, kernel::kBlock> careful{};
     all_roots_.resize(roots.size());
     for (size_t i = 0; i < kernel::kBlock; ++i) {
@@ -125,7 +125,7 @@ class BlockFiller {
       for (size_t r = 0; r < roots.size(); ++r) {
         const Complex factor = order_ == 0 || careful[i] ? 1.0 : 1.0 / segment.derivative(roots[r]);
         kernel::Roots& block = all_roots_[r];
-        // A point off the segment stands in for the roots of points that take the exact path.
+        // For points that take the exact path, any root off the segment serves as a placeholder.
         const Complex s = careful[i] ? Complex(0.5, 1) : roots[r].s,
                       q = careful[i] ? 1.0 - s : roots[r].q;
         block.s_re[i] = s.real(), block.s_im[i] = s.imag();
@@ -141,7 +141,8 @@ class BlockFiller {
       if (careful[i]) set_exactly(e, i, moments);
   }
 
-  /// Whether a root may be on the segment, within `rounding` segment lengths, or is near an end.
+  /// Whether a root is near an end of the segment or within `rounding` segment lengths of the
+  /// segment.
   static bool is_near(const Root& root, double rounding) {
     constexpr double kEnd = 1e-4;
     return (std::abs(root.s.imag()) < rounding && root.s.real() > -rounding &&
@@ -169,7 +170,8 @@ class BlockFiller {
     }
   }
 
-  /// On the boundary and next to vertices, all segments must be evaluated at the same position.
+  /// Corrects a row on the boundary or next to a vertex, where all segments must be evaluated at
+  /// the same position.
   void patch_row(Complex z, Index row) {
     if (!rows_) rows_.emplace(cage_, order_, CauchyRows::AtVertices::from_inside);
     const auto patch = rows_->patch(z);
@@ -263,7 +265,7 @@ void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, Pla
   const auto product = product_of(table_of(choice), T{});
   out.re.setZero();
   out.im.setZero();
-  constexpr Index kRows = 512;  // a block of the matrix stays in the cache for all factor columns
+  constexpr Index kRows = 512;  // a block of kRows rows stays in the cache for all columns
   for (Index row = 0; row < matrix.rows(); row += kRows) {
     const Index count = std::min(kRows, matrix.rows() - row);
     for (Index column = 0; column < factors.cols(); ++column)

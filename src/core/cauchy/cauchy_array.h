@@ -1,9 +1,9 @@
-// Cauchy coordinates of many points in one call, and products with them: the array path.
+// The array path: Cauchy coordinates of many points in one call, and products with them.
 //
 // The values agree with those of cauchy.h to 1e-14 for degree 1 and to 1e-13 for higher degrees.
 // Away from a segment, the coordinates are a power series in 1 / W^2, where W = q - s is twice the
-// offset from the midpoint in edge lengths. Near it they take one logarithm. Both run without
-// branches over blocks of points, so that the compiler vectorizes them.
+// offset from the midpoint in edge lengths. Near the segment, they take one logarithm. Both
+// formulas run without branches over blocks of points, and the compiler vectorizes them.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@
 
 namespace holomorph {
 
-/// A complex matrix as two real ones, in column-major order. Loops over planar storage vectorize.
+/// A complex matrix, stored as two real matrices in column-major order. The compiler can vectorize
+/// loops over this storage.
 template <class T>
 struct PlanarMatrix {
   using Real = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
@@ -45,19 +46,19 @@ enum class Kernel { automatic, portable, avx2 };
 bool has_avx2();
 
 /// Cauchy coordinates (order 0 or 1) of a cage's control points: points x control points.
-/// Orientation, boundary limits and identities are those of cauchy_coordinates, but derivatives at
-/// vertices are evaluated 1e-12 of an edge inside, which gives the limits that are finite. Bases of
-/// degree above 4 take the path of cauchy.h. Rows of order 0 sum to one up to 1e-11: take products
-/// relative to the center of the control points if they are far from the origin. Points that are
-/// close to each other should be neighbors in the list. Cost with AVX2: 3 ns per point and edge of
-/// degree 1, 8 ns for degree 3; 0.4 us per point and curved cubic segment, most of it for the
-/// roots.
+/// Orientation, boundary limits and identities are as for cauchy_coordinates, with one exception:
+/// derivatives at a vertex are evaluated inside the cage, at a distance of 1e-12 of an edge. This
+/// gives the limit if it is finite. Bases of degree above 4 take the path of cauchy.h. Rows of
+/// order 0 sum to one only up to 1e-11. If the control points are far from the origin, take
+/// products relative to their center. Points that are close to each other should be neighbors in
+/// the list. Cost with AVX2: 3 ns per point and edge of degree 1, 8 ns for degree 3; 0.4 us per
+/// point and curved cubic segment, most of it for the roots.
 template <class T>
 PlanarMatrix<T> planar_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0,
                                    Kernel kernel = Kernel::automatic);
 
-/// The same, written to a matrix whose storage is reused: fresh memory costs as much as the
-/// coordinates.
+/// Writes the coordinates to `out` and reuses its storage. Allocating new memory costs as much as
+/// computing the coordinates.
 template <class T>
 void planar_coordinates(const Cage& cage, std::span<const Complex> points, int order, Kernel kernel,
                         PlanarMatrix<T>& out);
@@ -68,7 +69,7 @@ template <class T>
 void multiply(const PlanarMatrix<T>& matrix, const PlanarMatrix<T>& factors, PlanarMatrix<T>& out,
               Kernel kernel = Kernel::automatic);
 
-/// matrix * factors for one column of factors, rounded to the matrix's precision.
+/// matrix * factors for one column of factors, computed in the precision of the matrix.
 template <class T>
 VectorXc product(const PlanarMatrix<T>& matrix, const VectorXc& factors);
 

@@ -1,6 +1,6 @@
 // The inner loops, which are compiled several times: for any processor and for wider instructions.
-// They use plain pointers and no templates of other headers, so that nothing compiled with wider
-// instructions can leak into the rest of the program through the linker.
+// They use plain pointers and no templates of other headers. Otherwise, the linker might use code
+// with wider instructions in the rest of the program.
 #pragma once
 
 namespace holomorph::kernel {
@@ -21,14 +21,15 @@ struct alignas(64) Block {
   double x[kBlock], y[kBlock], center_x, center_y, radius;
 };
 
-/// One root of a curve for each point of a block (see segment.h), and the factor of its moments: 1,
-/// or 1 / c' for derivatives.
+/// For each point of a block, one root of a curve (see segment.h) and the factor for the moments of
+/// this root: 1, or 1 / c' for derivatives.
 struct alignas(64) Roots {
   double s_re[kBlock], s_im[kBlock], q_re[kBlock], q_im[kBlock], factor_re[kBlock],
       factor_im[kBlock];
 };
 
-/// Coordinates of a segment's control points at kBlock points; on_edge is 1 for marked points.
+/// The coordinates of a segment's control points at kBlock points. on_edge is 1 for points that
+/// EdgeMoments marks.
 struct alignas(64) Moments {
   double re[kMaxDegree + 1][kBlock], im[kMaxDegree + 1][kBlock], on_edge[kBlock];
 };
@@ -39,11 +40,11 @@ struct alignas(64) Moments {
 using EdgeMoments = bool (*)(const Edge& edge, const Block& block, int degree, int order,
                              Moments& out);
 
-/// Adds the contribution of one root to the coordinates of a curved segment. Roots must be off the
+/// Adds the contribution of one root to the coordinates of a curved segment. No root may lie on the
 /// segment.
 using RootMoments = void (*)(const Roots& roots, int degree, int order, Moments& sum);
 
-/// Writes the first `count` sums of two rows, of which the second may be null, to a column.
+/// Adds two rows and writes the first `count` sums to a column. The second row may be null.
 template <class T>
 using Join = void (*)(const double* re, const double* im, const double* more_re,
                       const double* more_im, long count, T* out_re, T* out_im);

@@ -1,5 +1,5 @@
-// Uses the logarithm near a segment, and Gauss-Legendre quadrature at middle distances and far
-// away. There, cancellation in the closed form grows like the distance to the power of the degree.
+// Uses the closed form with the logarithm near a segment, and Gauss-Legendre quadrature elsewhere.
+// Cancellation in the closed form grows like the distance to the power of the degree.
 #include "core/cauchy/cauchy_map.h"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ CauchySum::ValueAndSlope CauchySum::integral(const Segment& segment, const Root&
       rest_slope += 2.0 / static_cast<double>(j + 1) * e_slope;
     }
   }
-  // d times the slope of the logarithm, -1 / s - 1 / q. Without its pole, d(s) / s is
+  // d times the slope of the logarithm, which is -1 / s - 1 / q. Without the pole, d(s) / s becomes
   // (d(s) - d(0)) / s.
   const auto over = [&](const Points& powers, Complex x, bool without_pole) {
     if (!without_pole) return times(d, inverse(x));
@@ -142,8 +142,9 @@ CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
       const Complex slope = segment.curve.derivative(root);
       const Complex log(0.5 * std::log(std::norm(root.q) / std::norm(root.s)), angle_of(root));
       turns += log.imag();
-      // Where a boundary is smooth at a vertex, the extension of the neighboring segment comes
-      // equally near. Beyond its ends, a segment is therefore as far away as its end.
+      // If the boundary is smooth at a vertex, the extension of the neighboring segment is as near
+      // as the segment itself. Beyond the ends of a segment, the distance is therefore measured to
+      // the end.
       const double beyond = std::max({0.0, -root.s.real(), -root.q.real()});
       const double distance = (root.s.imag() * root.s.imag() + beyond * beyond) * std::norm(slope);
       if (beyond <= 0.1 && distance < nearest) {
@@ -160,7 +161,7 @@ CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
   const Complex factor = inverse(2 * kPi * kI);
   sum = {times(factor, sum.f), times(factor, sum.df)};
   if (turns > kPi || !across || !across->is_moved) return sum;
-  // Outside: the jump across the segment is d itself.
+  // Outside the cage, add the jump across the segment, which is d itself.
   Complex d = 0, slope = 0;
   const Complex v = crossed.s - crossed.q;
   for (size_t k = across->powers.size(); k-- > 0;) {

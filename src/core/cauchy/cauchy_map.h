@@ -12,7 +12,8 @@
 
 namespace holomorph {
 
-/// The sum over all segments and its derivative. Both are 0 everywhere if nothing is displaced.
+/// The sum over all segments and its derivative. Both are 0 everywhere if no control point is
+/// displaced.
 class CauchySum {
  public:
   /// `displacement` has an entry for each control point of `rest`, in file order.
@@ -22,9 +23,10 @@ class CauchySum {
     Complex f, df;
   };
   /// The sum at a point inside the cage or near its boundary. Outside, the inner branch is
-  /// continued across the nearest segment, so that Newton's method can cross the boundary. A vertex
-  /// is replaced by a point that is 1e-12 of its shorter edge inside; the derivative there is the
-  /// limit if that is finite. Cost: 40 ns per straight segment, 0.3 us per curved one.
+  /// continued across the nearest segment, which lets Newton's method cross the boundary. At a
+  /// vertex, the sum is evaluated inside the cage, at a distance of 1e-12 of the shorter edge. If
+  /// the derivative has a finite limit at the vertex, the result is this limit. Cost: 40 ns per
+  /// straight segment, 0.3 us per curved one.
   ValueAndSlope at(Complex z) const;
 
  private:

@@ -11,12 +11,13 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 0.05;     ///< of a vertex's reach: the poles of its segments cancel there
-constexpr double kPole = 1e-5;     ///< closer than this, their remainders would lose digits
+constexpr double kNear = 0.05;     ///< of a vertex's reach: closer than this, poles are omitted
+constexpr double kPole = 1e-5;     ///< closer than this, separate segments would lose digits
 constexpr double kInside = 1e-12;  ///< of a vertex's reach
-/// A point on a cage must also be on the finer boundaries along it, whose vertices are rounded.
+/// Factor of the tolerance outside the loop. A point on a cage must also count as a boundary point
+/// of finer loops along this cage, although their vertices are rounded.
 constexpr double kOutside = 3;
-/// At a distance of this many roundings, a step of one rounding does not matter.
+/// At a distance of this many rounding errors, a shift by one rounding error does not matter.
 constexpr double kRecovers = 1e10;
 
 }  // namespace
@@ -105,7 +106,8 @@ VectorXc CauchyRows::row(BoundaryPoint point) const {
   return whole_row(eval_point_on(contact_at(segments_, point.segment, point.t)));
 }
 
-/// Between two straight edges, the second derivative is rational and does not cancel at all.
+/// Replaces the second derivatives at vertices between two straight edges by their rational form,
+/// which has no cancellation.
 void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const {
   for (Index v = 0; v < cage_.size(); ++v) {
     const size_t vertex = static_cast<size_t>(v);
@@ -124,7 +126,8 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
     for (size_t v = 0; v < segments_.size(); ++v)
       if (std::abs(segments_[v].start() - z) < kPole * reach_[v]) own = v;
   if (own == segments_.size()) return {};
-  // Extends in both directions along the boundary as far as a step by a rounding error matters.
+  // Extend the range of segments in both directions along the boundary, as far as a shift by a
+  // rounding error matters.
   const size_t n = segments_.size();
   const double far = kRecovers * rounding_of(segments_[own], z, 0.5, 0.5);
   const auto is_affected = [&](size_t vertex) {
@@ -134,7 +137,8 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
   while (to - from < n && is_affected(from)) --from;
   while (to - from < n && is_affected(to + 1)) ++to;
   if (to - from + 3 >= n) return Patch{0, whole_row(eval_point)};
-  // Fills their columns, to which the next segments on both sides contribute, too.
+  // Fill the columns of these segments. The adjacent segments on both sides contribute to them,
+  // too.
   Patch patch{column(from % n, 0), {}};
   const Index all = cage_.control_count();
   const Index count = (column((to + 1) % n, 0) - patch.first + all) % all + 1;

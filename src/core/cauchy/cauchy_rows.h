@@ -9,9 +9,10 @@ namespace holomorph {
 
 class CauchyRows {
  public:
-  /// Derivatives have a logarithm at vertices where the slope of the control points jumps. Rows
-  /// there are either NaN or those of a point that is 1e-12 of the shorter edge inside. Products of
-  /// the latter with control points whose slope does not jump are the limit.
+  /// The value of a derivative row at a vertex. Derivatives have a logarithmic singularity at
+  /// vertices where the slope of the control points jumps. `not_a_number` fills the row with NaN.
+  /// `from_inside` evaluates the row inside the cage, at a distance of 1e-12 of the shorter edge.
+  /// The product of that row with control points is the limit if their slope does not jump.
   enum class AtVertices { not_a_number, from_inside };
 
   /// The cage must be counter-clockwise, and the order must be >= 0.
@@ -21,9 +22,9 @@ class CauchyRows {
   VectorXc row(Complex z) const;
   VectorXc row(BoundaryPoint point) const;
 
-  /// The columns of the row at z that are lost to rounding when segments are evaluated one by one.
-  /// There are such columns on the boundary and, for derivatives, next to a vertex. They run
-  /// cyclically from `first`. None if no column is lost.
+  /// Correct values for the columns of the row at z that lose their digits if each segment is
+  /// evaluated separately. This happens on the boundary and, for derivatives, next to a vertex. The
+  /// columns are `first` and its successors, cyclically. Returns none if no column is affected.
   struct Patch {
     Index first = 0;
     VectorXc values;

@@ -1,4 +1,4 @@
-// Newton's method on the Legendre recurrence in extended precision.
+// Computes nodes by Newton's method on the Legendre recurrence, in extended precision.
 #include "core/cauchy/quadrature.h"
 
 #include <array>

@@ -10,7 +10,7 @@ struct GaussRule {
   std::vector<double> nodes, weights;
 };
 
-/// The rule with the given number of nodes, 1 to 64. Rules are computed once, in extended
+/// The rule with the given number of nodes, 1 to 64. Each rule is computed once, in extended
 /// precision.
 const GaussRule& gauss_rule(int nodes);
 

@@ -1,4 +1,4 @@
-// Cages are index arithmetic over segments. The curves themselves are in curve.h.
+// Index arithmetic over the segments of a cage. curve.h has the operations on single curves.
 #include "core/geometry/cage.h"
 
 #include <algorithm>
@@ -177,7 +177,7 @@ FlatCage flattened(const Cage& cage) {
   FlatCage flat;
   for (Index i = 0; i < cage.size(); ++i) {
     const Points controls = cage.controls(i);
-    double bend = 0;  // the largest second difference bounds c'' / (n (n - 1))
+    double bend = 0;  // upper bound of c'' / (n (n - 1)): the largest second difference
     for (size_t m = 0; m + 2 < controls.size(); ++m)
       bend = std::max(bend, std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
     const double n = cage.degree(i), sagitta = n * (n - 1) * bend / 8;
@@ -221,9 +221,9 @@ std::string point_text(Complex z) {
 
 namespace {
 
-/// Each vertex must keep a distance from the edges next to it that survives rounding, including
-/// that of points which a mesher inserts between them: a needle must have an angle of at least
-/// kNeedle. Otherwise it is undecidable on which side of an edge a vertex lies.
+/// Rounding must not change on which side of a nearby edge a vertex lies. This includes the
+/// rounding of points that a mesher inserts on the edges. Each vertex must therefore keep some
+/// distance from these edges: a needle must have an angle of at least kNeedle.
 std::optional<Error> gap_fault(const FlatCage& flat) {
   constexpr double kNeedle = 1e-7;
   const Points& polygon = flat.points;
@@ -266,8 +266,8 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
   return {};
 }
 
-/// A curve must have nonzero speed: where c' = 0 it has a cusp, and the derivative of the map has
-/// no limit.
+/// A curve must have nonzero speed. At a point where c' = 0, it has a cusp, and the derivative of
+/// the map has no limit there.
 std::optional<Error> speed_fault(const Cage& cage, Index segment) {
   if (is_straight(cage, segment)) return {};
   const Points controls = cage.controls(segment);
@@ -310,8 +310,8 @@ std::optional<Error> tip_fault(const Cage& cage) {
   return {};
 }
 
-/// Rejects segments that are not polynomials and coordinates that overflow when areas are
-/// multiplied.
+/// Rejects segments that are not polynomials, and coordinates so large that products of areas
+/// overflow.
 std::optional<Error> numbers_fault(const Cage& cage) {
   const auto fault = [](Index i, const std::string& what) {
     return Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) + " " + what);

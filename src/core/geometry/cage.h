@@ -10,9 +10,9 @@
 
 namespace holomorph {
 
-/// A closed loop of Bezier segments. Segment i stores its control points except the last, which is
-/// the first of segment i + 1. Its degree is therefore the number of points that it stores. Value
-/// type.
+/// A closed loop of Bezier segments. Segment i stores all of its control points except the last
+/// one, which segment i + 1 stores as its first. The number of points that a segment stores is
+/// therefore its degree. Value type.
 struct Cage {
   std::vector<Points> segments;
 
@@ -30,7 +30,7 @@ struct Cage {
   Index control_offset(Index segment) const;
 };
 
-/// A point on the boundary of the cage, given exactly: parameter t in [0, 1) on segment `segment`.
+/// An exact point on the boundary of the cage: the parameter t in [0, 1) on segment `segment`.
 struct BoundaryPoint {
   Index segment = 0;
   double t = 0.0;
@@ -42,30 +42,31 @@ Complex position_of(const Cage& cage, BoundaryPoint point);
 /// A cage with straight edges.
 Cage polygon_cage(std::span<const Complex> vertices);
 
-/// The end points of the segments. A cage of degree 1 is the polygon with these vertices.
+/// The end points of the segments. If all degrees are 1, the cage is the polygon with these
+/// vertices.
 Points vertices_of(const Cage& cage);
 
 /// All control points in file order: segment by segment, with shared vertices once.
 VectorXc controls_of(const Cage& cage);
 
-/// `cage` with each segment's degree raised to at least that of the corresponding segment of
-/// `other`. Throws Error if the two have different numbers of segments.
+/// `cage` with degrees raised where necessary: no segment has a lower degree than the corresponding
+/// segment of `other`. Throws Error if the two have different numbers of segments.
 Cage elevated_to(const Cage& cage, const Cage& other);
 
-/// The loop as a polyline. A segment of degree 1 is sampled only at its start, others at
+/// The loop as a polyline. Segments of degree 1 are sampled only at their start, all others at
 /// `per_curve` parameters.
 Points outline_of(const Cage& cage, int per_curve = 16);
 
-/// The loop as a polygon, accurate to 5e-5 of the cage's diagonal: its vertices and their locations
-/// on the cage. Straight segments stay whole. Curved ones are divided evenly in the parameter, into
-/// at most 1024 pieces.
+/// The loop as a polygon, accurate to 5e-5 of the cage's diagonal: the vertices of the polygon and
+/// their locations on the cage. Straight segments are not divided. Curved segments are divided
+/// evenly in the parameter, into at most 1024 pieces.
 struct FlatCage {
   Points points;
   std::vector<BoundaryPoint> locations;
 };
 FlatCage flattened(const Cage& cage);
 
-/// The point of the cage nearest to z. `flat` is the flattened cage. Cost: that of
+/// The point of the cage nearest to z. `flat` is the flattened cage. Costs as much as
 /// nearest_on_polygon.
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
 
@@ -75,9 +76,9 @@ Cage reversed(const Cage& cage);
 /// The same loop, traversed counter-clockwise.
 Cage counter_clockwise(const Cage& cage);
 
-/// z itself, unless z is a vertex of the counter-clockwise cage; then an interior point at a
-/// distance of 1e-9 times the shorter edge. Derivatives that are infinite at a vertex are evaluated
-/// at this point instead.
+/// Returns z unless it is a vertex of the counter-clockwise cage. For a vertex, returns an interior
+/// point at a distance of 1e-9 times the shorter edge. Derivatives that are infinite at the vertex
+/// are evaluated at this point instead.
 Complex point_inside_vertex(const Cage& cage, Complex z);
 
 /// For each control point of the cage, its index among the control points of the reversed cage.
@@ -87,16 +88,17 @@ std::vector<Index> reversed_columns(const Cage& cage);
 /// not change.
 void insert_vertex(Cage& cage, Index segment, double t);
 
-/// What replaces the two curved segments at a vertex that is removed: a least-squares fit to the
-/// old curve with the larger of the two degrees, or a cubic with the outer tangents.
+/// How erase_vertex replaces two curved segments. `curve` fits the old curve by least squares, with
+/// the larger of the two degrees. `tangents` uses a cubic with the outer tangents.
 enum class Refit { curve, tangents };
 
-/// The parameter of a vertex on the segment that replaces its two segments. It makes the speeds on
-/// both sides agree, so that erase_vertex undoes insert_vertex. Clamped to [0.05, 0.95].
+/// The parameter of a vertex on the single segment that will replace the two segments at this
+/// vertex. With this parameter the speeds on both sides agree, and erase_vertex undoes
+/// insert_vertex. Clamped to [0.05, 0.95].
 double joint_parameter(const Cage& cage, Index vertex);
 
-/// Removes vertex `vertex`. Two straight segments become one; `refit` says what replaces curved
-/// ones. `joint` is the parameter of the vertex on the curve that replaces them. The rest cage and
+/// Removes vertex `vertex`. Two straight segments become one. Curved segments are replaced as
+/// `refit` says, and `joint` is the parameter of the old vertex on the new curve. The rest cage and
 /// the posed cage must use the same `joint`, or the picture slides along the curve. The cage must
 /// have more than three segments.
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
@@ -111,8 +113,8 @@ bool is_straight(const Cage& cage, Index segment);
 /// Throws Error unless the cage can be a rest cage. It must have at least three segments, finite
 /// coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a needle
 /// below 1e-7 radians or a self-intersection. The message names the segments, and the error's
-/// `where` is the position. Needles, self-intersections and the area are those of the `flattened`
-/// cage. Cost: O(n log n) in the number of its points for ordinary loops.
+/// `where` is the position. Needles, self-intersections and the area are tested on the `flattened`
+/// cage. Cost for ordinary loops: O(n log n) in the number of flattened points.
 void check_rest_cage(const Cage& cage);
 
 /// The error that check_rest_cage would throw, or none if the cage is valid.

@@ -1,5 +1,5 @@
-// The candidates are the vertices and the feet of perpendiculars, whose parameters are the real
-// parts of roots.
+// The candidates are the vertices and the feet of the perpendiculars from z. The parameter of such
+// a foot is the real part of a root.
 #include "core/geometry/contact.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Finds the boundary point with which a point coincides, up to rounding.
 //
-// Half of all points that were rounded onto an edge lie outside it. They get the limits from
-// inside, and near a vertex its two segments must agree on the position.
+// Rounding puts about half of all boundary points outside the loop. These points still get the
+// limits from inside. Near a vertex, both adjacent segments must use the same position.
 #pragma once
 
 #include <optional>
@@ -19,16 +19,17 @@ struct Contact {
   bool is_vertex() const { return s == 0; }
 };
 
-/// The boundary point nearest to z if its distance is within the rounding of z and of the curves,
-/// about 4 eps |z|, or `outside` times that for z outside the loop; else none. Cost: 3 ns per
-/// straight segment, plus the roots for each curved segment whose box contains z.
+/// Returns the boundary point nearest to z if z is on the boundary up to the rounding error of z
+/// and of the curves, which is about 4 eps |z|. For points outside the loop, this tolerance is
+/// multiplied by `outside`. Returns none if the boundary is farther away. Cost: 3 ns per straight
+/// segment, plus the roots for each curved segment whose box contains z.
 std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Complex z,
                                   double outside = 1);
 
 /// The contact at parameter t in [0, 1) of a segment.
 Contact contact_at(std::span<const SegmentPolynomial> loop, Index segment, double t);
 
-/// How far rounding can move a point z that is next to a segment at its parameter s = 1 - q.
+/// How far rounding can move a point z that is close to a segment, near the parameter s = 1 - q.
 double rounding_of(const SegmentPolynomial& segment, Complex z, double s, double q);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
 // Bezier segments by de Casteljau's algorithm, and polylines by orientation tests in extended
-// precision. The extra 11 bits keep the signs right for coordinates up to millions of pixels.
+// precision. The 11 additional bits give correct signs for coordinates up to millions of pixels.
 #include "core/geometry/curve.h"
 
 #include <Eigen/QR>
@@ -115,7 +115,7 @@ int orientation(Complex a, Complex b, Complex c) {
   return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-/// Whether z, a point of the line through a and b, is between them.
+/// Whether z lies between a and b. z must be on the line through both.
 bool between(Complex a, Complex b, Complex z) {
   return std::min(a.real(), b.real()) <= z.real() && z.real() <= std::max(a.real(), b.real()) &&
          std::min(a.imag(), b.imag()) <= z.imag() && z.imag() <= std::max(a.imag(), b.imag());
@@ -180,7 +180,7 @@ std::optional<Crossing> self_crossing(std::span<const Complex> polygon) {
 
   const auto cross_at = [&](Index i, Index j) -> std::optional<Complex> {
     const Complex a = at(i), b = at(i + 1), c = at(j), d = at(j + 1);
-    // Neighbors share a vertex by construction. They cross only if one folds back on the other.
+    // Neighboring edges always share a vertex. They cross only if one folds back onto the other.
     if ((i + 1) % n == j)
       return orientation(a, b, d) == 0 && dot(a - b, d - b) > 0 ? std::optional(b) : std::nullopt;
     if ((j + 1) % n == i)

@@ -8,35 +8,34 @@
 
 namespace holomorph {
 
-/// The highest degree of a segment. Above it, powers amplify rounding, and nobody draws such
-/// curves.
+/// The highest degree of a segment. Powers of higher degrees amplify rounding errors, and such
+/// curves are not needed for drawing.
 inline constexpr int kHighestDegree = 8;
 
 /// Point at parameter t of the Bezier curve with control points `controls` (degree + 1 of them),
 /// by de Casteljau's algorithm. Cost O(degree^2).
 Complex bezier_point(std::span<const Complex> controls, double t);
 
-/// The two parts of a Bezier curve that is split at t by de Casteljau's algorithm. Each has as many
-/// control points as the curve; the last one of `before` is the first one of `after`.
+/// The two parts of a Bezier curve, split at t by de Casteljau's algorithm. Each part has as many
+/// control points as the curve. The last point of `before` is also the first point of `after`.
 struct SplitCurve {
   Points before, after;
 };
 SplitCurve split(std::span<const Complex> controls, double t);
 
-/// The same curve, written with the given higher degree. Each step adds one control point. Throws
-/// Error if the curve's degree is already higher.
+/// The same curve, raised to the given degree. Each degree adds one control point. Throws Error if
+/// the curve's degree is already higher.
 Points elevated(std::span<const Complex> controls, int degree);
 
-/// The Bezier curve of the given degree that starts at the first sample, ends at the last one and
-/// fits the others best in the least-squares sense. samples[i] belongs to the parameter
-/// parameters[i].
+/// The Bezier curve of the given degree that starts at the first sample, ends at the last sample
+/// and fits the other samples by least squares. parameters[i] is the parameter of samples[i].
 Points fitted(std::span<const Complex> samples, std::span<const double> parameters, int degree);
 
 /// The counter-clockwise angle from `out` to `in`, in (0, 2 pi]. It is the interior angle at a
 /// vertex of a counter-clockwise boundary, where `out` points to the next vertex and `in` to the
 /// previous one.
 double inner_angle(Complex out, Complex in);
-/// The unit vector that bisects this angle.
+/// The unit vector that bisects the inner angle.
 Complex interior_bisector(Complex out, Complex in);
 
 /// Signed area of a closed polygon: positive when counter-clockwise.
@@ -45,12 +44,12 @@ double signed_area(std::span<const Complex> polygon);
 /// Length of a closed polygon.
 double perimeter(std::span<const Complex> polygon);
 
-/// The winding number of a closed polygon around z. Points on the boundary may count as being on
-/// either side.
+/// The winding number of a closed polygon around z. Points on the boundary may count as inside or
+/// outside.
 int winding_number(std::span<const Complex> polygon, Complex z);
 
-/// The nearest point on a polyline: its edge (from vertex `edge` to the next one), the parameter on
-/// this edge, the position and the distance.
+/// The nearest point on a polyline: the edge from vertex `edge` to the next vertex, the parameter
+/// on this edge, the position and the distance.
 struct NearestPoint {
   Index edge = 0;
   double t = 0.0;
@@ -60,7 +59,7 @@ struct NearestPoint {
 NearestPoint nearest_on_segment(Complex a, Complex b, Complex z);
 NearestPoint nearest_on_polygon(std::span<const Complex> polygon, Complex z);
 
-/// A self-intersection of a closed polygon: two edges that touch or cross, and a common point.
+/// A self-intersection of a closed polygon: two edges that touch or cross, and a point on both.
 struct Crossing {
   Index first = 0, second = 0;
   Complex point;

@@ -1,5 +1,5 @@
-// Fits least-squares cubics between points of the outline. Pieces that would cut the kept polyline
-// are halved until none does.
+// Fits least-squares cubics between points of the outline. Pieces that cut the kept polyline are
+// halved until no piece cuts it.
 #include "core/geometry/curve_around.h"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ std::set<size_t> first_breaks(const Points& outline, const Points& polygon) {
   return breaks;
 }
 
-/// The cubic fitted to the outline from one of its points to another, or a line if there are too
-/// few points in between.
+/// The cubic fitted to the outline between two of its points, or a line if there are too few points
+/// in between.
 Points piece(const Points& outline, size_t from, size_t to) {
   const size_t n = outline.size(), count = (to + n - from) % n;
   Points samples;

@@ -1,4 +1,5 @@
-// Boxes around runs of segments, which are halved until they have at most four.
+// A tree of bounding boxes around runs of segments. Runs are halved until they have at most four
+// segments.
 #include "core/geometry/polyline.h"
 
 #include <algorithm>

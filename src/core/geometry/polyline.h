@@ -1,4 +1,4 @@
-// A polyline that finds its point nearest to a given one: the target of outlines and strokes.
+// A polyline with a fast nearest-point search: the target curve of outlines and strokes.
 #pragma once
 
 #include <span>
@@ -18,8 +18,8 @@ class Polyline {
     double parameter = 0;  ///< 0 to 1 along the segment
     double distance = 0;
   };
-  /// The point nearest to z. `hint` is a segment that is likely to be near, such as that of the
-  /// previous answer. Cost: logarithmic in the number of segments if the hint is good.
+  /// The point nearest to z. `hint` is a segment that is likely to be near, such as the segment of
+  /// the previous result. Cost: logarithmic in the number of segments if the hint is good.
   Nearest nearest(Complex z, Index hint = 0) const;
 
   const Points& points() const { return points_; }
@@ -29,7 +29,7 @@ class Polyline {
   /// The point at the given arc length from the first point. The length wraps around on a closed
   /// curve and is clamped on an open one.
   Complex at(double length) const;
-  /// The location of this point: a segment and the parameter on it.
+  /// A point on the polyline, as a segment and the parameter on it.
   struct Location {
     Index segment = 0;
     double parameter = 0;
@@ -56,7 +56,7 @@ class Polyline {
 
   Points points_;
   bool closed_;
-  std::vector<double> lengths_;  ///< arc lengths from the first point to each and to the end
+  std::vector<double> lengths_;  ///< arc lengths from the first point to each point and to the end
   std::vector<Box> boxes_;       ///< bounding boxes in a binary tree over consecutive segments
 };
 
@@ -69,7 +69,7 @@ void check_stroke(std::span<const Complex> points);
 /// `count` points at equal distances in arc length. On an open curve, they include both ends.
 Points at_equal_lengths(const Polyline& line, Index count);
 
-/// The largest distance from b among points of a: its corners and the midpoints of its segments.
+/// The largest distance from b, taken over the corners of a and the midpoints of its segments.
 double one_sided_distance(const Polyline& a, const Polyline& b);
 
 }  // namespace holomorph

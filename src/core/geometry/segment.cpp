@@ -1,5 +1,6 @@
-// Three expansions of the same polynomial. The one about the middle is balanced over the segment
-// and finds the roots; the two about the ends refine the roots near them.
+// Three expansions of the same polynomial. The expansion about the middle is balanced over the
+// segment and is used to find the roots. The expansions about the ends refine the roots near each
+// end.
 #include "core/geometry/segment.h"
 
 #include <algorithm>
@@ -60,8 +61,8 @@ SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
   middle_ = powers_about_middle(controls);
   start_ = powers_of(Points(controls.begin(), controls.end()));
   end_ = powers_of(std::move(backwards));
-  // A leading coefficient does not count if it is only the rounding of the control points,
-  // amplified by the differences.
+  // A leading coefficient is ignored if it may be only rounding of the control points, amplified by
+  // the differences.
   const auto rounding = [&] {
     const double n = static_cast<double>(controls.size()) - 1, k = static_cast<double>(degree());
     double binomial = 1;
@@ -83,7 +84,7 @@ void SegmentPolynomial::refine(const FinePoint& z, Root& root) const {
   Complex& x = from_start ? root.s : root.q;
   const Points& powers = from_start ? start_ : end_;
   if (std::norm(x) > 1) return;
-  // Close to the end, all digits of x may be wrong, but no other root is as near.
+  // Close to the end, all digits of x may be wrong, but no other root is this close.
   constexpr double kAtEnd = 1e-10;
   for (int step = 0; step < 3; ++step) {
     const ValueAndSlope at = horner(powers, z, x);

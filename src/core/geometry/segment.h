@@ -10,8 +10,8 @@
 
 namespace holomorph {
 
-/// A point as a base, such as a vertex, and an offset from it. Differences from points near the
-/// base keep all their digits.
+/// A point, stored as a base (such as a vertex) and an offset from the base. Differences from
+/// points near the base keep all their digits.
 struct FinePoint {
   Complex base, offset;
 
@@ -52,13 +52,14 @@ class SegmentPolynomial {
   /// The bounding box of the control points.
   const Box& box() const { return box_; }
 
-  /// Writes the degree() roots of c(t) = z. `near`, if given, holds the roots of a nearby z, from
-  /// which the iteration starts. Uses Aberth's method, then Newton's on the expansion about the
-  /// nearer end. A double root necessarily has only half the digits. Cost: about 100 ns per root.
+  /// Writes the degree() roots of c(t) = z. If `near` is given, the iteration starts from these
+  /// roots, which should belong to a nearby z. Uses Aberth's method, followed by Newton's method on
+  /// the expansion about the nearer end. A double root necessarily has only half the digits. Cost:
+  /// about 100 ns per root.
   void roots(const FinePoint& z, std::span<Root> out, std::span<const Root> near = {}) const;
 
-  /// The Taylor coefficients c^(j)(t) / j! at a parameter, for j < out.size(); 0 above the degree.
-  /// Cost O(degree^2).
+  /// The Taylor coefficients c^(j)(t) / j! at a parameter, for j < out.size(). They are 0 for j
+  /// above the degree. Cost O(degree^2).
   void taylor(const Root& at, std::span<Complex> out) const;
   /// c(t) and c'(t).
   Complex at(const Root& parameter) const { return fine_at(parameter).plain(); }

@@ -1,4 +1,4 @@
-// The centroid maps to the centroid, and the factor is a quotient of sums of products.
+// The centroids correspond, and the factor is a quotient of sums of products.
 #include "core/geometry/similarity.h"
 
 #include "core/error.h"

@@ -13,9 +13,9 @@ struct Similarity {
   Complex operator()(Complex w) const { return factor * (w - from) + to; }
 };
 
-/// The similarity that maps the points `from` closest to the points `to` in the least-squares
-/// sense. It is a translation if `from` has no extent. Both need the same number of points, at
-/// least one.
+/// The similarity that best maps the points `from` to the points `to`, in the least-squares sense.
+/// If all points of `from` coincide, it is a translation. Both lists must have the same number of
+/// points, at least one.
 Similarity similarity_between(std::span<const Complex> from, std::span<const Complex> to);
 
 }  // namespace holomorph

@@ -1,6 +1,6 @@
-// A queue of candidate changes, each a triangle that the polygon loses or gains. A change is valid
-// when no other vertex lies in its triangle (so nothing can cross) and, for a loss, no kept point
-// does.
+// A queue of candidate changes. Each change removes a triangle from the polygon or adds one. It is
+// valid if its triangle contains no other vertex, which rules out crossings. A removed triangle
+// must not contain a kept point either.
 #include "core/geometry/simplify.h"
 
 #include <algorithm>
@@ -53,14 +53,14 @@ class Simplifier {
   struct Change {
     double cost;
     int node, version;
-    bool corner;  ///< replace the node and the next one by a corner; else drop the node
+    bool corner;  ///< replace the node and the next by a corner; else drop the node
     bool operator<(const Change& other) const { return cost > other.cost; }
   };
 
   Complex at(int i) const { return nodes_[i].z; }
 
-  /// The point where the edge before node i and the edge after its successor meet when both are
-  /// extended, if they do.
+  /// The point where the edge before node i and the edge after the next node meet when both are
+  /// extended. None if they do not meet.
   std::optional<Complex> corner_of(int i) const {
     const int j = nodes_[i].next;
     const Complex a = at(nodes_[i].previous), b = at(i), c = at(j), d = at(nodes_[j].next);
@@ -82,7 +82,7 @@ class Simplifier {
           {std::abs(cross(*corner - node.z, at(node.next) - node.z)), i, node.version, true});
   }
 
-  /// Whether no vertex except `corners` lies in the triangle and, for a loss, no kept point does.
+  /// Whether the triangle contains no vertex except `corners` and, if it is removed, no kept point.
   bool is_free(Complex a, Complex b, Complex c, std::initializer_list<int> corners,
                bool loss) const {
     const double left = std::min({a.real(), b.real(), c.real()}),
@@ -110,7 +110,7 @@ class Simplifier {
       return cross(b - a, c - a) * cross(b - a, d - a) <= 0 &&
              cross(d - c, a - c) * cross(d - c, b - c) <= 0;
     };
-    // Edges from d around to a. The edges cd and ab lie on the lines of the added edges and do not
+    // Tests the edges from d around to a. The added edges extend the edges ab and cd and cannot
     // cross them.
     for (int k = nodes_[j].next; k != nodes_[i].previous; k = nodes_[k].next)
       if (crosses(at(i), p, at(k), at(nodes_[k].next)) ||

@@ -5,11 +5,11 @@
 
 namespace holomorph {
 
-/// Removes vertices from a simple counter-clockwise polygon until `count` remain, the smallest
-/// change of area first. The polygon stays simple and keeps all points of `kept` that it contains.
-/// Each step drops a vertex, or replaces two neighbors by the corner where their outer edges meet,
-/// which only adds area. Stops early, with more vertices, if no vertex can be removed. Cost: about
-/// (polygon + kept) per vertex removed.
+/// Removes vertices from a simple counter-clockwise polygon until `count` remain. Each step makes
+/// the smallest possible change of area: it drops a vertex, or replaces two neighbors by the corner
+/// where their outer edges meet. The latter only adds area. The polygon remains simple, and points
+/// of `kept` inside it remain inside. Stops early if no vertex can be removed. Cost: about (polygon
+/// + kept) per vertex removed.
 Points simplified_around(std::span<const Complex> polygon, std::span<const Complex> kept,
                          int count);
 

@@ -11,7 +11,7 @@ namespace holomorph {
 struct BrushDab {
   Complex at;
   double radius = 1;  ///< pixels
-  double level = 0;   ///< at its center, in powers of ten; falls off to 0 at the radius
+  double level = 0;   ///< at the center, in powers of ten; falls to 0 at the radius
   bool operator==(const BrushDab&) const = default;
 };
 inline constexpr double kMinStiffness = -1, kMaxStiffness = 2;       ///< powers of ten
@@ -19,8 +19,8 @@ inline constexpr double kMinBrushRadius = 1, kMaxBrushRadius = 1e5;  ///< radius
 inline constexpr size_t kMaxDabs = 5000;
 
 /// The level at z: the sum of level (1 - (d / r)^2)^2 over all dabs, where d is the distance of z
-/// from the dab and r is its radius. It is clamped to [kMinStiffness, kMaxStiffness] and is 0
-/// where nothing is painted. The stiffness is 10 to this power.
+/// from the center of the dab and r is the radius of the dab. The sum is clamped to [kMinStiffness,
+/// kMaxStiffness] and is 0 where nothing is painted. The stiffness is 10 to this power.
 double stiffness_level(std::span<const BrushDab> dabs, Complex z);
 
 }  // namespace holomorph

@@ -27,7 +27,7 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
     }
   const std::vector<char> outer = boundary_marks(mesh);
   std::vector<char> reached(static_cast<size_t>(count), 0);
-  // Paths continue from boundary vertices only if there is no other way.
+  // Paths pass through boundary vertices only if necessary.
   std::vector<int> queue{root_}, last;
   reached[static_cast<size_t>(root_)] = 1;
   for (size_t at = 0, end = 0; at < queue.size() || end < last.size();) {

@@ -1,5 +1,5 @@
-// Dijkstra's algorithm from all depth points together: each vertex takes the height of the point
-// whose wave reaches it first.
+// Dijkstra's algorithm, started from all depth points together. Each vertex takes the height of the
+// depth point that reaches it first.
 #include "core/mesh/draw_order.h"
 
 #include <algorithm>

@@ -12,9 +12,10 @@ struct Depth {
   bool operator==(const Depth&) const = default;
 };
 
-/// The triangles of a mesh from the lowest to the highest. A triangle has the height of the nearest
-/// depth point, measured through the mesh (along its edges). Triangles of equal height keep their
-/// order. Points outside the mesh do not count. Cost: O(n log n) in the number of vertices.
+/// The triangles of a mesh from the lowest to the highest. Each triangle has the height of the
+/// nearest depth point, where distances are measured along mesh edges. Triangles of equal height
+/// keep their order. Depth points outside the mesh are ignored. Cost: O(n log n) in the number of
+/// vertices.
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths);
 
 }  // namespace holomorph

@@ -39,7 +39,7 @@ Points parameterized(Net& net) {
 /// Catches the exceptions that CGAL throws when thin triangles break its invariants.
 template <class Parameterizer>
 Points parameterized_or_error(Net& net) {
-  static const auto printing =  // the exception says enough
+  static const auto printing =  // the exception has the details
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
   static_cast<void>(printing);
   try {
@@ -69,7 +69,7 @@ void check_areas(const Surface& surface) {
 }
 
 /// The gradient of the surface's y as a function on the plane, integrated over the flattened
-/// surface up to a factor.
+/// surface. Correct up to a factor.
 Complex upwards(const Surface& surface, const Points& flat) {
   Complex sum = 0;
   for (const auto& t : surface.triangles)

@@ -15,10 +15,10 @@ std::string name_of(Flattening flattening);
 Flattening flattening_named(const std::string& name);
 
 /// The positions of the vertices in the plane. The result is counter-clockwise and has the area of
-/// the surface. It is rotated so that the surface's y points up on average, and the lower left
-/// corner of its bounding box is the origin. Throws Error for surfaces that disk_boundary rejects
-/// and for those that fold when they are flattened. Cost: a sparse factorization, about 50 us per
-/// vertex for thousands of vertices, 200 us for half a million.
+/// the surface. It is rotated to make the surface's y point up on average, and the lower left
+/// corner of its bounding box is the origin. Throws Error if disk_boundary rejects the surface or
+/// if the flattened surface folds. Cost: a sparse factorization, about 50 us per vertex for
+/// thousands of vertices, 200 us for half a million.
 Points flattened(const Surface& surface, Flattening how);
 
 }  // namespace holomorph

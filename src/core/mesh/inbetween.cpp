@@ -1,4 +1,4 @@
-// The energy is the sum over triangles of area (|f_z - a|^2 + |f_zbar - b|^2), whose matrix is the
+// The energy is the sum over triangles of area (|f_z - a|^2 + |f_zbar - b|^2). Its matrix is the
 // cotangent Laplacian.
 #include "core/mesh/inbetween.h"
 
@@ -140,7 +140,8 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
 }
 
-/// The point at which the two maps agree or, if there is none, the vertex whose images are closest.
+/// A point at which the two maps agree. If there is none, the vertex whose two images are closest
+/// to each other.
 Location Inbetween::least_moving_point(const VectorXc& a, const VectorXc& b) const {
   Location best;
   double least = INFINITY;

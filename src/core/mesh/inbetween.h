@@ -1,11 +1,12 @@
 // In-between maps that keep shapes: rotations and sizes are blended, never positions.
 //
 // A map of a mesh has constant f_z and f_zbar in each triangle. L = ln f_z and nu = conj(f_zbar) /
-// f_z are blended, and the result is integrated by least squares. Between conformal maps, this
-// blends angles and logarithms of sizes (Weber, Gotsman 2010, sec. 6). Between harmonic maps, L and
-// nu stay holomorphic, so that |nu| stays below the larger of the two and the smallest stretch
-// stays above the smaller of the two. The largest stretch may exceed both by a factor of
-// (1 + k / 2) / sqrt(1 + k), where k is the larger |nu|.
+// f_z are blended, and the map is recovered from the result by least squares. Between conformal
+// maps, this blends angles and logarithms of sizes (Weber, Gotsman 2010, sec. 6). Between harmonic
+// maps, the blended L and nu are again holomorphic. Then |nu| does not exceed the larger value of
+// the two maps, and the smallest stretch does not fall below the smaller value of the two. The
+// largest stretch may exceed both values by a factor of (1 + k / 2) / sqrt(1 + k), where k is the
+// larger |nu|.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -17,8 +18,8 @@
 
 namespace holomorph {
 
-/// The expected rotation from one map to the next: that of the triangle around a rest point or,
-/// without a point, the average.
+/// The expected rotation from one map to the next: the rotation of the triangle that contains a
+/// given rest point or, without a point, the average rotation.
 struct ExpectedTurn {
   std::optional<Complex> at;
   double radians = 0;
@@ -32,21 +33,21 @@ class Inbetween {
   /// A map at the mesh's vertices, and its decomposition.
   struct Shape {
     VectorXc f;
-    VectorXc logarithm;  ///< of f_z in each triangle, continuous
+    VectorXc logarithm;  ///< ln f_z in each triangle, continuous
     VectorXc nu;
-    int turns = 0;  ///< whole turns, on top of the first triangle's angle in [-pi, pi]
+    int turns = 0;  ///< whole turns added to the first triangle's angle in [-pi, pi]
   };
-  /// If `before` is given, the number of whole turns is chosen such that the rotation since then is
-  /// as close as possible to the expected one, which is 0 by default. Triangles of size zero count
-  /// as very small ones.
+  /// Decomposes a map. If `before` is given, the number of whole turns is chosen to bring the
+  /// rotation since `before` as close as possible to the expected rotation, which is 0 by default.
+  /// Triangles of zero size are treated as very small ones.
   Shape shape_of(const VectorXc& f, const Shape* before = nullptr,
                  const ExpectedTurn& expected = {}) const;
-  /// The same with a known number of whole turns.
+  /// Decomposes a map with a known number of whole turns.
   Shape shape_of(const VectorXc& f, int turns) const;
 
   /// The time derivative of each triangle's logarithm at a key, for interpolation by monotone
-  /// cubics (Fritsch, Carlson 1980). The neighboring keys are `to_before` and `to_after` away in
-  /// time. The derivative is 0 at the first and last key.
+  /// cubics (Fritsch, Carlson 1980). The times from the key to its neighbors are `to_before` and
+  /// `to_after`. The derivative is 0 at the first and last key.
   VectorXc slopes(const Shape* before, const Shape& here, const Shape* after, double to_before,
                   double to_after) const;
 
@@ -54,10 +55,10 @@ class Inbetween {
   struct Interval {
     const Shape &from, &to;
     double duration = 1;
-    const VectorXc *slopes_from = nullptr, *slopes_to = nullptr;  ///< both or none; none: linear
+    const VectorXc *slopes_from = nullptr, *slopes_to = nullptr;  ///< both or none; linear if none
   };
-  /// The map at u in [0, 1] of an interval; exact at both ends. The point that moves least between
-  /// the two maps moves along a straight line. Cost: 4 ms for 10,000 vertices.
+  /// The map at u in [0, 1] of an interval. It equals the two keys exactly at the ends. The point
+  /// that moves least between the two keys follows a straight line. Cost: 4 ms for 10,000 vertices.
   void blend(const Interval& interval, double u, VectorXc& f) const;
 
   const Mesh& mesh() const { return *mesh_; }
@@ -71,7 +72,7 @@ class Inbetween {
   Location least_moving_point(const VectorXc& a, const VectorXc& b) const;
 
   std::shared_ptr<const Mesh> mesh_;
-  /// Triangles in an order in which each one except the first has an earlier neighbor.
+  /// Triangles, ordered such that each one except the first has an earlier neighbor.
   struct Visit {
     int triangle, from;
   };

@@ -1,4 +1,4 @@
-// Queries on a mesh, and meshes from given triangles. mesher.cpp generates the triangles itself.
+// Queries on a mesh, and meshes made from given triangles. For generated triangles, see mesher.cpp.
 #include "core/mesh/mesh.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double doubled_area(const Mesh& mesh, const Triangle& t) {
                mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-/// Finds the boundary vertex at a vertex of the cage and moves it there exactly.
+/// Finds the boundary vertex at a vertex of the cage and moves it to the exact position.
 int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
   const auto away = [&](int v) { return std::abs(mesh.vertices[v] - corner); };
   const int nearest = *std::ranges::min_element(mesh.boundary, {}, away);

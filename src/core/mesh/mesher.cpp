@@ -1,11 +1,11 @@
-// The domain mesh by CGAL's Delaunay refinement. No other file includes CGAL's mesher.
+// Makes the domain mesh by CGAL's Delaunay refinement. No other file includes CGAL's mesher.
 //
-// Most vertices come from a graded triangular lattice that is inserted in one go, which is several
-// times faster than refinement. Refinement then finishes the seam between lattice and boundary.
+// Most vertices come from a graded triangular lattice. Inserting the whole lattice in one call is
+// several times faster than refinement. Refinement then fills the gap between lattice and boundary.
 //
-// CGAL's assertions stay on in optimized builds (CGAL_DEBUG). Between edges that nearly touch,
-// midpoints that are rounded to the wrong side break the mesher's invariants, and this must end in
-// an Error.
+// CGAL's assertions stay enabled in optimized builds (CGAL_DEBUG). Between edges that nearly touch,
+// rounding may put midpoints on the wrong side, which breaks the mesher's invariants. The
+// assertions turn this into an Error.
 #include "core/mesh/mesher.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -40,9 +40,9 @@ Complex complex_of(const Point& p) {
   return {p.x(), p.y()};
 }
 
-/// The target edge length at each point: `finest` at the boundary, growing to four times that
-/// inside. Distances to the boundary come from a grid; they are exact at its nodes and interpolated
-/// in between.
+/// The target edge length at each point: `finest` at the boundary, growing to four times `finest`
+/// inside. Distances to the boundary come from a grid; they are exact at the nodes of the grid and
+/// interpolated in between.
 class Sizing {
  public:
   Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
@@ -71,15 +71,17 @@ class Sizing {
            v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
   }
   double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
-  /// The step of the lattice at z, in units of the finest: the power of two below size(z).
+  /// The step of the lattice at z, in units of the finest edge length: the largest power of two, up
+  /// to 4, that does not exceed size(z).
   int level(Complex z) const {
     const double h = size(z) / finest_;
     return h >= 4 ? 4 : h >= 2 ? 2 : 1;
   }
 
   /// The approximate number of vertices of the graded lattice: the integral of 1 / (area per
-  /// vertex). It is the mean of the integrand at the centers of cells times the area of the
-  /// polygon, because thin parts may lie between centers.
+  /// vertex). The integral is computed as the mean of the integrand over the centers of cells,
+  /// times the area of the polygon. A plain sum over cells would miss thin parts between the
+  /// centers.
   double expected_vertices(std::span<const Complex> polygon) const {
     double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
     int inside = 0;
@@ -131,7 +133,7 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
       const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
       const double middle = ab + bc + ca - longest - shortest;
       const double h = kSlack * sizing_->size((a + b + c) / 3.0);
-      q.second = longest / (h * h);  // Quality's size: above 1 is too large
+      q.second = longest / (h * h);  // Quality's size: too large if above 1
       const double area = cross(b - a, c - a);
       q.first = area * area / (longest * middle);  // squared sine of the smallest angle
       return operator()(q);
@@ -147,8 +149,8 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
   const Sizing* sizing_;
 };
 
-/// Points of a triangular lattice that keep their distance from the boundary. The lattice is
-/// thinned by powers of two where the sizing allows.
+/// Points of a triangular lattice, without those too close to the boundary. Where the sizing
+/// allows, the lattice is coarser by a power of two.
 std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
   std::vector<Point> points;
   const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
@@ -171,7 +173,7 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
       for (int c = static_cast<int>(std::ceil(column(crossings[inside]))); c <= last; ++c) {
         const Complex z(box.left + (c + 0.5 * (r % 2)) * step, y);
         const int level = sizing.level(z);
-        // A sub-lattice of even rows and columns is again a triangular lattice.
+        // The even rows and columns form a triangular lattice again.
         if (level > 1 &&
             (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
           continue;
@@ -183,7 +185,8 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
   return points;
 }
 
-/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: points with close keys are close.
+/// The distance along a Hilbert curve of a 2^16 x 2^16 grid: points with close keys are close to
+/// each other.
 unsigned hilbert_key(unsigned x, unsigned y) {
   unsigned key = 0;
   for (unsigned s = 1u << 15; s > 0; s >>= 1) {
@@ -256,7 +259,7 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   return mesh;
 }
 
-/// Moves the vertices that refinement put on the chords of a flattened cage onto the curve.
+/// Moves the vertices that refinement put on the chords of a flattened cage onto the curves.
 void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   std::vector<int> corner(mesh.vertices.size(), -1);
   for (size_t i = 0; i < flat.points.size(); ++i)
@@ -267,8 +270,8 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
       last = corner[v];
       continue;
     }
-    // The boundary runs counter-clockwise, while the cage may be clockwise: the chord runs from the
-    // last corner to the next or to the previous one.
+    // The boundary is counter-clockwise, but the cage may be clockwise. The chord therefore runs
+    // from the last corner to either the next or the previous corner.
     const size_t n = flat.points.size();
     const size_t next = (static_cast<size_t>(last) + 1) % n, before = (last + n - 1) % n;
     const auto off = [&](size_t other) {
@@ -316,8 +319,8 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
   double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
-  // Ordinary polygons take a few steps. A needle takes more, since its finest length is a fraction
-  // of its perimeter.
+  // Ordinary polygons take a few steps. A needle takes more, because its finest edge length is
+  // small compared with its perimeter.
   for (int step = 0; step < 60; ++step) {
     sizing.set_scale(finest);
     const double ratio = std::sqrt(sizing.expected_vertices(polygon) / wanted);
@@ -354,7 +357,7 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 }
 
 Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
-  // The exception says enough; the default handler would also print.
+  // The exception has the details. The default handler would also print them.
   static const auto printing =
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
   static_cast<void>(printing);

@@ -7,21 +7,22 @@ namespace holomorph {
 
 /// How fine a domain mesh is.
 struct MeshOptions {
-  /// Target number of vertices. The result is within about a third of it for ordinary cages.
+  /// Target number of vertices. For ordinary cages, the actual number is within about a third of
+  /// it.
   int vertices = 8000;
 };
 
 /// Meshes the inside of a simple polygon of either orientation with conforming Delaunay triangles,
 /// which are smaller near the boundary. Every cage vertex is a mesh vertex with the same
-/// coordinates. Slivers, collinear and nearly repeated vertices are allowed. Where the polygon
-/// itself is needle-sharp, the triangles are, too, and refinement stops at about three times the
-/// target number of vertices. Throws Error for polygons that check_rest_cage rejects. Cost: about 4
-/// us per vertex.
+/// coordinates. Slivers, collinear and nearly repeated vertices are allowed. A needle-sharp corner
+/// of the polygon gives needle-sharp triangles. Refinement stops at about three times the target
+/// number of vertices. Throws Error for polygons that check_rest_cage rejects. Cost: about 4 us per
+/// vertex.
 Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options = {});
 
 /// Meshes the inside of a rest cage. The vertices of the cage are mesh vertices, and every boundary
-/// vertex lies on the curves of the cage. The outline of the mesh follows them to 5e-5 of the
-/// cage's size.
+/// vertex lies on the curves of the cage. The outline of the mesh follows the curves to within 5e-5
+/// of the cage's size.
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options = {});
 
 }  // namespace holomorph

@@ -10,7 +10,7 @@ namespace {
 
 using Edge = std::pair<int, int>;
 
-/// The representative of the component of i.
+/// The vertex that represents the component of i.
 int root(std::vector<int>& parent, int i) {
   while (parent[static_cast<size_t>(i)] != i)
     i = parent[static_cast<size_t>(i)] =

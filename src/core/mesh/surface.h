@@ -1,4 +1,4 @@
-// A surface in space, and the test whether it is a disk.
+// A surface in space, and a test of whether it is a disk.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,13 +16,14 @@ struct Surface {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// The boundary as one closed loop of vertex indices, in the direction of the triangles. Throws
-/// Error that says why if the surface is not a disk: closed, in several parts, with holes or
-/// handles, with edges of more than two triangles, or with triangles of both orientations. Cost:
-/// O(n log n).
+/// The boundary as one closed loop of vertex indices, in the direction of the triangles. If the
+/// surface is not a disk, throws an Error with the reason: the surface is closed, has several
+/// parts, has holes or handles, has an edge with more than two triangles, or mixes triangles of
+/// both orientations. Cost: O(n log n).
 std::vector<int> disk_boundary(const Surface& surface);
 
-/// The same for triangles over the vertices 0 to count - 1; error messages call them `what`.
+/// The boundary loop of triangles over the vertices 0 to count - 1. Error messages call the
+/// triangles `what`.
 std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
                                const std::string& what);
 

@@ -1,5 +1,5 @@
-// Iterates on g = R x: the scaled values are Q g, and the next g is Q* times the scaled targets.
-// The energy of given targets follows from |Q g| = |g|, without their rows.
+// Iterates on g = R x. The scaled values are Q g, and the next g is Q* times the scaled targets.
+// The energy of the terms with given targets follows from |Q g| = |g| without using their rows.
 #include "core/solvers/alternating_fit.h"
 
 #include <Eigen/QR>
@@ -82,7 +82,7 @@ double AlternatingFit::distance(size_t term) const {
                    static_cast<double>(moving.values.size()));
 }
 
-/// Values, targets and energy at g. The energy is kept above its own rounding error.
+/// Computes values, targets and energy at g. The energy is clamped to at least its rounding error.
 void AlternatingFit::evaluate(const VectorXc& g) {
   g_ = g;
   energy_ = g.squaredNorm() - 2 * given_.dot(g).real() + given_square_;
@@ -115,7 +115,7 @@ VectorXc AlternatingFit::anderson() {
   }
   const Index m = static_cast<Index>(memory_.g.size()) - 1;
   if (m == 0) return next;
-  // Real coefficients: the targets are not a complex-linear function of the map.
+  // The coefficients are real because the targets are not a complex-linear function of the map.
   MatrixXd differences(2 * change.size(), m);
   for (Index i = 0; i < m; ++i)
     differences.col(i) = stacked(memory_.change[static_cast<size_t>(i + 1)] -
@@ -128,9 +128,9 @@ VectorXc AlternatingFit::anderson() {
   return mixed;
 }
 
-/// Targets may slide along their curves (SB16 eq. 13): tangential distances only have the weight
-/// kAlong. M = I - (1 - kAlong) A^T A, where A is the real form of the tangential components of the
-/// rows of Q.
+/// Lets targets slide along their curves (SB16 eq. 13): tangential distances have only the weight
+/// kAlong. The matrix is M = I - (1 - kAlong) A^T A, where A is the real form of the tangential
+/// components of the rows of Q.
 VectorXc AlternatingFit::first_order() const {
   const Index n = r_.cols();
   MatrixXd m = MatrixXd::Identity(2 * n, 2 * n);
@@ -139,7 +139,7 @@ VectorXc AlternatingFit::first_order() const {
     if (!term.normals) continue;
     VectorXc normals(term.values.size());
     term.normals(term.values, term.targets, normals);
-    // Along the tangent i n, value and target need not agree.
+    // Value and target may differ along the tangent i n.
     MatrixXd along(2 * n, normals.size());
     for (Index i = 0; i < normals.size(); ++i) {
       const Complex tangent = std::conj(kI * normals[i]);

@@ -1,10 +1,11 @@
 // Least squares with moving targets: alternates between the best map for given targets and the
 // nearest targets for a given map (Segall, Ben-Chen 2016, alg. 1).
 //
-// Each term is a weighted mean of |rows . x - target|^2. The targets of some terms follow from the
-// current values of the map; those of the others are given. The rows are factored once, by
-// Householder QR because their condition number grows with the square of the number of unknowns. An
-// iteration is then two products with the rows whose targets move.
+// Each term is a weighted mean of |rows . x - target|^2. Some terms compute their targets from the
+// current values of the map (moving targets). The other terms have given targets. The rows are
+// factored once. Householder QR is used because the condition number of the rows grows with the
+// square of the number of unknowns. Each iteration then takes only two products with the rows that
+// have moving targets.
 #pragma once
 
 #include <functional>
@@ -17,11 +18,11 @@ namespace holomorph {
 struct FitTerm {
   MatrixXc rows;
   double weight = 1;
-  /// Computes the targets from the current values of the rows. If empty, the targets are given, and
-  /// are 0 until then.
+  /// Computes moving targets from the current values rows x. If empty, the targets are given by
+  /// set_targets and are 0 before the first call.
   std::function<void(const VectorXc& values, VectorXc& targets)> project = {};
-  /// Unit normals of the curve on which the targets lie, for terms whose targets may slide along
-  /// it.
+  /// Computes unit normals of the target curve, one at each target. Only for terms whose targets
+  /// may slide along a curve.
   std::function<void(const VectorXc& values, const VectorXc& targets, VectorXc& normals)> normals =
       {};
 };
@@ -40,8 +41,8 @@ class AlternatingFit {
   }
   /// Sets the targets of a term. Call `start` or `resume` before the next step.
   void set_targets(size_t term, const VectorXc& targets);
-  /// Starts from the map that is best for these targets of the first term. The other moving targets
-  /// are those of the last map, or of `unknowns` = 0 if there is none.
+  /// Starts from the map that best fits these targets of the first term. The other moving targets
+  /// are computed from the last map or, if there is none, from zero unknowns.
   void start(const VectorXc& first_targets);
   /// Forgets the last map, or replaces it by the given one.
   void reset();
@@ -52,14 +53,15 @@ class AlternatingFit {
   void step(Mode mode);
   /// Continues from the last map after given targets have changed.
   void resume();
-  /// Steps until a step lowers the energy by at most the fraction `settled`, but at most `most`
-  /// times. Calls `see` before the first step and after each one. Returns the number of steps.
+  /// Repeats `step` until one step lowers the energy by at most the fraction `settled`, but takes
+  /// at most `most` steps. Calls `see` before the first step and after each one. Returns the number
+  /// of steps.
   int run(
       Mode mode, double settled, int most, const std::function<void()>& see = [] {});
 
   double energy() const { return energy_; }
   VectorXc unknowns() const;
-  /// Root mean square distance of a moving term's values from its targets.
+  /// Root mean square distance between the values and the targets of a term with moving targets.
   double distance(size_t term) const;
 
  private:
@@ -80,7 +82,7 @@ class AlternatingFit {
   VectorXc first_order() const;
 
   std::vector<Term> terms_;
-  MatrixXc r_;           ///< upper triangular: all scaled rows are Q R
+  MatrixXc r_;           ///< upper triangular; the scaled rows of all terms are Q R
   VectorXc given_;       ///< Q* times the scaled given targets
   double given_square_;  ///< squared norm of the scaled given targets
   VectorXc g_;           ///< R x

@@ -1,6 +1,6 @@
 // The second-order cone in three dimensions: |w| <= height, and its Jordan algebra.
 //
-// The scaling is the one of Nesterov and Todd.
+// Uses the Nesterov-Todd scaling.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ inline bool is_inside(const Cone3& v) {
   return v[0] > 0 && det(v) > 0;
 }
 
-/// The inverse of the Jordan product: x with v o x = r.
+/// Solves v o x = r for x, where o is the Jordan product.
 inline Cone3 divided(const Cone3& v, const Cone3& r) {
   Cone3 x;
   x[0] = (v[0] * r[0] - v[1] * r[1] - v[2] * r[2]) / det(v);
@@ -38,8 +38,7 @@ inline Cone3 reflected(const Cone3& v) {
   return {v[0], -v[1], -v[2]};
 }
 
-/// The step length along d from v to the boundary of the cone, or infinity if d does not lead
-/// there.
+/// The step length along d from v to the boundary of the cone, or infinity if d never reaches it.
 inline double step_to_boundary(const Cone3& v, const Cone3& d) {
   const double a = d[0] * d[0] - d[1] * d[1] - d[2] * d[2],
                b = v[0] * d[0] - v[1] * d[1] - v[2] * d[2], c = det(v);

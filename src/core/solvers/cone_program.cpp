@@ -1,4 +1,4 @@
-// The slacks are linear in x except for their heights, which are recomputed after each step.
+// The slacks are linear in x, except for the heights, which are recomputed after each step.
 #include "core/solvers/cone_program.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-/// After a step shorter than kShort, as enforced by a curved slack that is nearly zero, the next
-/// step goes back toward the central path.
+/// A curved slack that is nearly zero forces short steps. After a step shorter than kShort, the
+/// next step moves back toward the central path.
 constexpr double kShort = 0.3, kRecenter = 0.5;
 
 class Solver {
@@ -79,7 +79,8 @@ class Solver {
     return cone.slope + (cone.decay > 0 ? cone.decay * decay_[i] : 0);
   }
 
-  /// Sets z = mu s^-1 where multipliers are missing, with the mu of the others or a moderate one.
+  /// Sets missing multipliers to z = mu s^-1. mu is the mean over the known multipliers or, if
+  /// there are none, a moderate value.
   void center_duals() {
     if (at_.z.size() != s_.size()) at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, 0));
     const Index known = std::min(at_.z.empty() ? 0 : at_.z[0].cols(), m_);
@@ -111,8 +112,8 @@ class Solver {
     return result;
   }
 
-  /// One side of |r| <= t: the slacks t - r or t + r, their multipliers, and the directions of
-  /// both.
+  /// One side of |r| <= t: the slacks t - r or t + r, the multipliers, and the directions of slacks
+  /// and multipliers.
   struct Side {
     VectorXd s, z, ds, dz;
   };
@@ -148,8 +149,8 @@ class Solver {
     right.head(p_) -= product(system_.fit, pull);
   }
 
-  /// The directions of both sides from that of the residuals. t is free, and up.z + down.z is
-  /// constant.
+  /// Computes the directions of both sides from the direction of the residuals. t is free. The sum
+  /// up.z + down.z is constant.
   void push_fit(const VectorXd& dx, const VectorXd& up, const VectorXd& down) {
     if (k_ == 0) return;
     const Eigen::ArrayXd du = up_.z.array() / up_.s.array(), dd = down_.z.array() / down_.s.array(),
@@ -172,8 +173,9 @@ class Solver {
     if (k_ > 0) at_.energy += 0.5 * system_.fit_weight * (up_.s - down_.s).lpNorm<1>();
   }
 
-  /// The lower triangle of the normal matrix. Far from the solution, single precision suffices: a
-  /// slightly inexact step still makes progress, and the residual is measured in double precision.
+  /// Computes the lower triangle of the normal matrix. Far from the solution, single precision
+  /// suffices: slightly inexact steps still make progress, and the residual is computed in double
+  /// precision.
   void assemble() {
     for (size_t c = 0; c < s_.size(); ++c)
       for (Index i = 0; i < m_; ++i)
@@ -187,7 +189,7 @@ class Solver {
       add_curvature(single_);
   }
 
-  /// Columns to be multiplied, and the sum of their products.
+  /// The columns to multiply, and the sum of their products.
   template <class Scalar>
   struct Workspace {
     using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
@@ -254,7 +256,8 @@ class Solver {
     if (p_ > 0 && q_ > 0) add_product(work.ab, work.a, used, p_, 0, work.sum);
   }
 
-  /// The linear parts of the slacks along dx: du_ for u, and the w rows of `ds` for all cones.
+  /// Computes the linear parts of the slack directions along dx: du_ for u, and the w rows of `ds`
+  /// for all cones.
   void push(const VectorXd& dx, std::vector<Eigen::Matrix3Xd>& ds) {
     du_ = heights(dx);
     VectorXd re = VectorXd::Zero(m_), im = re;
@@ -350,7 +353,8 @@ class Solver {
     return move(dx, 0.98 * longest_step(ds_, dz_));
   }
 
-  /// Moves along dx as far as the exact slacks allow.
+  /// Moves along dx by at most `length`, as far as the exact slacks allow. Returns false if it
+  /// cannot move.
   bool move(const VectorXd& dx, double length) {
     std::vector<Eigen::Matrix3Xd> slacks(s_.size());
     VectorXd u;
@@ -400,7 +404,7 @@ class Solver {
 }  // namespace
 
 bool is_feasible(const ConeSystem& system, const VectorXd& x) {
-  // The same sums as in the solver, so that both agree to the last bit.
+  // Uses the same sums as the solver, to agree with it to the last bit.
   const Index p = system.height.rows(), q = system.re.rows(), m = system.samples();
   VectorXd u = VectorXd::Zero(m), re = u, im = u;
   if (p > 0) u = transposed_product(system.height, x.head(p));

@@ -12,13 +12,13 @@
 
 namespace holomorph {
 
-/// height(u) = offset + slope u - decay e^-u, decay >= 0. It is concave, so that the feasible set
-/// of the cone is convex.
+/// height(u) = offset + slope u - decay e^-u, decay >= 0. It is concave, which makes the feasible
+/// set of the cone convex.
 struct Cone {
-  VectorXd offset;  ///< one for all samples, or one per sample
+  VectorXd offset;  ///< one value for all samples, or one per sample
   double slope = 0, decay = 0;
 
-  /// The height at a sample, where e^-u is given as well.
+  /// The height at a sample. The caller also provides e^-u.
   double height(Index sample, double u, double exp_minus_u) const {
     const double bend =
         decay > 0 ? decay * exp_minus_u : 0;  // e^-u may overflow where it is unused
@@ -49,9 +49,9 @@ struct ConeTarget {
 
 struct ConeSettings {
   double gap = 1e-4;        ///< tolerance for the sum of all slacks times their multipliers
-  double relative_gap = 0;  ///< the same as a fraction of the energy; the larger one counts
+  double relative_gap = 0;  ///< as a fraction of the energy; the larger tolerance applies
   double residual = 3e-3;   ///< tolerance for the norm of the Lagrangian's gradient
-  double neglected = 0;     ///< samples with less barrier curvature are left out of the Hessian
+  double neglected = 0;     ///< the Hessian omits samples with a lower barrier curvature
   int iterations = 60;
 };
 
@@ -73,12 +73,12 @@ bool is_feasible(const ConeSystem& system, const VectorXd& x);
 /// The program's energy at x.
 double energy_of(const ConeSystem& system, const ConeTarget& target, const VectorXd& x);
 
-/// Solves the program from `start.x`, which must be strictly feasible (checked). Missing
-/// multipliers, such as those of appended samples, are filled in. Every iterate is strictly
-/// feasible, so that stopping after settings.iterations still gives a point inside all cones.
-/// Method: primal-dual interior points with Nesterov-Todd scaling and Mehrotra's corrector; the L1
-/// norm is handled by the duals of Chan, Golub, Mulet 1999. Cost per iteration: one Cholesky
-/// factorization and one symmetric product of (p + q)^2 (m + k) / 2.
+/// Solves the program from `start.x`, which must be strictly feasible (checked). If multipliers are
+/// missing, for example for appended samples, they are filled in. Every iterate is strictly
+/// feasible. The result is therefore inside all cones even if the solver stops after
+/// settings.iterations. Method: primal-dual interior points with Nesterov-Todd scaling and
+/// Mehrotra's corrector. The duals of Chan, Golub, Mulet 1999 handle the L1 norm. Cost per
+/// iteration: one Cholesky factorization and one symmetric product of (p + q)^2 (m + k) / 2.
 ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
                     const ConeSettings& settings, const ConeSolution& start);
 

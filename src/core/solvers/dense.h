@@ -1,6 +1,6 @@
-// Dense linear algebra by BLAS: the operations that a solver repeats in every iteration.
+// Dense linear algebra by BLAS, for the operations that solvers repeat in every iteration.
 //
-// The BLAS library chooses its instruction set at run time and has a portable path.
+// The BLAS library selects the instruction set at run time and also has a portable code path.
 #pragma once
 
 #include "core/types.h"
@@ -16,7 +16,7 @@ MatrixXc matrix_product(const MatrixXc& a, const MatrixXc& b);
 MatrixXd transposed_matrix_product(const MatrixXd& a, const MatrixXd& b);
 
 /// Adds K K^T, for the first `columns` columns of K, to the lower triangle of a block of `out`. The
-/// block starts at (first, first) and has as many rows as K. Cost: rows^2 * columns / 2
+/// block starts at (first, first) and has as many rows as K has. Cost: rows^2 * columns / 2
 /// multiplications.
 void add_gram(const MatrixXd& k, Index columns, Index first, MatrixXd& out);
 void add_gram(const Eigen::MatrixXf& k, Index columns, Index first, Eigen::MatrixXf& out);
@@ -35,8 +35,8 @@ struct Orthonormal {
 Orthonormal orthonormal(MatrixXc a);
 
 /// The x that minimizes |A x - b|, by Householder reflections. A must have full rank and at least
-/// as many rows as columns. Rows of very different sizes keep their digits if they are sorted by
-/// size, the largest first.
+/// as many rows as columns. If rows have very different sizes, sort them by decreasing size to keep
+/// their digits.
 VectorXc least_squares(MatrixXc a, VectorXc b);
 
 /// The factorization L L^T of a symmetric positive definite matrix. Only the lower triangle is
@@ -46,7 +46,7 @@ class Cholesky {
   /// Returns false if the matrix is not positive definite up to rounding.
   bool factor(const MatrixXd& matrix);
   VectorXd solve(const VectorXd& right) const;
-  /// The same for all columns of `right`.
+  /// Solves for all columns of `right`.
   MatrixXd solve_all(MatrixXd right) const;
 
  private:

@@ -5,8 +5,9 @@
 
 namespace holomorph {
 
-/// The columns of `re` and `im` for each complex row of q: Re(q x) = re . (Re x, Im x) and
-/// Im(q x) = im . (Re x, Im x). Both matrices are 2n x m if q is m x n.
+/// For each complex row of q, sets a column of `re` and of `im` such that
+/// Re(q x) = re . (Re x, Im x) and Im(q x) = im . (Re x, Im x). Both matrices are 2n x m if q is
+/// m x n.
 inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
   const Index n = q.cols();
   re.resize(2 * n, q.rows());
@@ -17,7 +18,7 @@ inline void real_columns(const MatrixXc& q, MatrixXd& re, MatrixXd& im) {
   im.bottomRows(n) = q.real().transpose();
 }
 
-/// Appends `columns` to those of `to`.
+/// Appends `columns` to the columns of `to`.
 inline void append_columns(const MatrixXd& columns, MatrixXd& to) {
   const Index before = to.cols();
   to.conservativeResize(columns.rows(), before + columns.cols());
