@@ -8,7 +8,7 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kInnerSamples = 300;
-/// The distance is measured at every second sample; the bounds hold at all of them.
+/// The distance is measured at every second sample. The bounds hold at all samples.
 constexpr size_t kFitStride = 2;
 
 }  // namespace
@@ -43,7 +43,7 @@ void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basi
   const std::vector<int>& anchors = inner.empty() ? mesh.boundary : inner;
   const size_t step = std::max<size_t>(1, anchors.size() / kInnerSamples);
   for (size_t i = 0; i < anchors.size(); i += step) anchors_.push_back(anchors[i]);
-  if (inner.empty()) return;  // on the boundary, derivatives of references are not smooth
+  if (inner.empty()) return;  // derivatives of references are not smooth on the boundary
   for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
 }
 
@@ -75,7 +75,7 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   zeros.clear();
   if (winding_around_zero(gamma) != 0) {
     found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
-    // Zeros between the loop of samples and the boundary are not inside the loop.
+    // Drop zeros between the loop of samples and the boundary.
     std::erase_if(found, [&](const Zero& zero) {
       return winding_number(points_.boundary, zero.position) == 0;
     });

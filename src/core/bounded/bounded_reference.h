@@ -8,14 +8,15 @@
 
 namespace holomorph {
 
-/// The bounds given by a rest's parameters of method `bounded`.
+/// The bounds specified by the parameters of method `bounded`.
 Bounds bounds_of(const Parameters& values);
 
 /// Samples a method's map at the points where a BoundedSpace measures the distance to it.
 class ReferenceSampler {
  public:
-  static constexpr int kSamplesPerVertex = 6;  ///< of the basis
-  /// How far inside the boundary's samples the references are smooth, in sample spacings.
+  static constexpr int kSamplesPerVertex = 6;  ///< per vertex of the basis
+  /// The distance from the boundary at which references are sampled, in sample spacings. References
+  /// are smooth there.
   static constexpr double kInset = 1;
 
   /// Prepares the method for the rest's cage and pins. All arguments but the rest must outlive
@@ -27,14 +28,14 @@ class ReferenceSampler {
   /// Whether the method uses pins.
   bool uses_pins() const { return method_.uses_pins; }
 
-  /// Samples the map of a pose. Throws Error when the method does, and when the map is not finite.
+  /// Samples the map of a pose. Throws Error when the method does or when the map is not finite.
   void deform(const Pose& pose, bool draft);
   /// Whether the sampled map is the identity, to the last bit.
   bool is_identity() const;
   /// ln f_z along the boundary (Levi, Weber 2016, alg. 4), and nu and Psi' at all points. `zeros`
   /// receives the positions of the zeros of f_z that were found.
   BoundedReference reference(Points& zeros) const;
-  /// Indices of some of the mesh's vertices, at least one, and the images of these vertices.
+  /// The indices of some of the mesh's vertices (at least one), and the images of these vertices.
   const std::vector<int>& anchors() const { return anchors_; }
   std::span<const Complex> anchor_images() const;
   /// The method's note, such as a pin that it could not use.

@@ -1,4 +1,4 @@
-// The unknowns are real: (Re, Im) of the whitened coefficients of l, then of those of nu.
+// The unknowns are real: (Re, Im) of the whitened coefficients of l, followed by those for nu.
 #include "core/bounded/bounded_space.h"
 
 #include "core/error.h"
@@ -60,7 +60,7 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
   ConeTarget target;
   target.linear = VectorXd::Zero(system_.unknowns());
   if (system_.re.rows() > 0) {
-    // Where nu of the reference exceeds the bound, only its direction counts.
+    // Where the reference's nu exceeds the bound, only the direction of nu matters.
     const auto nu = distance_.target(reference.nu, reference.inner_nu, settings_.bounds.k);
     target.linear.tail(2 * n) = nu.linear;
     target.constant = nu.constant;
@@ -124,7 +124,7 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
                                    append_samples(basis_->whitened(basis_->values(points)), system);
                                  }};
   const VectorXd best_fit = unconstrained(reference);
-  constexpr double kNothing = 1e-9;  // a reference in the space, within bounds, is the answer
+  constexpr double kNothing = 1e-9;  // if the space contains the reference, it is the solution
   if (is_feasible(system_, best_fit) && energy_of(system_, target, best_fit) <= kNothing) {
     ConeSolution known;
     known.x = best_fit;

@@ -21,27 +21,27 @@ struct BoundedReference {
 
 struct BoundedSettings {
   Bounds bounds;
-  /// The distance of l: the mean of |Re| + |Im|, which is robust to jumps of 2 pi, or half the mean
-  /// square.
+  /// The distance of l: either the mean of |Re| + |Im|, which is robust to jumps of 2 pi, or half
+  /// the mean square.
   enum class Norm { l1, l2 } norm = Norm::l1;
-  double weight = 1;  ///< of the distance of nu, which is half the mean square
+  double weight = 1;  ///< weight of the distance of nu, which is half the mean square
 };
 
-/// The fraction by which bounds are narrowed in the solve, so that they can be proved afterwards.
+/// The solve narrows the bounds by this fraction. The original bounds can then be proved.
 inline constexpr double kTightening = 0.002;
 
 class BoundedSpace {
  public:
-  /// Distances are measured at `points`. Half of nu's distance is measured at the inner points;
-  /// without inner points, all of it is measured at the boundary. The bounds that are solved for
-  /// are 0.2 % narrower than those that are proved. Throws Error for bounds that cannot be used.
-  /// Cost: a product of unknowns^2 and samples.
+  /// Distances are measured at `points`. Half of nu's distance is measured at the inner points, or
+  /// all of it at the boundary if there are no inner points. The solve uses bounds that are 0.2 %
+  /// narrower than the bounds to be proved. Throws Error for bounds that cannot be used. Cost: a
+  /// product of unknowns^2 and samples.
   BoundedSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePoints& points,
                const BoundedSettings& settings);
 
-  /// The map of this space nearest to a reference, certified. With `warm`, an earlier solution of
-  /// this space, the solve starts from it and is less accurate: this is for dragging. Without
-  /// `warm`, the result depends on the reference alone.
+  /// The map of this space that is nearest to a reference, with its certificate. During drags, pass
+  /// an earlier solution of this space as `warm`: the solve starts there and is less accurate.
+  /// Without `warm`, the result depends on the reference alone.
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
   /// Tries to prove that a map of this space keeps the bounds.
@@ -50,7 +50,8 @@ class BoundedSpace {
   const BoundaryBasis& basis() const { return *basis_; }
   const Certifier& certifier() const { return certifier_; }
 
-  /// The distance of a map from the reference: that of l plus `weight` times that of nu.
+  /// The distance of a map from the reference: the distance of l plus `weight` times the distance
+  /// of nu.
   double energy(const BoundedReference& reference, const ConeSolution& solution) const;
 
  private:
@@ -58,9 +59,10 @@ class BoundedSpace {
   ConeTarget target_of(const BoundedReference& reference) const;
   ConeSolution start(const BoundedMap* warm) const;
   LogMap map_of(const VectorXd& x) const;
-  /// The best fit of this space to the reference at the samples, without the bounds.
+  /// The map of this space that fits the reference best at the samples when the bounds are ignored.
   VectorXd unconstrained(const BoundedReference& reference) const;
-  /// Appends the program's columns for points at which `whitened` is the whitened basis.
+  /// Appends the program's columns for more samples. `whitened` is the whitened basis at these
+  /// samples.
   void append_samples(const MatrixXc& whitened, ConeSystem& system) const;
 
   std::shared_ptr<const BoundaryBasis> basis_;

@@ -28,8 +28,8 @@ const char* bound_name(Bound bound) {
 }
 
 LogMap scaled(LogMap map, Complex factor) {
-  // Cauchy coordinates sum to one, so a constant is added to all coefficients of l. conj(Psi) is
-  // multiplied by the factor, too.
+  // Cauchy coordinates sum to one, so adding a constant to all coefficients of l adds it to l.
+  // conj(Psi) is also multiplied by the factor.
   map.l.array() += std::log(factor);
   map.w *= map.second == LogMap::Second::nu ? std::conj(factor) / factor : std::conj(factor);
   return map;
@@ -50,8 +50,8 @@ Derivatives second_derivatives_of(const LogMap& map, const Derivatives& first, c
 
 namespace {
 
-/// The influence of the polygon's vertices on a piece of the boundary: weights of the slopes'
-/// jumps.
+/// The influence of the polygon's vertices on a piece of the boundary, as weights for the jumps of
+/// the slopes.
 struct VertexInfluence {
   VectorXc second;        ///< give F'' at the piece's midpoint
   VectorXd near, nearer;  ///< with the moduli of the jumps, bound |F''| and |F'''| on the piece
@@ -140,20 +140,20 @@ class Certifier::Proof {
         bounds_(bounds),
         log_Sigma_(std::log(bounds.Sigma)) {}
 
-  /// A piece with the functions' values at its ends and bounds on |l''| and |w''| along it.
+  /// A piece, the values of l and w at its ends, and bounds on |l''| and |w''| along it.
   struct Leaf {
     BoundaryPiece piece;
     Values start, end;
     double second_l = 0, second_w = 0;
   };
 
-  /// Proves the bounds on a leaf, halving it up to `depth` times. Records where that fails.
+  /// Tries to prove the bounds on a leaf, halving it up to `depth` times. Records where this fails.
   void prove(const Leaf& leaf, int depth) {
     const auto failed = unproved_bound(leaf);
     if (!failed) return;
     const BoundaryPiece& piece = leaf.piece;
     if (result.unproved.empty()) result.failed = *failed;
-    // Where an end violates a bound, halving cannot help.
+    // If an end violates a bound, halving cannot help.
     const auto broken = broken_end(leaf);
     if (broken || depth == 0) {
       const Complex unproved = broken ? *broken : middle_of(piece);
@@ -177,8 +177,8 @@ class Certifier::Proof {
   Certificate result;
 
  private:
-  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8, where |F'| is bounded using the chord's
-  /// slope, which is the mean of F'.
+  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8. The bound on |F'| uses the chord's slope,
+  /// which is the mean of F'.
   static double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
     double sum = second * piece.length * piece.length;
     if (piece.bend > 0)
@@ -187,7 +187,8 @@ class Certifier::Proof {
     return sum / 8;
   }
 
-  /// A bound that the values at the leaf's ends and the second derivatives do not prove, if any.
+  /// A bound that cannot be proved from the values at the leaf's ends and the second derivatives.
+  /// Empty when all are proved.
   std::optional<Bound> unproved_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
@@ -201,7 +202,7 @@ class Certifier::Proof {
                     unproved_bound_of_psi(leaf.end, dl, dw, below));
   }
 
-  /// An end of the leaf that itself violates a bound, if any.
+  /// An end of the leaf at which a bound is violated. Empty when there is none.
   std::optional<Complex> broken_end(const Leaf& leaf) const {
     const auto is_broken = [&](const Values& at) {
       return second_ == LogMap::Second::nu ? unproved_bound_of_nu(at, 0, 0).has_value()
@@ -221,8 +222,8 @@ class Certifier::Proof {
     return a ? a : b;
   }
 
-  /// A bound that may be violated where l and w differ from these values by up to dl and dw, if
-  /// any.
+  /// A bound that l and w may violate if they differ from these values by up to dl and dw. Empty
+  /// when there is none.
   std::optional<Bound> unproved_bound_of_nu(const Values& at, double dl, double dw) const {
     const double u = at.l.real(), w = std::abs(at.w) + dw;
     if (!(w <= bounds_.k)) return Bound::k;

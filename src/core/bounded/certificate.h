@@ -20,15 +20,15 @@ struct Bounds {
 
   /// Throws Error unless 0 <= k < 1 and 0 < sigma < Sigma.
   void check_usable() const;
-  /// Bounds narrowed by a fraction, in k and in the logarithms of the stretches. A map that is
-  /// solved for these can be proved to satisfy the original ones.
+  /// Bounds narrowed by a fraction, in k and in the logarithms of the stretches. If a program is
+  /// solved with the narrower bounds, the original bounds can be proved for the solution.
   Bounds tightened(double fraction) const;
-  /// The Re l that is farthest from both stretch bounds.
+  /// The value of Re l midway between the stretch bounds.
   double middle() const { return 0.5 * (std::log(sigma) + std::log(Sigma)); }
 };
 
 /// The derivatives of a harmonic map f = Phi + conj(Psi) without folds: f_z = Phi' = e^l, and
-/// conj(f_zbar) = Psi' is w e^l or w itself. l and w are coefficients at the vertices of a
+/// conj(f_zbar) = Psi', which is either w e^l or w. l and w are coefficients at the vertices of a
 /// BoundaryBasis' polygon.
 struct LogMap {
   enum class Second { nu, psi };  ///< what w is: Psi' / Phi' (the space L_nu), or Psi' (L_psi)
@@ -58,7 +58,7 @@ const char* bound_name(Bound bound);
 struct Certificate {
   bool holds = false;
   Bound failed = Bound::Sigma;  ///< the first bound that could not be proved
-  Complex where;                ///< where it could not be proved
+  Complex where;                ///< a point where it could not be proved
   /// Boundary points at which a bound is violated, and midpoints of the smallest pieces on which a
   /// bound could not be proved.
   Points unproved;
@@ -69,8 +69,8 @@ class Certifier {
   /// Cost: pieces times polygon vertices. The basis must outlive this.
   explicit Certifier(const BoundaryBasis& basis);
 
-  /// Tries to prove the bounds on all pieces, halving each up to `depth` times. Cost: products with
-  /// four matrices of pieces x vertices, plus a few microseconds for each halving.
+  /// Tries to prove the bounds on all pieces. Each piece is halved up to `depth` times. Cost:
+  /// products with four matrices of pieces x vertices, plus a few microseconds for each halving.
   Certificate certify(const LogMap& map, const Bounds& bounds, int depth = 6) const;
 
   const MatrixXc& coordinates() const { return values_; }  ///< C at the basis' samples
@@ -92,7 +92,7 @@ class Certifier {
   const BoundaryBasis& basis_;
   MatrixXc values_;         ///< C at samples
   MatrixXc second_;         ///< F'' at the midpoints of the pieces, from the jumps
-  MatrixXd near_, nearer_;  ///< bounds on |F''| and |F'''| on the pieces, from the moduli
+  MatrixXd near_, nearer_;  ///< for bounds on |F''| and |F'''| on the pieces, from the moduli
 };
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// A proof fails where the functions deviate from the chords between samples. Another sample
-// constrains them there.
+// A proof fails where the functions deviate too much from the chords between samples. Additional
+// samples constrain the functions there.
 #include "core/bounded/certified_program.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace holomorph {
 
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions) {
-  constexpr double kNothing = 1e-2;  // smaller multipliers remain from the interior point method
+  constexpr double kNothing = 1e-2;  // the interior-point method leaves smaller multipliers
   std::optional<Bound> binding;
   double most = kNothing;
   for (const ConeSolution* solution : solutions)
@@ -65,7 +65,7 @@ BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings
     best.cuts.insert(best.cuts.end(), unproved.begin(), unproved.end());
     take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
   }
-  // The center is certified, and every enclosure shrinks on the way there.
+  // The center is certified, and all error bounds shrink on the way there.
   const VectorXd x = best.solution.x;
   for (double fraction = 1e-5; !best.certificate.holds; fraction = std::min(4 * fraction, 1.0)) {
     best.blend = fraction;

@@ -13,18 +13,18 @@ struct BoundedMap {
   LogMap map;
   Certificate certificate;
   ConeSolution solution;
-  int rounds = 0;      ///< of adding samples
+  int rounds = 0;      ///< number of times that samples were added
   Points cuts;         ///< all samples that were added
   int iterations = 0;  ///< total over all rounds
-  double blend = 0;    ///< fraction of the way to the bounds' center, as far as the proof required
+  double blend = 0;    ///< how far the proof moved the solution to the center, 0 to 1
 };
 
-/// The bound whose widening would reduce the solutions' energies most; empty when no bound is
+/// The bound that, if widened, would reduce the solutions' energies most. Empty when no bound is
 /// active.
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions);
 
-/// A program at the boundary's samples, and the meaning of its unknowns. All references must
-/// outlive this.
+/// A cone program at the boundary's samples, and the maps that its unknowns represent. All
+/// references must outlive this.
 struct CertifiedProgram {
   const Certifier& certifier;
   const Bounds& bounds;  ///< to be proved; the program's own bounds are a little narrower
@@ -34,17 +34,17 @@ struct CertifiedProgram {
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
 
-  /// Solves from a feasible start, with added samples `cuts` that are likely to be needed. Where
-  /// the proof fails, more samples are added and the program is solved again. If this does not
-  /// suffice, the solution is moved towards the center, and if necessary all the way. Cost: that of
-  /// the program, and again for each round.
+  /// Solves from a feasible start. `cuts` are additional samples that are likely to be needed.
+  /// Where the proof fails, more samples are added and the program is solved again. If this does
+  /// not suffice, the solution is moved towards the center, if necessary all the way. Cost: one
+  /// solution of the program, and one more for each round.
   BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
                     const ConeSolution& start, const Points& cuts = {}) const;
-  /// The same, given the solution of the program with these cuts.
+  /// Like `solved`, but starts with a known solution of the program with these cuts.
   BoundedMap proved(const ConeTarget& target, const ConeSettings& settings, ConeSolution solution,
                     const Points& cuts = {}) const;
 
-  /// The cuts with which a drag continues; none when there are too many.
+  /// The cuts of an earlier map, for reuse during a drag. Empty when there are too many.
   static Points cuts_of(const BoundedMap* warm) {
     constexpr size_t kMost = 60;
     return warm && warm->cuts.size() <= kMost ? warm->cuts : Points{};

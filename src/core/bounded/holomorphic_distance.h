@@ -19,8 +19,8 @@ class HolomorphicDistance {
 
   /// The matrix P of x'Px / 2, where x = (Re, Im) of the whitened unknowns.
   const MatrixXd& quadratic() const { return quadratic_; }
-  /// p and c of x'Px / 2 + p'x + c for values at the points. Moduli above `most` are reduced to
-  /// `most`; values that are not finite count as 0.
+  /// p and c in x'Px / 2 + p'x + c, for given values at the points. Moduli above `most` are reduced
+  /// to `most`; values that are not finite count as 0.
   struct Target {
     VectorXd linear;
     double constant = 0;

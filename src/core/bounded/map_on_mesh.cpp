@@ -1,4 +1,5 @@
-// Integrates along a tree of mesh edges by the trapezoidal rule, corrected with second derivatives.
+// Integrates along a tree of mesh edges by the trapezoidal rule, with a correction from second
+// derivatives.
 #include "core/bounded/map_on_mesh.h"
 
 #include "core/bounded/path_integral.h"

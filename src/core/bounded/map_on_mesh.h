@@ -9,7 +9,8 @@ namespace holomorph {
 
 class MapOnMesh {
  public:
-  /// Precomputes two matrices of vertices x polygon vertices. Both arguments must outlive this.
+  /// Precomputes two matrices with a row for each vertex and a column for each polygon vertex. Both
+  /// arguments must outlive this.
   MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh);
 
   /// The map up to a constant, f = Phi + conj(Psi), and its derivatives at the vertices.
@@ -17,18 +18,19 @@ class MapOnMesh {
     VectorXc f;
     Derivatives first;
   };
-  /// Cost: four products with vertices x polygon vertices.
+  /// Cost: four products with such matrices.
   Values values(const LogMap& map) const;
-  /// The same f, accurate to rounding. Cost: at least 12 rows of the basis for each edge of the
-  /// tree.
+  /// Like the f of `values`, but accurate to rounding. Cost: at least 12 rows of the basis for each
+  /// edge of the tree.
   VectorXc integrated(const LogMap& map) const;
   /// Phi alone, at the vertices.
   VectorXc phi(const VectorXc& l) const;
-  /// Psi at the given locations, one row for each. Column j is for Psi' with the coefficients in
-  /// column j.
+  /// Psi at the given locations, one row for each. Column j is computed from the Psi' whose
+  /// coefficients are in column j.
   MatrixXc psi_rows(std::span<const Location> locations, const MatrixXc& coefficients) const;
 
-  /// The antiderivative of a function of the basis at the vertices, 0 in the middle of the mesh.
+  /// The antiderivative, at the vertices, of a function of the basis. It is 0 in the middle of the
+  /// mesh.
   VectorXc antiderivative(const VectorXc& coefficients) const;
   /// The values of a function of the basis at the vertices.
   VectorXc function(const VectorXc& coefficients) const { return product(values_, coefficients); }

@@ -1,5 +1,5 @@
-// Points are evaluated a few thousand at a time: the coordinates of all of them would fill the
-// memory.
+// Points are evaluated a few thousand at a time, because the coordinates of all points would need
+// too much memory.
 #include "core/bounded/path_integral.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ constexpr int kNodes = 12;
 /// The ends of a line's panels, as fractions of the line.
 std::vector<double> panels_of(const Points& polygon, const Line& line) {
   const double length = std::abs(line.to - line.from);
-  constexpr int kMost = 2000;  // enough along a boundary a thousandth of the line's length away
+  constexpr int kMost = 2000;  // enough if the boundary is a thousandth of the line's length away
   std::vector<double> ends{0};
   while (ends.back() < 1 && static_cast<int>(ends.size()) < kMost) {
     const Complex here = line.from + ends.back() * (line.to - line.from);
-    // A panel is 0.7 times as long as its start is far from the polygon, so its midpoint is farther
-    // from the polygon than half a panel.
+    // A panel's length is 0.7 times the distance of its start from the polygon. The distance of its
+    // midpoint from the polygon is then more than half a panel.
     const double room = nearest_on_polygon(polygon, here).distance, step = 0.7 * room / length;
     ends.push_back(step > 0 ? std::min(1.0, ends.back() + step) : 1);
   }

@@ -11,9 +11,9 @@ struct Line {
   Complex from, to;
 };
 
-/// The increment of f = Phi + conj(Psi) along each line. Each Gauss-Legendre panel is shorter than
-/// its distance from the basis' polygon, outside which the functions are not defined. The error is
-/// therefore that of rounding. Cost: 12 rows of the basis for each panel.
+/// The increment of f = Phi + conj(Psi) along each line. The functions are defined only inside the
+/// basis' polygon. Each Gauss-Legendre panel is shorter than its distance from that polygon, which
+/// reduces the error to rounding. Cost: 12 rows of the basis for each panel.
 VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
                           std::span<const Line> lines);
 

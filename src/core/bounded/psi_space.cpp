@@ -1,4 +1,4 @@
-// The unknowns of Psi' are real: (Re, Im) of its whitened coefficients.
+// The unknowns of Psi' are real: (Re, Im) of the whitened coefficients of Psi'.
 #include "core/bounded/psi_space.h"
 
 #include "core/error.h"
@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kRoom = 0.01;  ///< fraction of the stretch bounds that is left for Psi'
+constexpr double kRoom = 0.01;  ///< fraction of the stretch bounds to leave free for Psi'
 
 BoundedSettings first_step(BoundedSettings settings) {
   settings.bounds.check_usable();
@@ -90,7 +90,7 @@ void PsiSpace::append_disks(const Points& points, const VectorXc& l, ConeSystem&
 BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference& reference,
                              const VectorXc& wanted, const BoundedMap* warm) const {
   const VectorXc& l = conformal.map.l;
-  // When l is proved, the disks have positive radii everywhere on the boundary.
+  // If the bounds on l are proved, the disks have positive radii everywhere on the boundary.
   if (settings_.bounds.k == 0 || !conformal.certificate.holds) return conformal;
   ConeSystem system = disks_;
   system.cones = disks((conformal_.certifier().coordinates() * l).real());

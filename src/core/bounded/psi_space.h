@@ -1,5 +1,6 @@
 // The spaces L_psi and H of locally injective harmonic maps (Levi, Weber 2016). The first step
-// finds f_z = e^l, the second Psi' = conj(f_zbar), which lies in a disk at each sample.
+// finds f_z = e^l. The second step finds Psi' = conj(f_zbar), whose value at each sample lies in a
+// disk.
 //
 // With f_z known, the positions f = Phi + conj(Psi) are linear in Psi'. This makes pins possible.
 #pragma once
@@ -8,9 +9,9 @@
 
 namespace holomorph {
 
-/// Rows of the pins: Psi at pin i = psi.row(i) . the whitened unknowns of Psi'. Half of `weight`
-/// times the sum of the squared distances of the pins, in units of `size`, is added to the distance
-/// of Psi'.
+/// Rows of the pins: Psi at pin i is psi.row(i) times the whitened unknowns of Psi'. The pins add a
+/// term to the distance of Psi': half of `weight` times the sum of their squared distances from
+/// their targets, in units of `size`.
 struct PinRows {
   MatrixXc psi;
   double weight = 1000, size = 1;
@@ -22,19 +23,21 @@ class PsiSpace {
   PsiSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePoints& points,
            const BoundedSettings& settings, PinRows pins = {});
 
-  /// The first step: the conformal map nearest to the reference's f_z, by settings.norm, within the
-  /// stretch bounds. When k > 0, these are narrowed by 1 % to leave room for Psi'. Certified.
+  /// The first step: the conformal map within the stretch bounds that is nearest to the reference's
+  /// f_z, measured by settings.norm. When k > 0, the bounds are narrowed by 1 % to leave room for
+  /// Psi'. The result is certified.
   BoundedMap conformal(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
-  /// The second step: with l from the first step, the Psi' within the bounds that is nearest to the
-  /// reference's, with Psi near `wanted` at the pins up to one constant for all. Certified.
+  /// The second step: given l from the first step, the Psi' within the bounds that is nearest to
+  /// the reference's Psi'. At the pins, Psi is pulled towards `wanted`, up to a constant common to
+  /// all pins. The result is certified.
   BoundedMap nearest(const BoundedMap& conformal, const BoundedReference& reference,
                      const VectorXc& wanted, const BoundedMap* warm = nullptr) const;
 
-  /// The nearest point in H, where the bounds are convex in |f_z| and Psi', as a reference for
-  /// which the two steps above give the map of H. No function of the basis has exactly these |f_z|
-  /// at the samples (the fit (15) of the paper leaves a residual), so the second step fits Psi'
-  /// once more. Cost: a program of samples + unknowns.
+  /// The nearest point in the space H, whose bounds are convex in |f_z| and Psi'. It is returned as
+  /// a reference; the two steps above turn it into a map. No function of the basis has exactly the
+  /// |f_z| of that point at the samples: the fit (15) of the paper leaves a residual. The second
+  /// step therefore fits Psi' once more. Cost: a program of samples + unknowns.
   BoundedReference convexified(const BoundedReference& reference) const;
 
   /// Tries to prove that a map of this space keeps the bounds.
@@ -44,7 +47,7 @@ class PsiSpace {
 
  private:
   ConeTarget target_of(const BoundedReference& reference, const VectorXc& wanted) const;
-  /// The disks that contain Psi' at samples where Re l = u, one for each bound.
+  /// The disks to which the bounds restrict Psi' at samples with Re l = u, one for each bound.
   std::vector<Cone> disks(const VectorXd& u) const;
   void append_disks(const Points& points, const VectorXc& l, ConeSystem& system) const;
 

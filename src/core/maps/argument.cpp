@@ -1,5 +1,5 @@
 // The winding number of a triangle is the sum of the increments along its edges, so the winding
-// numbers of all triangles add up to that of the boundary.
+// numbers of all triangles add up to the boundary's winding number.
 #include "core/maps/argument.h"
 
 #include <algorithm>
@@ -43,8 +43,8 @@ std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
 
 namespace {
 
-/// The samples at which a zero's jump may be placed: the one nearest to the zero and the nearest
-/// one across the domain, which is more than a twentieth of the boundary away in both directions.
+/// The samples at which a zero's jump may be placed: the sample nearest to the zero, and the
+/// nearest sample across the domain. The two are more than a twentieth of the boundary apart.
 std::vector<Index> jump_samples(std::span<const Complex> samples, Complex zero) {
   const Index m = static_cast<Index>(samples.size());
   const auto distance = [&](Index i) { return std::norm(samples[static_cast<size_t>(i)] - zero); };
@@ -91,7 +91,7 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
     candidates.push_back(jump_samples(samples, zero.position));
     turns -= zero.multiplicity;
   }
-  std::vector<Index> order(static_cast<size_t>(m));  // of jumps for unlisted zeros
+  std::vector<Index> order(static_cast<size_t>(m));  // order of jumps for unlisted zeros
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::sort(order, {}, [&](Index i) { return std::norm(values[i]); });
   for (size_t i = 0; turns != 0; ++i) {
@@ -99,9 +99,9 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
     steps[order[i % order.size()]] -= 2 * kPi * sign;
     turns -= sign;
   }
-  // The side of a narrow part on which a jump lies decides the direction in which the part turns.
-  // Take the combination of sides with the smallest variance of theta, but prefer the nearest sides
-  // unless the gain is clear.
+  // In a narrow part of the domain, the jump can be on either side. The choice decides in which
+  // direction the part turns. Take the combination with the smallest variance of theta, but prefer
+  // the nearest sides unless the gain is clear.
   constexpr size_t kMostChoices = 6;
   constexpr double kClearly = 0.9;
   VectorXd best;

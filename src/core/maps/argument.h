@@ -23,10 +23,11 @@ int winding_around_zero(const VectorXc& values);
 
 /// The argument of the values along a closed boundary, summed from the increments between
 /// neighboring samples. For each zero, 2 pi is subtracted at the sample nearest to the zero, or at
-/// the nearest sample across the domain when the argument then varies clearly less. The sum of all
-/// increments is therefore 0, and the argument is single-valued. If the list has too few or too
-/// many zeros, the jumps that this requires are placed where |value| is smallest. Throws Error when
-/// a value is 0 or not finite. Cost: samples times zeros, times up to 64 combinations of sides.
+/// the nearest sample across the domain if that makes the argument vary clearly less. The sum of
+/// all increments is therefore 0, and the argument is single-valued. If the list has too few or too
+/// many zeros, the jumps that correct the sum are placed where |value| is smallest. Throws Error
+/// when a value is 0 or not finite. Cost: samples times zeros, times up to 64 combinations of jump
+/// positions.
 VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& values,
                            const std::vector<Zero>& zeros);
 

@@ -1,7 +1,7 @@
 // The public interface of the maps: the input of a method (Rest, Pose) and its output (SampledMap).
 //
-// To add a method, write one file in methods/ that returns its row, and add that to rows.h and
-// methods.cpp. Sliders, the palette, JSON fields and the contract tests iterate over the table.
+// To add a method, write a file in methods/ that returns its table row, and add the row to rows.h
+// and methods.cpp. Sliders, the palette, JSON fields and the contract tests iterate over the table.
 #pragma once
 
 #include <map>
@@ -19,8 +19,8 @@ namespace holomorph {
 /// ParameterSpec.
 using Parameters = std::map<std::string, double>;
 
-/// One parameter of a method: what sliders, JSON fields and the help need to know about it. The
-/// value of a choice is the index of one of its options; files store the option's id.
+/// The description of a parameter of a method, for sliders, JSON fields and the help. The value of
+/// a choice is the index of the selected option. Files store the option's id.
 struct ParameterSpec {
   struct Option {
     std::string id, label;
@@ -53,33 +53,33 @@ struct RestPin {
 inline constexpr double kMinPinScale = 0.01, kMaxPinScale = 100;
 struct PosePin {
   Complex position;
-  double angle = 0.0;  ///< radians, counter-clockwise; used where the rest pin has a frame
-  double scale = 1.0;  ///< kMinPinScale to kMaxPinScale; used where the rest pin has a frame
+  double angle = 0.0;  ///< radians, counter-clockwise; used if the rest pin has a frame
+  double scale = 1.0;  ///< kMinPinScale to kMaxPinScale; used if the rest pin has a frame
   bool operator==(const PosePin&) const = default;
 };
 
-/// Rotations at a corner, in radians and unwrapped, that are added to the boundary angles of the
+/// Rotations at a corner, in radians and unwrapped. They are added to the boundary angles of the
 /// posed cage.
 struct PoseCorner {
-  double before = 0.0, after = 0.0;  ///< of the edge that ends there and the one that starts there
+  double before = 0.0, after = 0.0;  ///< rotations of the edges that end and start here
   /// Tension of the edge from here to the next corner, 0 to 1. At 1 the edge's image is as straight
   /// as the edge at rest; at 0 it bends so that the corners keep their angles.
   double tension = 1.0;
   bool operator==(const PoseCorner&) const = default;
 };
 
-/// The inputs whose changes require precomputation. Value type.
+/// The inputs that require new precomputation when they change. Value type.
 struct Rest {
-  Cage cage;  ///< straight or curved; the degree of each segment is at least the degree of the
-              ///< posed segment
+  Cage cage;  ///< straight or curved; no segment may have a lower degree than the posed segment
   std::vector<RestPin> pins;
   std::vector<Points> strokes = {};  ///< open curves, each with at least two distinct points
   Points outline = {};  ///< closed curve that the cage's shape is mapped onto; empty: none
   std::vector<Index> corners = {};       ///< cage vertices with angles, in order; empty: all
-  std::vector<BrushDab> stiffness = {};  ///< of the picture; empty: uniform
+  std::vector<BrushDab> stiffness = {};  ///< stiffness of the picture; empty: uniform
   Points samples;                        ///< where the map is evaluated, inside or on the cage
-  /// Where f_z and f_zbar are evaluated, one point per sample; empty: at `samples`. Methods whose
-  /// derivatives are finite on the boundary always evaluate them at `samples`.
+  /// Where f_z and f_zbar are evaluated, one point per sample. If empty, they are evaluated at
+  /// `samples`. Methods whose derivatives are finite on the boundary always evaluate them at
+  /// `samples`.
   Points derivative_samples;
   /// The triangulated cage, for methods that integrate or minimize over its triangles.
   std::shared_ptr<const Mesh> mesh;
@@ -90,8 +90,8 @@ struct Rest {
   bool operator==(const Rest&) const = default;
 };
 
-/// The inputs that change while handles are moved. Value type. It has as many segments, control
-/// points, pins, strokes and corners as the Rest.
+/// The inputs that change while handles are moved. Value type. The numbers of segments, pins,
+/// strokes and corners are the same as in the Rest.
 struct Pose {
   Cage cage;
   std::vector<PosePin> pins;
@@ -108,22 +108,23 @@ struct SampledMap {
   Status status = Status::exact;
   std::string note;  ///< what the user should know, such as a pin that could not be used
   int iterations = 0;
-  /// For methods whose convergence is worth watching: the energy before the first iteration of the
-  /// whole solve and after each iteration.
+  /// The energy before the first iteration of the whole solve and after each iteration, for methods
+  /// that report it.
   std::vector<double> energies;
-  Points zeros;  ///< rest positions of the zeros of f_z of a map that was projected
+  Points zeros;  ///< zeros of f_z in the map that was projected, at rest
   /// Cage vertices whose angles are clamped to the smallest possible angle.
   std::vector<Index> limited_corners;
-  bool ignores_pins = false;  ///< the method uses pins, but did not use these
+  bool ignores_pins = false;  ///< the method supports pins but ignored these
 };
 
 /// What to compute besides the values of a map, and how.
 struct EvalOptions {
   bool derivatives = false;
-  /// Set while something is dragged: iterative methods may continue from their last result and stop
-  /// early. Without it, the map depends on rest and pose alone.
+  /// Set during drags. Iterative methods may then continue from their last result and stop early.
+  /// Otherwise, the map depends on rest and pose alone.
   bool draft = false;
-  /// The map after this many iterations, for methods that report energies. Other methods ignore it.
+  /// If set, the map is evaluated after this many iterations. Methods that report no energies
+  /// ignore this.
   std::optional<int> iteration = {};
 
   bool operator==(const EvalOptions&) const = default;
@@ -139,7 +140,7 @@ class PointMap {
   virtual Value at(Complex z) const = 0;
 };
 
-/// The precomputed data of a Rest. Computes the maps of its poses until the rest changes.
+/// The precomputed data of a Rest. Computes the map of any pose until the rest changes.
 class Deformer {
  public:
   virtual ~Deformer() = default;
@@ -148,19 +149,18 @@ class Deformer {
   /// Cost for linear methods: one product with an operator of samples x controls.
   virtual SampledMap deform(const Pose& pose, EvalOptions options) = 0;
 
-  /// For methods that are linear in the pose: f = samples + matrix * controls(pose), so that a
-  /// vertex shader can apply the operator itself. Null when the method is not linear or works in
-  /// full precision.
+  /// The matrix in f = samples + matrix * controls(pose), for methods that are linear in the pose.
+  /// A vertex shader can apply it. Null when the method is not linear or works in full precision.
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
 
-  /// The posed cage with which method `cage` alone gives the map of this pose. Empty when there is
-  /// no such cage.
+  /// The posed cage for which method `cage` yields the same map as this pose. Empty when no such
+  /// cage exists.
   virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
-  /// The map of a pose at any point, accurate to rounding when the rest is in full precision, or to
-  /// the integration error for methods that integrate along the mesh. Null when the method knows
-  /// its map only at the samples.
+  /// The map of a pose at any point. If the rest is in full precision, the map is accurate to
+  /// rounding, or to the integration error for methods that integrate along the mesh. Null when the
+  /// method knows its map only at the samples.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 
@@ -180,17 +180,18 @@ struct Method {
   bool similar = true;      ///< if all handles move by a similarity, the map is that similarity
   bool needs_mesh = false;  ///< Rest::mesh must be set
   bool follows_others =
-      false;  ///< its map approximates that of another method, which uses its own parameters
+      false;  ///< approximates the map of another method, which has its own parameters
   /// Called by `prepare` with a checked rest.
   std::unique_ptr<Deformer> (*make)(const Rest& rest, const Deformer* previous) = nullptr;
   std::vector<Preset> presets = {};
 
-  /// Precomputes a deformer. `previous` is this method's last deformer or null; what its rest has
-  /// in common with `rest` need not be computed again. Throws Error for a rest that cannot be used.
+  /// Precomputes a deformer. `previous` is this method's last deformer, or null. Work that depends
+  /// only on inputs that both rests share need not be repeated. Throws Error for a rest that cannot
+  /// be used.
   ///
   /// Threads: this may run on one thread while `previous->deform` runs on another. Therefore `make`
-  /// reads only members of `previous` that its constructor sets and deform never changes, and keeps
-  /// them alive by shared ownership: `previous` may be destroyed as soon as this returns.
+  /// reads only members of `previous` that do not change after construction. It keeps them alive by
+  /// shared ownership, because `previous` may be destroyed as soon as this returns.
   std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) const;
 };
 
@@ -199,14 +200,14 @@ const std::vector<Method>& methods();
 /// The row with this id. Throws Error with a list of the known ids.
 const Method& method_named(const std::string& id);
 
-/// What an edit or a tool needs a method for.
+/// The features of a method that an edit or a tool may need.
 enum class MethodUse { cage, pins, strokes, outline, corners, stiffness, bounds };
-/// The method to switch to for this use if the current one does not support it.
+/// The method to switch to when the current one does not support this use.
 const Method& usual_method(MethodUse use);
 /// The method that this one follows, or the method itself if it follows none.
 const Method& followed_method(const Method& method, const Parameters& values);
 
-/// The rest or the pose without the handles that the method does not use.
+/// The rest or the pose with only the handles that the method uses.
 Rest used_by(const Method& method, Rest rest);
 Pose used_by(const Method& method, Pose pose);
 

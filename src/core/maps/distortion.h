@@ -22,7 +22,7 @@ int flipped_triangles(const Mesh& mesh, const VectorXc& f);
 /// Measurements of a whole map on a mesh.
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;
-  Points zeros;               ///< centers of the rest triangles around which f_z winds
+  Points zeros;               ///< centers of rest triangles that contain zeros of f_z
   double turning_number = 0;  ///< of the boundary's image
   bool simple_boundary = true;
   int flipped_triangles = 0;
@@ -33,17 +33,18 @@ struct MapReport {
 /// `map` holds values and derivatives at mesh.vertices. Zeros are found by the argument principle
 /// on every triangle. Cost: linear, except for the crossing test of the boundary.
 MapReport report_of(const Mesh& mesh, const SampledMap& map);
-/// The same for the map that is f at the mesh's vertices and linear in each triangle. k and sigma
-/// are the extremes over the triangles.
+/// Like report_of, for the piecewise linear map with the values f at the mesh's vertices. k and
+/// sigma are the extremes over the triangles.
 MapReport report_of_linear(const Mesh& mesh, const VectorXc& f);
 
-/// f_z and f_zbar of the map that is f at a mesh's vertices and linear in triangle t.
+/// f_z and f_zbar, in triangle t, of the piecewise linear map with the values f at the mesh's
+/// vertices.
 struct LinearDerivatives {
   Complex fz, fzbar;
 };
 LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f);
 
-/// f_z and f_zbar at a mesh's vertices, for the map that is f there and linear in each triangle:
+/// f_z and f_zbar, at the vertices, of the piecewise linear map with the values f there. They are
 /// area-weighted means over the triangles around each vertex. Cost: linear.
 struct VertexDerivatives {
   VectorXc fz, fzbar;

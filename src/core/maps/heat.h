@@ -1,7 +1,7 @@
-// Heat maps: which quantity a view shows, its range, and the colors.
+// Heat maps: the quantity that a view shows, its range, and its colors.
 //
-// The sequential color map is viridis (matplotlib, CC0), the diverging one is ColorBrewer's RdBu.
-// Both are readable with every common color-vision deficiency.
+// The sequential color map is viridis (matplotlib, CC0). The diverging color map is ColorBrewer's
+// RdBu. Both are readable with every common color-vision deficiency.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr std::array<const char*, 5> kViewNames{"image", "angle", "area",
 /// The view with this name. Throws Error that lists the valid names.
 View view_named(const std::string& name);
 
-/// Whether a view shows a quantity of the map, which requires derivatives.
+/// Whether a view shows the distortion of the map. Such a view requires derivatives.
 inline bool is_heat(View view) {
   return view == View::angle || view == View::area || view == View::stretch;
 }
@@ -33,7 +33,7 @@ struct HeatScale {
 };
 
 /// The quantity that a view shows at each sample: k, log2 of the area, or log2 of the largest
-/// stretch. At folded samples, k is at least 1 and the others are infinite.
+/// stretch. At folded samples, k is at least 1 and the other two are infinite.
 Eigen::VectorXd heat_values(View view, const Distortion& distortion);
 
 /// The fixed scale of a view or, when `automatic`, a scale that spans the finite values.

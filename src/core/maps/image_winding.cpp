@@ -1,4 +1,4 @@
-// A chord turns around w by the same angle as its arc unless w lies between the two.
+// An arc and its chord turn around w by the same angle unless w lies between them.
 #include "core/maps/image_winding.h"
 
 #include <cmath>
@@ -11,8 +11,8 @@ double rounding_at(Complex w, Complex f) {
   return 1e-13 * (std::abs(w) + std::abs(f));
 }
 
-/// w is clear of an arc when its squared distance from the arc's start exceeds this many times the
-/// sum of the squared chord and the squared bulge.
+/// w is clear of an arc if the squared distance between w and the start of the arc's image exceeds
+/// this many times the sum of the squared chord and the squared bulge.
 constexpr double kFar = 9;
 
 /// Whether w is farther from the piece's chord than the arc's image can be.
@@ -65,8 +65,7 @@ std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int dept
 }
 
 // The winding number of the polygon of chords is the signed number of times it crosses the ray from
-// w to the right. Arcs that w is not clear of may turn by more or less than their chords; that
-// difference is added.
+// w to the right. An arc near w may turn by more or less than its chord. This difference is added.
 std::optional<int> ImageWinding::turns(std::span<const Piece> loop, Complex w) const {
   int crossings = 0;
   double more = 0;

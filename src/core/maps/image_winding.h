@@ -23,7 +23,7 @@ class ImageWinding {
   /// `cage` and `map` must outlive this.
   ImageWinding(const Cage& cage, const PointMap& map) : cage_(cage), map_(map) {}
 
-  /// An arc, the images of its ends, and an estimate of how far the arc's image deviates from their
+  /// An arc and the images of its ends. `bulge` estimates how far the arc's image deviates from its
   /// chord: twice the largest deviation at three points.
   struct Piece {
     Arc arc;
@@ -33,15 +33,15 @@ class ImageWinding {
   /// Cost: five evaluations of the map.
   Piece piece(const Arc& arc) const;
 
-  /// The angle in radians by which f - w turns along a piece; empty when w lies on the piece's
-  /// image to within rounding. Pieces are halved until w is clear of them. Cost: no evaluations of
-  /// the map when w is not near, seven for each halving.
+  /// The angle in radians by which f - w turns along a piece. Empty when w lies on the piece's
+  /// image to within rounding. If w is near the image, the piece is halved repeatedly. Cost: seven
+  /// evaluations of the map for each halving, none if w is not near.
   std::optional<double> turn(const Piece& piece, Complex w) const { return turn(piece, w, 0); }
-  /// The number of whole turns of f - w along a closed loop; empty as above.
+  /// The number of whole turns of f - w along a closed loop. Empty when w lies on the loop's image
+  /// to within rounding.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
 
-  /// The point at the fraction `fraction` of an arc, 0 to 1, and the two arcs into which it cuts
-  /// the arc.
+  /// The point at `fraction` of an arc, 0 to 1, and the two arcs into which this point divides it.
   Complex point(const Arc& arc, double fraction) const;
   std::array<Arc, 2> cut(const Arc& arc, double fraction) const;
 

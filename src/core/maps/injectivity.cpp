@@ -1,5 +1,5 @@
-// Derivatives have poles at the corners of a basis on the boundary, and a few tiny triangles next
-// to them are always flipped. They do not count as folds.
+// If the basis is on the boundary, derivatives have poles at its corners, and a few tiny triangles
+// next to the corners are always flipped. Such triangles do not count as folds.
 #include "core/maps/injectivity.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace holomorph {
 namespace {
 
-/// The flipped regions, the largest first, each represented by the center of its largest triangle.
-/// Empty when all of them together are too small to be seen.
+/// The flipped regions, the largest first. Each is represented by the center of its largest
+/// triangle. Empty when all regions together are too small to be seen.
 Points visible_folds(const Mesh& mesh, const VectorXc& f) {
-  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative area of all regions, of one
+  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative areas of all regions, of one
   double turned = 0, total = 0;
   std::vector<std::pair<double, const Triangle*>> over;
   for (const Triangle& t : mesh.triangles) {
@@ -54,8 +54,7 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
   return positions;
 }
 
-/// |f_z| - |f_zbar| of the linear map of a triangle with the edges z1 and z2 at rest and f1 and f2
-/// posed.
+/// |f_z| - |f_zbar| of the linear map that takes the edges z1 and z2 of a triangle to f1 and f2.
 double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
   const Complex twice_area = z1 * std::conj(z2) - z2 * std::conj(z1);
   const Complex fz = (f1 * std::conj(z2) - f2 * std::conj(z1)) / twice_area,
@@ -96,8 +95,8 @@ Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
   return {parts.front().stretch, (f[i] + f[j] + f[k]) / 3.0};
 }
 
-/// A closed polygon simplified to within a tolerance (Douglas, Peucker 1973). It keeps the first
-/// vertex and the one farthest from it.
+/// A closed polygon simplified to within a tolerance (Douglas, Peucker 1973). The first vertex and
+/// the vertex farthest from it are kept.
 class SimplifiedPolygon {
  public:
   SimplifiedPolygon(const Points& polygon, double tolerance)

@@ -10,19 +10,20 @@ namespace holomorph {
 struct Injectivity {
   /// Turning number of the boundary's image after simplification to 3e-4 of its size. It is 1
   /// without folds and -1 for a mirrored picture. For a conformal map, each zero of f' adds 1, and
-  /// the picture folds around it. Smaller loops, such as those left at corners of outlines, are not
-  /// visible and do not count.
+  /// the picture folds around it. Loops below this size, such as those at corners of outlines, are
+  /// invisible and do not count.
   double turning_number = 1;
-  /// Posed positions of the flipped regions, one for each, the largest region first; empty when all
-  /// of them together are less than 1e-4 of the picture's area. If nothing is flipped but the
-  /// turning number is not 1, the position where the picture is compressed most, which is near a
-  /// zero of f'.
+  /// One posed position in each flipped region, the largest region first. Empty when the regions
+  /// together cover less than 1e-4 of the picture's area, unless the turning number is not 1. In
+  /// that case, this is the position where the picture is compressed most, which is near a zero of
+  /// f'.
   Points folds_at;
-  /// The smallest |f_z| - |f_zbar| of the triangles, ignoring the worst thousandth of the picture:
-  /// the scale factor in the most compressed direction. It is negative where the picture is
-  /// flipped.
+  /// The smallest |f_z| - |f_zbar| of the triangles, ignoring the worst thousandth of the picture.
+  /// This is the scale factor in the most compressed direction. It is negative if a visible part of
+  /// the picture is flipped.
   double least_stretch = 1;
-  /// Where the boundary's image crosses itself. Parts may then overlap without a fold.
+  /// A point where the boundary's image crosses itself. The picture may then overlap itself without
+  /// a fold.
   std::optional<Complex> crossing;
 
   bool folds() const { return !folds_at.empty() || std::abs(turning_number - 1) > 0.01; }

@@ -12,8 +12,9 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 1e-4;  ///< of the control points' box; twice the error of `flattened`
-constexpr double kSame = 1e-7;  ///< of the size; preimages closer than this are the same
+constexpr double kNear =
+    1e-4;  ///< relative to the control points' box; twice the error of `flattened`
+constexpr double kSame = 1e-7;  ///< relative to the size; preimages closer than this are the same
 constexpr double kOn = 1e-12;
 constexpr double kBranch = 1e-5;
 constexpr double kOnCurve = 8;  ///< distance of mesh boundary from its curve, in rounding errors
@@ -55,7 +56,8 @@ void InverseMap::for_each_cell(const Box& box, Visit visit) {
     for (size_t c = low % columns; c <= high % columns; ++c) visit(cells_[r * columns + c]);
 }
 
-/// Two passes over the triangles: the first counts those in each cell, the second stores them.
+/// Makes two passes over the triangles. The first counts the triangles in each cell; the second
+/// stores them.
 void InverseMap::fill_cells() {
   const auto box_of_triangle = [&](int t) {
     Box box;
@@ -74,7 +76,7 @@ void InverseMap::fill_cells() {
   for (int t = 0; t < count; ++t)
     for_each_cell(box_of_triangle(t),
                   [&](Cell& cell) { triangles_[cell.first + cell.count++] = t; });
-  constexpr double kSheared = 0.7;  // above this |f_zbar| / |f_z|, a fold may be near
+  constexpr double kSheared = 0.7;  // for larger |f_zbar| / |f_z|, a fold may be near
   const VectorXc f =
       Eigen::Map<const VectorXc>(positions_.data(), static_cast<Index>(positions_.size()));
   for (int t = 0; t < count; ++t) {
@@ -138,7 +140,8 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
     if (!is_finite(move)) return false;
     if (std::abs(move) > 0.1 * size_) move *= 0.1 * size_ / std::abs(move);
     bool nearer = false;
-    const int halves = at.residual <= good ? 1 : 8;  // near rounding, halving does not help
+    const int halves =
+        at.residual <= good ? 1 : 8;  // close to rounding error, halving does not help
     for (int half = 0; half < halves && !nearer; ++half, move *= 0.5) {
       const PointMap::Value next = map_.at(at.z + move);
       if (!(std::abs(w - next.f) < at.residual)) continue;
@@ -154,8 +157,8 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
   return at.residual <= good;
 }
 
-/// The start, moved towards the center of its boundary triangle while it lies outside a curved
-/// cage. Between a curve and the mesh's chord, the map may not be defined.
+/// The start. If it lies outside a curved cage, it is moved towards the center of its boundary
+/// triangle, because the map may be undefined between a curve and the mesh's chord.
 Complex InverseMap::pulled_inside(Complex start, int triangle) const {
   if (triangle < 0) return start;
   const auto [a, b, c] = mesh_.triangles[triangle];
@@ -188,8 +191,8 @@ bool InverseMap::is_inside(Complex z) const {
   const Points& outline = flat_.points;
   const NearestPoint near = nearest_on_polygon(outline, z);
   if (near.distance > near_) return winding_number(outline, z) != 0;
-  // On the boundary the result depends on rounding, so a point also counts if it is inside after a
-  // tiny step inwards.
+  // On the boundary the result depends on rounding. A point therefore also counts as inside if a
+  // tiny step inwards takes it inside.
   const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
   return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
 }
@@ -199,7 +202,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   const std::optional<int> wanted = winding(w);
   std::vector<Preimage> found = newton_from_grid(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
-  // Points slightly outside may have been counted. On the boundary itself the count is undefined.
+  // The count may include points slightly outside. On the boundary itself the count is undefined.
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
     if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
@@ -213,7 +216,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   return off(all) < off(found) ? all : found;
 }
 
-/// Starts from the triangles whose images contain w or are near it.
+/// Runs Newton's method from the triangles whose images contain w or are near w.
 std::vector<Preimage> InverseMap::newton_from_grid(Complex w, std::optional<int> wanted) const {
   std::vector<Preimage> found;
   constexpr double kSlack = 0.3;  // a triangle's image is not exactly a triangle
@@ -281,7 +284,7 @@ std::vector<Preimage> InverseMap::search_triangles(Complex w, int wanted) const 
     order.emplace_back(std::abs(w - box.center()) / std::max(slack, 1e-300), static_cast<int>(t));
   }
   std::ranges::sort(order);
-  constexpr double kFarthest = 8;  // times a triangle's size; its image does not extend that far
+  constexpr double kFarthest = 8;  // in triangle sizes; a triangle's image does not extend that far
   for (const auto& [distance, t] : order) {
     if (distance > 1 && (distance > kFarthest || oriented(found) == wanted)) break;
     const auto [a, b, c] = mesh_.triangles[t];
@@ -318,7 +321,7 @@ std::vector<Preimage> InverseMap::inside(const Region& region, Complex w) const 
   return here;
 }
 
-/// Adds the preimages in a region whose boundary's image winds around w `count` times.
+/// Adds the preimages in a region. The image of the region's boundary winds around w `count` times.
 void InverseMap::search_region(const Region& region, int count, Complex w, int depth,
                                std::vector<Preimage>& found) const {
   const std::vector<Preimage> here = inside(region, w);
@@ -352,8 +355,8 @@ void InverseMap::search_region(const Region& region, int count, Complex w, int d
       if (counts[k] != 0) search_region(parts[k], counts[k], w, depth + 1, found);
     return;
   }
-  // Sheets meet here, or are closer together than rounding can separate. If Newton's method does
-  // not converge to a point inside, no preimage is reported.
+  // Sheets meet here, or are too close together to be separated in floating point. If Newton's
+  // method does not converge to a point inside, no preimage is reported.
   Preimage branch{here.empty() ? (a + b + c) / 3.0 : here[0].z};
   if (!improve(w, branch) || !is_inside(branch.z)) return;
   branch.orientation = count < 0 ? -1 : 1;

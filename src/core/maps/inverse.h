@@ -16,7 +16,7 @@ namespace holomorph {
 struct Preimage {
   Complex z;
   double residual = 0;
-  int triangle = -1;    ///< its index in the mesh; triangles with larger indices are drawn on top
+  int triangle = -1;    ///< triangle index in the mesh; larger indices are drawn on top
   int orientation = 1;  ///< -1 where the map reverses orientation
 };
 
@@ -30,12 +30,12 @@ class InverseMap {
   InverseMap(const InverseMap&) = delete;  // its members refer to each other
   InverseMap& operator=(const InverseMap&) = delete;
 
-  /// All preimages of w inside the cage, the one drawn on top first; empty when there are none. For
-  /// w off the boundary's image, their orientations add up to the winding number of that image
-  /// around w. Where the map is holomorphic, these are all preimages, and a branch point is listed
-  /// once for each sheet that meets there. Residuals are usually a few rounding errors, and at most
-  /// 1e-11 times the sum of the cage's size and |w|. Cost: about ten evaluations of the map, up to
-  /// a few thousand where sheets are smaller than triangles.
+  /// All preimages of w inside the cage, the topmost first. If w is not on the boundary's image,
+  /// their orientations add up to the winding number of that image around w. For a holomorphic map,
+  /// this means that no preimage is missing; a branch point is listed once for each sheet that
+  /// meets there. Residuals are usually a few rounding errors and never exceed 1e-11 times the sum
+  /// of the cage's size and |w|. Cost: about ten evaluations of the map, or up to a few thousand if
+  /// sheets are smaller than triangles.
   std::vector<Preimage> at(Complex w) const;
 
   /// The winding number of the boundary's image around w; empty when w lies on that image to within
@@ -45,8 +45,8 @@ class InverseMap {
  private:
   struct Cell {
     int first = 0, count = 0;
-    bool on_boundary = false;  ///< whether the boundary's image or its chords may pass through it
-    bool may_fold = false;     ///< whether triangles here are flipped or strongly sheared
+    bool on_boundary = false;  ///< whether the boundary's image or its chords may pass through
+    bool may_fold = false;     ///< whether nearby triangles are flipped or strongly sheared
   };
   /// Three arcs that enclose a part of the domain.
   using Region = std::array<Arc, 3>;
@@ -78,14 +78,14 @@ class InverseMap {
   std::vector<ImageWinding::Piece> pieces_;  ///< of the boundary
   std::vector<int> piece_at_;                ///< by vertex: the piece that starts there, or -1
   double reach_ = 0;                         ///< the longest posed edge of the boundary
-  double near_ = 0;                          ///< closer to the boundary, the exact test is used
+  double near_ = 0;  ///< distance from the boundary below which the exact test is used
   FlatCage flat_;
   double size_ = 1;
   std::vector<char> outer_;  ///< the mesh's boundary_marks
   Box box_;
   int columns_ = 1, rows_ = 1;
   std::vector<Cell> cells_;
-  std::vector<int> triangles_;  ///< their indices, cell by cell
+  std::vector<int> triangles_;  ///< triangle indices, cell by cell
 };
 
 }  // namespace holomorph

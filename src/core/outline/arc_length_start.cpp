@@ -1,4 +1,4 @@
-// The only unknown is the shift between the two starting points; all of 200 values are tried.
+// The only unknown is the shift between the two starting points. 200 values are tried.
 #include "core/outline/arc_length_start.h"
 
 namespace holomorph {
@@ -6,8 +6,8 @@ namespace {
 
 constexpr Index kShifts = 200;
 
-/// Equal fractions of both lengths. The source's start goes to the point that is `shift` / kShifts
-/// of the target's length after the target's start.
+/// Equal fractions of both lengths. The source's start corresponds to the point whose arc length on
+/// the target is `shift` / kShifts of the target's length.
 Correspondence by_equal_fractions(const Polyline& source, const Polyline& target, Index shift) {
   const double offset = target.length() * static_cast<double>(shift) / kShifts;
   return {{{0, 0.5 * source.length()},

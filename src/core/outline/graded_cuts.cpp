@@ -1,4 +1,4 @@
-// Pieces are halved first according to the map, then according to the lengths of their neighbors.
+// Pieces are first halved as the map requires, then as the lengths of their neighbors require.
 #include "core/outline/graded_cuts.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kBalance = 3;  ///< how many times as long as a neighbor a piece may be
+constexpr double kBalance = 3;  ///< largest ratio of the lengths of neighboring pieces
 
 class Cutter {
  public:
@@ -15,7 +15,7 @@ class Cutter {
          const CutRules& rules)
       : image_(image), longest_(longest), rules_(rules) {}
 
-  /// Appends the cuts of the piece between `from` and `to`, without these two.
+  /// Appends the cuts of the piece between `from` and `to`, excluding both ends.
   void halve(double from, Complex image_from, double to, Complex image_to,
              std::vector<double>& cuts) const {
     const double middle = 0.5 * (from + to);

@@ -1,4 +1,4 @@
-// Steps along the loop are halved until the change of the argument is unambiguous on each.
+// Steps along the loop are halved until the change of the argument along each step is unambiguous.
 #include "core/outline/inner_loop.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ Points in_steps(const Points& loop, double longest) {
   return points;
 }
 
-/// Whether the argument may change by a full turn or more from one value to the next.
+/// Whether the argument may change by a full turn or more between the two values.
 bool is_uncertain(Complex from, Complex to) {
   constexpr double kRatio = 4;
   const Complex ratio = to / from;

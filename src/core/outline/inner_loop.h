@@ -7,9 +7,9 @@
 
 namespace holomorph {
 
-/// A polygon at this distance inside a simple, counter-clockwise one, with miters at convex corners
-/// and arcs around the others. Its vertices are at most three times the distance apart. While the
-/// loop would cross itself, the distance is halved, up to 20 times.
+/// A loop at this distance inside a simple, counter-clockwise polygon, with miters at convex
+/// corners and arcs around the other corners. The loop's vertices are at most three times the
+/// distance apart. The distance is halved, up to 20 times, until the loop does not cross itself.
 Points inner_loop(const Points& polygon, double distance);
 
 /// The number of zeros of a function inside a loop, by the argument principle: its winding number

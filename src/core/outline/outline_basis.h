@@ -1,5 +1,5 @@
-// A cage cut into more segments for the maps onto outlines, and Cauchy coordinates at points of its
-// boundary.
+// Cuts a cage into more segments for the maps onto outlines, and computes Cauchy coordinates at
+// points of its boundary.
 #pragma once
 
 #include "core/geometry/cage.h"
@@ -14,11 +14,12 @@ using Cuts = std::vector<std::vector<double>>;
 Cuts cuts_at(const Cage& cage, const FlatCage& flat, const Polyline& line,
              std::vector<double> lengths);
 
-/// The cage cut at these parameters. All its own vertices are kept. Cuts that would leave a piece
-/// of at most `least` in parameters are skipped.
+/// The cage cut at these parameters. The cage's vertices are kept. A cut is skipped if it would
+/// leave a piece whose parameter range is at most `least`.
 Cage cut(const Cage& cage, const Cuts& cuts, double least);
 
-/// Cauchy coordinates at points of the boundary, by the faster path where it is equally accurate.
+/// Cauchy coordinates at points of the boundary, computed by the faster method where it is equally
+/// accurate.
 MatrixXc coordinates_at(const Cage& cage, std::span<const BoundaryPoint> points, int order);
 
 }  // namespace holomorph

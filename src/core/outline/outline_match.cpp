@@ -1,4 +1,4 @@
-// The rows are factored once. Then the targets and the map are updated in turn.
+// The matrix of the fit is factored once. Then the targets and the map are updated alternately.
 #include "core/outline/outline_match.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace {
 
 constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
-constexpr double kInset = 7e-4;      ///< of the loop in which zeros are counted, in diagonals
-constexpr double kSoftInset = 5e-3;  ///< the same with stiffness: corners are flattened roughly
+constexpr double kInset = 7e-4;      ///< depth of the loop in which zeros are counted, in diagonals
+constexpr double kSoftInset = 5e-3;  ///< the same with stiffness, which flattens corners roughly
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
-/// A start that differs from that of the basis by this fraction of the target's length requires
-/// another basis.
+/// If a start differs from the start of the basis by this fraction of the target's length, another
+/// basis is required.
 constexpr double kFar = 0.02;
 
 /// The shape's own frame: its first vertex is at 0, its first chord is along the real axis, and its
@@ -49,7 +49,7 @@ MatrixXc with_conjugate(const MatrixXc& c, bool soft) {
   return both;
 }
 
-/// The outline in counter-clockwise order. Throws Error as check_outline does.
+/// The outline in counter-clockwise order. Throws the same Errors as check_outline.
 Points checked(Points points) {
   check_outline(points);
   if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
@@ -126,7 +126,7 @@ void OutlineFit::follow(const Points& pinned) {
     if (difference(start, built_) > kFar) build(start);
     begin(start, wanted);
     run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
-    // A single pin selects a conformal map. Several pins may ask for what no conformal map does.
+    // A single pin selects a conformal map. Several pins may be impossible for any conformal map.
     if (pins_.size() == 1 && may_refine() && !is_matched()) follow_start(start);
     return;
   }
@@ -191,10 +191,10 @@ OutlineMatch OutlineFit::after(int iteration) const {
   return match;
 }
 
-// Vertices are uniform in 0.3 times the source's relative arc length plus 0.7 times the target's.
-// The cage's own vertices are kept, so that each of its segments is cut separately. The vertices
-// nearest to preimages of the target's corners are moved there, because f' is a power at these
-// points.
+// Vertices are spaced uniformly in a weighted sum of relative arc lengths: 0.3 times the source's
+// plus 0.7 times the target's. The cage's own vertices are kept, and each of its segments is cut
+// separately. For each corner of the target, the nearest vertex is moved to the corner's preimage,
+// because f' behaves like a power there.
 void OutlineFit::set_up_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto vertex_parameter = [&](double s) {
@@ -229,7 +229,7 @@ void OutlineFit::set_up_basis(const Correspondence& start) {
     if (nearest != cuts.end()) *nearest = once;
   }
   const Cuts places = cuts_at(cage_, flat_, source_, std::move(cuts));
-  constexpr double kLeast = 1e-3;  // of a segment; shorter pieces are not cut off
+  constexpr double kLeast = 1e-3;  // fraction of a segment; shorter pieces are not cut off
   now_.basis = cut(cage_, places, kLeast);
   now_.given_basis = cut(given_, places, kLeast);
 }
@@ -276,7 +276,7 @@ std::vector<FitTerm> OutlineFit::terms() {
     MatrixXc rows = MatrixXc::Zero(static_cast<Index>(middles_.size()), 2 * n);
     rows.rightCols(n) = unit_ * coordinates_at(now_.basis, middles_, 1).conjugate();
     terms.push_back({std::move(rows), settings_.stiffness});
-    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // fixes the constant common to both
+    MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // fixes the constant that phi and psi share
     constant.rightCols(n).setConstant(1 / static_cast<double>(n));
     terms.push_back({std::move(constant)});
   }
@@ -312,9 +312,9 @@ Points OutlineFit::held(const Points& pinned) const {
   for (Complex& z : inside) {
     if (winding_number(target_.points(), z) != 0) continue;
     const Complex nearest = target_.nearest(z).point;
-    // Take the deepest point of a small ring around the nearest point, smaller where the outline is
-    // thin. The directions rotate from ring to ring, so that even a needle narrower than the gaps
-    // between them is found.
+    // Take the deepest point of a small ring around the nearest point. If no point of the ring is
+    // inside, try smaller rings. The directions rotate from ring to ring to find even a needle that
+    // is narrower than the gaps between directions.
     double depth = 0, step = 0.05 * target_.diagonal();
     for (int ring = 0; ring < kMostHalvings && depth == 0; ++ring, step /= 2)
       for (int k = 0; k < kDirections; ++k) {

@@ -18,21 +18,22 @@ namespace holomorph {
 inline constexpr double kOutlineMatched = 0.01;
 
 struct OutlineSettings {
-  /// The published method: vertices equally spaced in arc length, no smoothing, and zeroth-order
-  /// steps from an arc-length start. Otherwise, the conformal map between the interiors is the
-  /// start and determines where vertices are needed, and the steps are of first order (eq. 13).
+  /// Use the published method: vertices equally spaced in arc length, no smoothing, and
+  /// zeroth-order steps from an arc-length start. Otherwise, the fit starts from the conformal map
+  /// between the interiors, which also determines where vertices are needed. It then takes
+  /// first-order steps (eq. 13).
   bool published = false;
-  int vertices = 200;        ///< approximate number along the outline; more if the cage has more
+  int vertices = 200;        ///< approximate number along the outline, at least the cage's
   double smoothness = 0.01;  ///< alpha_h: weight of mean |h^2 f''|^2
   double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; 0: f_zbar = 0
   double pin_weight = 0.1;   ///< beta
-  /// When the start is chosen: weight of the picture's squared rotation, relative to the mean
+  /// The weight of the picture's squared rotation in the choice of the start, relative to the mean
   /// square of the logarithmic stretch.
   double upright = 1;
   int most_iterations = 30;
 };
 
-/// The two shapes, each of either orientation, and the pins.
+/// The two shapes and the pins. Each shape may be clockwise or counter-clockwise.
 struct OutlineTask {
   Cage source;
   Points outline;       ///< closed
@@ -44,10 +45,10 @@ struct OutlineTask {
 struct OutlineMatch {
   Cage basis;  ///< the source cut into more segments
   VectorXc phi, psi;
-  double rms = 0;          ///< of the distances of the source boundary's image from the outline
-  double hausdorff = 0;    ///< two-sided distance of that image and the outline
+  double rms = 0;          ///< of the distances from the source boundary's image to the outline
+  double hausdorff = 0;    ///< two-sided distance between that image and the outline
   double pins_missed = 0;  ///< the largest distance of a pin's image from its target
-  int pins_held = 0;       ///< number of targets outside the outline, which are held just inside
+  int pins_held = 0;       ///< number of pins held just inside because their targets are outside
   /// The number of zeros of f_z, by the argument principle, that lie inside the shape by at least a
   /// thousandth of its size (five thousandths with stiffness). The picture folds around each zero,
   /// and each zero adds one to the turning number. Where a corner is flattened, the exact f_z is 0
@@ -58,7 +59,7 @@ struct OutlineMatch {
   std::vector<double> energies;
 };
 
-/// Everything that does not depend on the pins' targets, and the last solution.
+/// The precomputed data that do not depend on the pins' targets, and the last solution.
 class OutlineFit {
  public:
   /// Throws Error when the outline has fewer than three points, has a point that is not finite,
@@ -68,13 +69,13 @@ class OutlineFit {
   OutlineFit(const OutlineFit&) = delete;
   OutlineFit& operator=(const OutlineFit&) = delete;
 
-  /// Solves from scratch for these pin targets. If the result misses the outline by more
-  /// than 0.8 % of its diameter, or if f' has zeros, the fit is repeated on the conformal map
-  /// itself, with as many vertices as that needs. Cost: for 200 vertices 5 ms per iteration, plus
-  /// 60 ms for a basis if there are pins; 0.1 to 1 s where the conformal map is followed.
+  /// Solves from scratch for these pin targets. If the result misses the outline by more than 0.8 %
+  /// of its diameter, or if f' has zeros, the conformal map itself is fitted instead, with as many
+  /// vertices as necessary. Cost for 200 vertices: 5 ms per iteration, plus 60 ms for a basis if
+  /// there are pins. Fitting the conformal map takes 0.1 to 1 s.
   void solve(const Points& pinned);
-  /// The same with less accuracy: at most four iterations, from a start near the last one if there
-  /// are pins, else from the last solution.
+  /// Like `solve`, but less accurate: at most four iterations. They begin at a start near the last
+  /// one if there are pins, else at the last solution.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return now_.given_basis; }
@@ -112,7 +113,7 @@ class OutlineFit {
   struct FitRow {
     double weight;
     Index row;
-    bool is_bend;  ///< a row of f'' at a midpoint; else of f at a sample
+    bool is_bend;  ///< whether this is a row of f'' at a midpoint or of f at a sample
   };
   void add_ridge(MatrixXc& left, VectorXc& right) const;
   VectorXd image_sizes() const;
@@ -121,8 +122,8 @@ class OutlineFit {
   void set_up_samples();
   std::vector<FitTerm> terms();
   VectorXc start_targets(const Correspondence& start) const;
-  /// Targets that pins can reach: targets outside the outline are moved to just inside it, at its
-  /// nearest point.
+  /// Targets that pins can reach. A target outside the outline is moved to a point just inside,
+  /// near the nearest point of the outline.
   Points held(const Points& pinned) const;
   VectorXc pin_targets(const Points& pinned) const;
   void project(const VectorXc& values, VectorXc& targets);
@@ -131,23 +132,23 @@ class OutlineFit {
 
   OutlineSettings settings_;
   Cage given_;        ///< the source as given
-  Similarity frame_;  ///< the source's own frame; all members below are in it
+  Similarity frame_;  ///< the source's own frame, which all members below use
   Cage cage_;
   FlatCage flat_;
   Polyline source_, target_;
   Points pins_, pinned_;
   Points loop_;     ///< just inside the source; zeros inside this loop are counted
   double unit_;     ///< L
-  Complex center_;  ///< f minus this is what is fitted
+  Complex center_;  ///< subtracted from f for the fit
   /// Null for the published method, and for strips too long for a conformal start.
   std::unique_ptr<ConformalStart> start_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
   std::vector<double> cut_lengths_;  ///< arc lengths of a graded basis' vertices
   std::vector<Index> hints_;
-  Correspondence built_;  ///< the one that the basis was built for
+  Correspondence built_;  ///< the correspondence for which the basis was built
   int builds_ = 0;
-  bool refined_ = false;  ///< whether the basis is the graded one
+  bool refined_ = false;  ///< whether the basis is graded
   std::optional<AlternatingFit> fit_;
   /// A basis, and the maps found over it.
   struct Stage {
@@ -158,10 +159,10 @@ class OutlineFit {
     std::vector<double> energies;
   };
   Stage now_;
-  Stage before_;  ///< the usual fit, if another basis has replaced it; else empty
+  Stage before_;  ///< the usual fit, if a graded basis has replaced it; else empty
 };
 
-/// The solution of a task, from scratch.
+/// Solves a task from scratch.
 OutlineMatch matched(const OutlineTask& task, const OutlineSettings& settings);
 
 /// Throws Error for the outlines that OutlineFit rejects.

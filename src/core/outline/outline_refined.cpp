@@ -1,5 +1,5 @@
-// Where the usual fit misses the outline or folds, one weighted least-squares fit follows the
-// conformal map itself, on vertices that are graded according to that map.
+// If the usual fit misses the outline or folds, it is replaced by a weighted least-squares fit to
+// the conformal map itself. The vertices are graded according to that map.
 #include <algorithm>
 
 #include "core/outline/graded_cuts.h"
@@ -11,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-constexpr double kAccepted = 0.8 * kOutlineMatched;  ///< with a margin for sampling
-constexpr double kFinest = 0.01;  ///< with more smoothness, corners are meant to be rounded
+constexpr double kAccepted = 0.8 * kOutlineMatched;  ///< leaves a margin for sampling
+constexpr double kFinest = 0.01;  ///< if smoothness is higher, corners are meant to be rounded
 
 }  // namespace
 
@@ -30,8 +30,8 @@ OutlineFit::Misses OutlineFit::misses() const {
   return {match.zeros, match.hausdorff / accepted, match.pins_missed / accepted};
 }
 
-// The iterated map is kept if it is better. Keeping the picture upright is optional: where the
-// upright map cannot be matched, the least stretched one may be.
+// The iterated map is kept if it is better. Keeping the picture upright is optional: if the upright
+// map fails to match, the least stretched map may still match.
 void OutlineFit::refine() {
   const Misses before = misses();
   before_ = now_;
@@ -62,8 +62,8 @@ std::vector<double> OutlineFit::vertex_lengths() const {
   return lengths;
 }
 
-// The vertices are those of graded_cuts. They include all the cage's vertices and the preimages of
-// the target's corners.
+// The vertices come from graded_cuts. They include all the cage's vertices and the preimages of the
+// target's corners.
 void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   const double length = source_.length(), close = 1e-9 * length;
   std::vector<double> kept = vertex_lengths();
@@ -100,9 +100,9 @@ void OutlineFit::set_up_graded_basis(const Correspondence& start) {
   cut_lengths_.push_back(length);
 }
 
-// The correspondence gives the targets. Misses are weighted by the inverse sizes of the images
-// around them: where the images are small, f' is small, too, and it has no zeros if its relative
-// error is small.
+// The correspondence gives the targets. Each error is weighted by the inverse size of the image of
+// the surrounding piece. Where images are small, f' is also small, and it has no zeros if its
+// relative error is small.
 void OutlineFit::follow_start(const Correspondence& start) {
   built_ = start;
   ++builds_;
@@ -129,9 +129,9 @@ void OutlineFit::follow_start(const Correspondence& start) {
   now_.energies = {mean_square_miss() / (unit_ * unit_)};
 }
 
-/// Boundary values of a function that is holomorphic outside have the Cauchy integral 0 inside, and
-/// curves have enough freedom to add such values. Weak rows therefore tie the control points to the
-/// images of boundary points near them under the correspondence.
+/// If a function is holomorphic outside, the Cauchy integral of its boundary values is 0 inside,
+/// and curves have enough freedom to add such values. Weak rows therefore tie the control points to
+/// the images of boundary points near them under the correspondence.
 void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
   constexpr double kWeak = 1e-4;
   const Index rows = left.rows(), n = left.cols();
@@ -150,9 +150,9 @@ void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
     }
 }
 
-/// The lengths of the images of the basis' pieces.
+/// The lengths of the images of the pieces of the basis.
 VectorXd OutlineFit::image_sizes() const {
-  constexpr double kLeast = 1e-13;  // of the target's diagonal; anything smaller is rounding
+  constexpr double kLeast = 1e-13;  // fraction of the target's diagonal; smaller sizes are rounding
   VectorXd sizes(now_.basis.size());
   const auto image = [&](Index e) {
     return target_.at(built_(cut_lengths_[static_cast<size_t>(e)]));

@@ -1,4 +1,4 @@
-// Between corners, samples are at equal steps of the integral of 1 / spacing.
+// Between corners, samples are equally spaced in the integral of 1 / spacing.
 #include "core/outline/outline_samples.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ constexpr double kThicknessFraction =
 
 struct CornerSample {
   double length = 0, sharpness = 0;  ///< |pi / interior angle - 1|
-  /// Within this fraction of the length from a convex corner, its power is lost to rounding.
+  /// At distances from a convex corner below this fraction of the length, the corner's power law is
+  /// lost to rounding.
   double least = 0;
 };
 
@@ -32,7 +33,7 @@ std::vector<CornerSample> corners_from(const Polyline& outline, double start) {
   return corners;
 }
 
-/// The desired distance between samples.
+/// The target distance between samples.
 class Spacing {
  public:
   Spacing(const Polyline& outline, Index count, double least)
@@ -41,12 +42,12 @@ class Spacing {
         most_(length_ / static_cast<double>(count)),
         least_(least * length_) {}
 
-  /// At an arc length between two corners.
+  /// The spacing at an arc length between two corners.
   double operator()(double length, const CornerSample& before, const CornerSample& after) const {
     double spacing = std::min(most_, kThicknessFraction * thickness_(length));
     spacing = std::min(spacing, spacing_ratio(before) * (length - before.length));
     spacing = std::min(spacing, spacing_ratio(after) * (after.length - length));
-    constexpr double kEverywhere = 1e-5;  // the map to the disk is always followed to this spacing
+    constexpr double kEverywhere = 1e-5;  // rounding never coarsens the spacing beyond this
     const double lost = std::min(std::max(before.least, after.least), kEverywhere) * length_;
     return std::max({spacing, least_, lost});
   }

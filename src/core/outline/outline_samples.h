@@ -15,8 +15,8 @@ double turn_at(const Polyline& outline, Index vertex);
 /// The arc lengths of a closed polyline's corners.
 std::vector<double> corners_of(const Polyline& curve);
 
-/// Half the local thickness of the inside and outside of a closed polyline: the smaller radius of
-/// the largest disks that touch it from either side.
+/// Half the local thickness of the inside or the outside of a closed polyline, whichever is
+/// thinner: the radius of the largest disk that touches the polyline from that side.
 class Thickness {
  public:
   /// Cost: a third of a million operations.
@@ -30,9 +30,9 @@ class Thickness {
 };
 
 /// Increasing arc lengths from `start`, once around a closed, simple, counter-clockwise polyline.
-/// The spacing is at most a `count`-th of the polyline's length and less than half the local
-/// thickness of the inside and the outside. It decreases geometrically towards the corners, which
-/// are included, but not below `least` times the length. Cost: a million operations.
+/// The spacing is at most the polyline's length divided by `count`, and less than half the local
+/// thickness of the inside and the outside. It decreases geometrically towards the corners, but not
+/// below `least` times the length. Corners are always included. Cost: a million operations.
 std::vector<double> graded_lengths(const Polyline& outline, double start, Index count,
                                    double least);
 

@@ -1,5 +1,5 @@
-// Three pairs of arc lengths define the automorphism of the disk. They are improved by the
-// Nelder-Mead simplex method.
+// Three pairs of arc lengths define the automorphism of the disk. The Nelder-Mead simplex method
+// improves these pairs.
 #include "core/outline/outline_start.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace holomorph {
 namespace {
 
-/// The number of points of each outline (more where it is thin), and the least distance between
-/// them as a fraction of the length.
+/// The number of points on each outline (more if it has thin parts), and the smallest distance
+/// between points as a fraction of the length.
 struct Sampling {
   Index points;
   double least;
@@ -28,18 +28,19 @@ constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;
 
-/// An outline and its Riemann map: the angle on the circle for each arc length, and the inverse.
+/// An outline and its Riemann map, with the functions from arc length to the angle on the circle
+/// and back.
 struct MappedOutline {
   const Polyline* line;
   RiemannMap map;
   PeriodicCurve angle_at, length_at;
   std::vector<double> lengths;         ///< equally spaced
-  Points places = {}, on_circle = {};  ///< points at these lengths: in the plane, and e^(i angle)
+  Points places = {}, on_circle = {};  ///< their points in the plane, and e^(i angle)
 
   double length() const { return line->length(); }
 
-  /// The image of z in the disk. A point outside the outline goes just inside the image of the
-  /// nearest boundary point.
+  /// The image of z in the disk. A point outside the outline is mapped to a point just inside the
+  /// image of the nearest boundary point.
   Complex in_disk(Complex z) const {
     constexpr double kMost = 1 - 1e-9, kInside = 0.98;
     if (winding_number(line->points(), z) != 0) {
@@ -51,8 +52,8 @@ struct MappedOutline {
   }
 };
 
-/// The interior point that maximizes a function of the point and of its distance from the outline,
-/// found on successively finer grids.
+/// The interior point that maximizes a function of the point and its distance from the outline.
+/// Searches successively finer grids.
 template <class Merit>
 Complex best_inside(const Polyline& outline, const Merit& merit) {
   const Box box = box_of(outline.points());
@@ -86,8 +87,8 @@ Complex centroid(const Points& polygon) {
   return polygon[0] + sum / area;
 }
 
-/// The arc length of the boundary point nearest to z. A deepest point has several nearest points;
-/// the first one is taken, so that the choice does not depend on rounding.
+/// The arc length of the boundary point nearest to z. A deepest point has several nearest points.
+/// The first of these is taken, which makes the choice independent of rounding.
 double nearest_length(const Polyline& outline, Complex z) {
   constexpr double kEqual = 1 + 1e-6;
   const double least = outline.nearest(z).distance;
@@ -100,9 +101,8 @@ double nearest_length(const Polyline& outline, Complex z) {
   return 0;
 }
 
-/// Rotates a list of arc lengths, once around, so that it starts where the zipper is most accurate:
-/// near the center and with a long step. The longer the first step, the more accurate all the
-/// others.
+/// Rotates a list of arc lengths, once around, to start where the zipper is most accurate: near the
+/// center and with a long step. The longer the first step, the more accurate all other steps are.
 std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& outline,
                                    Complex center) {
   constexpr double kNear = 1.4, kLonger = 1.001;
@@ -139,8 +139,8 @@ MappedOutline mapped_outline(const Polyline& outline, Sampling sampling) {
   return result;
 }
 
-/// The automorphism of the disk that takes three points of the circle to three others, all given by
-/// their angles.
+/// The automorphism of the disk that takes three points of the circle to three other points. All
+/// points are given by their angles.
 class DiskMap {
  public:
   DiskMap(const std::array<double, 3>& from, const std::array<double, 3>& to) {
@@ -175,7 +175,7 @@ class DiskMap {
   Eigen::Matrix2cd m_;
 };
 
-/// The squared hyperbolic distance of two points of the unit disk.
+/// The squared hyperbolic distance between two points of the unit disk.
 double hyperbolic_square(Complex z, Complex w) {
   constexpr double kFarthest = 1 - 1e-9;
   const double rho = std::abs((z - w) / (1.0 - std::conj(w) * z));
@@ -206,7 +206,8 @@ struct ConformalStart::Search {
     return {from, to};
   }
 
-  /// The arc lengths, on the other outline, of the images of points of one circle, in order.
+  /// The arc lengths on one outline that correspond to points on the other outline's circle, in
+  /// order.
   static std::vector<double> lengths_on(const MappedOutline& to, const DiskMap& map,
                                         const Points& on_circle) {
     std::vector<double> lengths;
@@ -218,13 +219,13 @@ struct ConformalStart::Search {
     return lengths;
   }
 
-  /// The mean square of ln of the relative stretch from equal steps to the steps of `lengths`.
+  /// The mean square of ln of the relative stretch between equal steps and the steps of `lengths`.
   static double stretch(const std::vector<double>& lengths, double total) {
     double sum = 0;
     for (size_t i = 0; i < lengths.size(); ++i) {
       const double step =
           (i + 1 < lengths.size() ? lengths[i + 1] : lengths[0] + total) - lengths[i];
-      constexpr double kLeast = 1e-15;  // of the whole length, for points that coincide
+      constexpr double kLeast = 1e-15;  // fraction of the whole length, for points that coincide
       const double log =
           std::log(std::max(step / total, kLeast) * static_cast<double>(lengths.size()));
       sum += log * log;
@@ -287,8 +288,8 @@ struct ConformalStart::Search {
     return pairs;
   }
 
-  /// The angle by which the picture is rotated when the search points of its boundary go to these
-  /// arc lengths.
+  /// The angle by which the picture is rotated if the search points of its boundary are mapped to
+  /// these arc lengths.
   double turn(const std::vector<double>& lengths) const {
     Complex from_sum = 0, to_sum = 0, both = 0;
     const double n = static_cast<double>(lengths.size());
@@ -377,7 +378,7 @@ struct ConformalStart::Search {
           source.length(), from);
       add(target.angle_at.x[i], target.length(), to);
     }
-    // Sort each list by itself: the map is increasing, but rounding may not preserve the order.
+    // Sort each list separately. The map is increasing, but rounding may change the order.
     std::ranges::sort(from);
     std::ranges::sort(to);
     return {{std::move(from), std::move(to), source.length(), target.length()},
@@ -432,7 +433,7 @@ bool ConformalStart::sharpen() {
     search_->source = std::move(source);
     search_->target = std::move(target);
   } catch (const Error&) {
-    return false;  // the finer vertices coincide in the zipper; the coarser ones did not
+    return false;  // finer vertices may coincide in the zipper even if coarser vertices do not
   }
   search_->map_pins();
   return true;

@@ -19,52 +19,54 @@ Complex deepest_point(const Polyline& outline);
 /// axis of a strip are equally deep.)
 Complex middle_point(const Polyline& outline);
 
-/// An increasing map from the arc lengths of one closed curve to those of another. One turn of the
-/// source goes to one turn of the target.
+/// An increasing map from the arc lengths of one closed curve to those of another. One turn around
+/// the source corresponds to one turn around the target.
 struct Correspondence {
   PeriodicCurve lengths;  ///< the target's arc lengths as a function of the source's
   double residual = 0;    ///< square root of the minimized cost
 
   double source_length() const { return lengths.x_period; }
   double target_length() const { return lengths.y_period; }
-  /// The target's arc length for one of the source's.
+  /// The target's arc length that corresponds to an arc length of the source.
   double operator()(double length) const { return lengths(length); }
-  /// From the target's arc lengths to the source's.
+  /// The correspondence from the target to the source.
   Correspondence inverse() const { return {lengths.through_inverse(), residual}; }
 };
 
-/// A conformal map from the interior of one outline to that of another: the Riemann maps of both,
-/// and the automorphism of the disk between them.
+/// A conformal map from the interior of one outline to the interior of another. It consists of the
+/// Riemann maps of both interiors and an automorphism of the disk between them.
 class ConformalStart {
  public:
   /// Both outlines must be closed, simple and counter-clockwise, and must outlive this. The pins
-  /// are inside the source. The cost to be minimized is the mean square of ln of the relative
-  /// stretch along both outlines, plus `upright` times the squared angle by which the picture is
-  /// rotated (with 0, the orientation of the drawings does not matter), plus 1000 times the squared
-  /// hyperbolic distances of the pins' images from their targets. Throws Error when an outline
-  /// touches itself. Cost: about 20 ms.
+  /// are inside the source. The cost to be minimized has three terms: the mean square of ln of the
+  /// relative stretch along both outlines, `upright` times the squared angle by which the picture
+  /// is rotated, and 1000 times the squared hyperbolic distances of the pins' images from their
+  /// targets. If `upright` is 0, the orientation of the drawings does not matter. Throws Error when
+  /// an outline touches itself. Cost: about 20 ms.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
   ~ConformalStart();
   ConformalStart(const ConformalStart&) = delete;
   ConformalStart& operator=(const ConformalStart&) = delete;
 
-  /// Whether many points of one of the outlines coincide on the disk's boundary to within rounding,
-  /// such as those at the ends of strips twelve times as long as wide. No start can be found then.
+  /// Whether many points of either outline coincide on the disk's boundary to within rounding, as
+  /// at the ends of a strip that is twelve times as long as wide. In that case, no start can be
+  /// found.
   bool is_crowded() const;
-  /// Whether some hundredth of one of the outlines covers less than 5e-13 of the disk's boundary.
-  /// Rounding may spoil the map there.
+  /// Whether a hundredth of either outline covers less than 5e-13 of the disk's boundary. Rounding
+  /// may spoil the map there.
   bool is_near_crowded() const;
-  /// The best correspondence for these targets of the pins, or without pins. Cost: 3 to 25 ms.
+  /// The best correspondence for these pin targets. Without targets, pins are ignored. Cost: 3 to
+  /// 25 ms.
   Correspondence best(const Points& pinned = {});
-  /// Computes finer maps to the disk, which resolve corners that go to long parts of the other
-  /// outline. Returns false and changes nothing where rounding does not allow this. Cost: about 100
-  /// ms.
+  /// Computes finer maps to the disk, which resolve corners that correspond to long parts of the
+  /// other outline. Returns false and changes nothing if rounding does not allow this. Cost: about
+  /// 100 ms.
   bool sharpen();
-  /// The last correspondence, recomputed with the present maps to the disk. Cost: 1 ms.
+  /// The last correspondence, recomputed with the current maps to the disk. Cost: 1 ms.
   Correspondence last(const Points& pinned = {});
-  /// The correspondence with the least stretch, without pins and for any rotation of the picture.
-  /// Cost: that of `best`.
+  /// The correspondence with the least stretch, ignoring pins and the picture's rotation. Cost: as
+  /// for `best`.
   Correspondence least_stretched();
   /// Like `best`, but continues from the last correspondence, which must exist. Cost: about 4 ms.
   Correspondence follow(const Points& pinned);

@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-/// The slope between two chords with the widths `before` and `after` and these rises.
+/// The slope at the point between two chords with these widths and rises.
 double slope_between(double before, double rise_before, double after, double rise_after) {
   if (!(before > 0 && after > 0 && rise_before > 0 && rise_after > 0)) return 0;
   const double first = 2 * after + before, second = after + 2 * before;

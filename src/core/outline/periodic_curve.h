@@ -1,5 +1,5 @@
-// Smooth increasing functions through given points that take one period to one period. They never
-// decrease between the points.
+// Smooth functions through increasing points. They map one period to one period and never decrease
+// between the points.
 #pragma once
 
 #include "core/types.h"
@@ -15,9 +15,10 @@ struct PeriodicCurve {
 
   /// Cost: logarithmic in the number of points.
   double operator()(double t) const;
-  /// The t where the curve has a value, to rounding. Cost: 60 evaluations of a cubic.
+  /// The t at which the curve has this value, accurate to rounding. Cost: 60 evaluations of a
+  /// cubic.
   double inverse_at(double value) const;
-  /// The curve through the points (y, x), which is the inverse at these points.
+  /// The curve through the points (y, x). It agrees with the inverse function at these points.
   PeriodicCurve through_inverse() const { return {y, x, y_period, x_period}; }
 
  private:

@@ -1,5 +1,5 @@
-// Boundary points become real once their arc is opened. On the side of the interior they are
-// negative.
+// Boundary points become real when their arc is opened. The side of the arc that faces the interior
+// goes to the negative real axis.
 #include "core/outline/riemann.h"
 
 #include <limits>
@@ -76,7 +76,7 @@ RiemannMap::RiemannMap(std::span<const Complex> polygon, Complex center) {
   check(n >= 3, "Riemann map: a polygon with at least three vertices");
   first_ = polygon[0];
   second_ = polygon[1];
-  // Vertices that are still inside, and those already opened, which are on the real axis.
+  // `inside` holds vertices that are still inside; `done` holds opened vertices on the real axis.
   std::vector<Complex> inside;
   for (size_t i = 2; i < n; ++i) inside.push_back(first_root(polygon[i]));
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
