@@ -1,5 +1,5 @@
-// The scale is a ratio of lengths, because a length does not depend on how much the boundary turns;
-// a least-squares fit of the vertices would (DECISIONS).
+// The scale is a ratio of lengths, because lengths do not depend on how far the boundary turns. A
+// least-squares fit of the vertices would depend on it (DECISIONS).
 #include "core/angles/angle_frame.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-/// Equally many samples on each segment, the first one at its start.
+/// Places the same number of samples on each segment, beginning at its start.
 std::vector<BoundaryPoint> samples_along(const Cage& cage) {
   const Index per_segment = std::clamp<Index>(160 / cage.size(), 2, 8);
   std::vector<BoundaryPoint> places;
@@ -40,7 +40,7 @@ AngleFrame::AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinate
       boundary_(mesh, coordinates, at(coordinates->cage(), samples_), precision) {}
 
 PlacedAngles AngleFrame::place(const VectorXd& theta, const Cage& pose) {
-  constexpr double kLeastScale = 1e-6;  // for a cage that is pulled to a point
+  constexpr double kLeastScale = 1e-6;  // used if the cage collapses to a point
   VectorXc f;
   boundary_.map(theta, f);
   const Points image(f.begin(), f.end()), target = at(pose, samples_);

@@ -1,5 +1,5 @@
-// Boundary angles determine a conformal map up to scale and translation; this chooses both so that
-// the map fits a posed cage.
+// Boundary angles determine a conformal map up to scale and translation. AngleFrame chooses both to
+// fit the map to a posed cage.
 #pragma once
 
 #include "core/angles/angle_map.h"
@@ -19,10 +19,10 @@ class AngleFrame {
   AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
              Precision precision);
 
-  /// Chooses the scale so that the image of the boundary is as long as the posed cage, and the
-  /// translation so that the images of the cage's vertices have the same mean as the posed
-  /// vertices. theta is in radians; `pose` must be counter-clockwise. Throws Error when the angles
-  /// bend the boundary so far that the result is not finite.
+  /// The scale makes the image of the boundary as long as the posed cage. The translation makes the
+  /// images of the cage's vertices have the same mean as the posed vertices. theta is in radians;
+  /// `pose` must be counter-clockwise. Throws Error if the angles bend the boundary too far for a
+  /// finite result.
   PlacedAngles place(const VectorXd& theta, const Cage& pose);
 
  private:

@@ -1,4 +1,5 @@
-// exp(i H) is integrated outwards from the anchor; the cage's vertices come last.
+// exp(i H) is integrated outwards from the anchor. Paths continue from boundary vertices only if no
+// other path exists.
 #include "core/angles/angle_map.h"
 
 #include <algorithm>

@@ -14,7 +14,8 @@ class AngleMap {
  public:
   /// `mesh` must be a mesh of the coordinates' cage. The map is evaluated at `samples`, which must
   /// lie inside the cage or on its boundary. With Precision::single, H is stored in float. Cost:
-  /// one row of coordinates per quadrature point; there are about three of these per mesh vertex.
+  /// one row of coordinates per quadrature point. There are about three quadrature points per mesh
+  /// vertex.
   AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
            const Points& samples, Precision precision);
 
@@ -23,20 +24,20 @@ class AngleMap {
   Complex anchor() const { return anchor_; }
 
   /// Evaluates f at the samples for boundary angles theta (radians, one per coordinate), with
-  /// f(anchor) = 0 and |f'(anchor)| = 1. At every vertex the inner angle minus theta's jump must be
-  /// positive. With `draft`, only the contributions of the angles that changed since the last call
-  /// are computed; the result is the same up to rounding. Cost: a matrix-vector product (quadrature
-  /// points x angles), and one exponential and one sine per quadrature point.
+  /// f(anchor) = 0 and |f'(anchor)| = 1. At every vertex, the inner angle minus the jump of theta
+  /// must be positive. With `draft`, only the contributions of angles that changed since the last
+  /// call are recomputed. The result is the same up to rounding. Cost: a matrix-vector product
+  /// (quadrature points x angles), and one exponential and one sine per quadrature point.
   void map(const VectorXd& theta, VectorXc& f, bool draft = false);
-  /// The derivatives of f with respect to the angles, at the angles of the last call of map():
-  /// samples x angles. Cost: one integration per angle.
+  /// The derivatives of f with respect to the angles (samples x angles), taken at the angles of the
+  /// last call of map(). Cost: one integration per angle.
   MatrixXc jacobian() const;
 
-  /// Near vertex j, f' is asymptotically a power of the distance to that vertex. Returns the
+  /// Near each vertex, f' behaves like a power of the distance to that vertex. Returns the
   /// exponents for boundary angles theta, one per vertex.
   VectorXd exponents(const VectorXd& theta) const;
-  /// H at points inside the cage, but not at its vertices, normalized to Im H = 0 at the anchor:
-  /// points x angles, log f' = i H theta.
+  /// H (points x angles) at points in the cage other than its vertices, with Im H = 0 at the anchor
+  /// and log f' = i H theta.
   MatrixXc rows(std::span<const Complex> points) const;
 
  private:

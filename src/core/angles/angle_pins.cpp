@@ -1,7 +1,7 @@
 // Each iteration minimizes |D (x - x_0)| subject to the linearized pins: x = x_0 + S A^T lambda,
 // where S = (D^T D)^-1 and the rows of A are the pins' derivatives. The unknowns x are the angles,
-// the logarithm of the scale, and the translation. An additional row holds each corner that reaches
-// the smallest angle.
+// the logarithm of the scale, and the translation. Each corner that reaches the smallest angle is
+// held there by an additional row.
 #include "core/angles/angle_pins.h"
 
 #include <Eigen/Cholesky>
@@ -13,13 +13,13 @@ namespace holomorph {
 namespace {
 
 constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
-constexpr double kMostStep = 0.5;          ///< of any angle in one iteration, in radians
-constexpr double kSettled = 1e-9;          ///< relative to the size, or in radians
+constexpr double kMostStep = 0.5;  ///< largest change of an angle per iteration, in radians
+constexpr double kSettled = 1e-9;  ///< largest residual or step, relative to the size or in radians
 constexpr double kMeanAngleWeight = 0.05;  ///< weight of the mean angle; jumps and bends have 1
 constexpr double kScaleWeight = 0.05, kTranslationWeight = 0.05;
 
-/// (D^T D)^-1, where D penalizes jumps, bends, and the rotation, scale and translation of the
-/// whole.
+/// (D^T D)^-1, where D penalizes jumps, bends, and the rotation, scale and translation of the whole
+/// map.
 MatrixXd inverse_penalty(Index corners, double size) {
   const Index n = 2 * corners;
   MatrixXd held = MatrixXd::Zero(n + 4, n + 3);

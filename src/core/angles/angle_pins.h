@@ -1,5 +1,6 @@
-// Pins on an angle map: finds the nearest boundary angles, scale and translation that take the pins
-// to their targets, without folding at any step (left open in Weber, Gotsman 2010, sec. 7).
+// Pins on an angle map. AnglePins changes the boundary angles, scale and translation as little as
+// possible to take the pins to their targets. The map does not fold at any step. Weber, Gotsman
+// 2010 leave this problem open (sec. 7).
 #pragma once
 
 #include "core/angles/angle_frame.h"
@@ -8,7 +9,7 @@ namespace holomorph {
 
 class AnglePins {
  public:
-  /// The coordinates' cage must be counter-clockwise with these corners, and the pins must be
+  /// The cage of the coordinates must be counter-clockwise and have these corners. The pins must be
   /// distinct points inside it.
   AnglePins(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
             std::vector<Index> corners, std::vector<RestPin> pins);
@@ -33,7 +34,7 @@ class AnglePins {
     double largest_miss = 0;
   };
   Linear linear_at(const VectorXd& x, const std::vector<PosePin>& targets);
-  /// The largest jump of the angles that a corner allows.
+  /// The largest allowed jump of the angles at a corner.
   double largest_jump(size_t corner) const;
 
   std::shared_ptr<const HilbertCoordinates> coordinates_;

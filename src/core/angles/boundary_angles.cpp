@@ -16,7 +16,7 @@ double angle_between(Complex from, Complex to) {
 
 /// The directions of a segment at its start and end, and how far it turns between them.
 struct SegmentTurn {
-  Complex start = 0, end = 0;  ///< 0: the segment has no length
+  Complex start = 0, end = 0;  ///< 0 if the segment's length is 0
   double turn = 0;
 };
 
@@ -24,7 +24,7 @@ SegmentTurn segment_turn(const Points& controls) {
   double size = 0;
   for (const Complex& z : controls) size = std::max(size, std::abs(z));
   Points directions;
-  constexpr double kRounding = 1e-13;  // in a segment of no length whose degree was raised
+  constexpr double kRounding = 1e-13;  // from raising the degree of a segment of length 0
   for (size_t i = 0; i + 1 < controls.size(); ++i)
     if (std::abs(controls[i + 1] - controls[i]) > kRounding * size)
       directions.push_back(controls[i + 1] - controls[i]);
@@ -47,7 +47,7 @@ SegmentTurn segment_turn(const Points& controls) {
   return course;
 }
 
-/// How far a closed loop turns at its vertices and along its segments, 2 pi in total.
+/// How far a closed loop turns at its vertices and along its segments. The sum is 2 pi.
 struct Turns {
   std::vector<SegmentTurn> segments;
   std::vector<double> vertices;

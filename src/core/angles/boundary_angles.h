@@ -5,21 +5,21 @@
 
 namespace holomorph {
 
-/// The smallest angle that a pose leaves at a corner whose angle at rest is not smaller.
+/// The smallest inner angle that a pose may leave at a corner. A corner that is sharper than this
+/// at rest may not become sharper still.
 inline constexpr double kLeastCornerAngle = 5 * kPi / 180;
 
 struct BoundaryAngles {
-  VectorXd theta;  ///< in radians, unwrapped along the boundary: before and after each corner
+  VectorXd theta;              ///< in radians, before and after each corner; no jumps by 2 pi
   std::vector<Index> limited;  ///< vertex numbers of corners held at the smallest angle
 };
 
 /// The boundary angles that take `rest` to `pose`. Both cages must be counter-clockwise and have
-/// the same segments; `corners` are vertices in increasing order. The angles are the sum of the
-/// rotations of the edges, each corner's own angles, and the relaxation by tension (WG10, sec. 4).
-/// They are limited so that kLeastCornerAngle remains at every corner. Where the turning number of
-/// the posed cage is not 1, whole turns are added at its sharpest vertices, where an edge was most
-/// likely dragged across a vertex; this keeps the angles continuous during such a drag. Cost:
-/// linear.
+/// the same segments; `corners` are vertices in increasing order. Each angle is the sum of an
+/// edge's rotation, the corner's own angle, and the relaxation by tension (WG10, sec. 4). The jumps
+/// at corners are limited as described for kLeastCornerAngle. If the turning number of the posed
+/// cage is not 1, an edge was probably dragged across a vertex. Whole turns are then added at the
+/// sharpest vertices, which keeps the angles continuous during the drag. Cost: linear.
 BoundaryAngles boundary_angles(const Cage& rest, const Cage& pose,
                                const std::vector<Index>& corners,
                                const std::vector<PoseCorner>& own);

@@ -18,7 +18,7 @@ constexpr int kMaxRounds = 7, kRefinements = 3;
 constexpr double kHighestPower = 3.2, kFlat = 8 * kPi / 180;
 constexpr size_t kMaxPowers = 6;
 
-/// The length of a ray until it meets the polygon again; infinite when it never does.
+/// The length of a ray up to its next intersection with the polygon, or infinity if there is none.
 double free_length(const Points& polygon, Complex from, Complex direction) {
   double nearest = INFINITY;
   const double least = 1e-9 * box_of(polygon).diagonal();
@@ -51,8 +51,8 @@ Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle
   return at + length * outwards;
 }
 
-/// The non-integer exponents of harmonic functions at the corner of a wedge, for smooth values on
-/// the sides of the wedge.
+/// The non-integer exponents of a harmonic function at the corner of a wedge, if its values on both
+/// sides of the wedge are smooth.
 std::vector<double> powers_of(double angle) {
   std::vector<double> powers;
   if (std::abs(angle - kPi) <= kFlat) return powers;
@@ -166,7 +166,7 @@ void HilbertCoordinates::set_up_vertices() {
     vertex.tip = tip_of(outline, vertex.at,
                         -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
     vertex.powers = powers_of(vertex.angle);
-    // The logarithm's imaginary part decreases by the inner angle where the boundary passes its
+    // The logarithm's imaginary part decreases by the inner angle as the boundary passes the
     // vertex.
     log_coefficients_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
     vertices_.push_back(std::move(vertex));

@@ -1,9 +1,9 @@
 // Holomorphic functions inside a cage with given real parts on its boundary: the Hilbert
 // coordinates of Weber, Gotsman 2010, extended to curved boundaries.
 //
-// At each vertex a logarithm reproduces the jump, and powers reproduce the other singularities that
-// the vertex's angle causes. Cubic Cauchy coordinates represent the smooth remainder; the boundary
-// is subdivided where they need it.
+// At each vertex, a logarithm reproduces the jump, and powers reproduce the other singularities
+// that its angle causes. Cubic Cauchy coordinates represent the smooth remainder. The boundary is
+// subdivided where they are not accurate enough.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct RealParts {
   /// Their values, one row per boundary point; never evaluated at vertices.
   std::function<MatrixXd(std::span<const BoundaryPoint>)> values;
   MatrixXd jumps;   ///< their jumps, one row per vertex of the cage
-  MatrixXd linear;  ///< weights with which the functions add up to 1, x and y (or only to 1)
+  MatrixXd linear;  ///< weights that combine the functions into 1, x and y (or only 1)
 };
 
 /// Functions that are linear in arc length between corners. Columns 2 j and 2 j + 1 are 1 just
@@ -28,9 +28,9 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners);
 class HilbertCoordinates {
  public:
   /// `cage` must be counter-clockwise and pass check_rest_cage. The boundary is subdivided, at most
-  /// seven times, until no real part is off by more than `tolerance` at the fitted points (between
-  /// them the error is up to about twice that). Cost: cubic in the vertices; 5 ms for a dozen,
-  /// 200 ms for fifty.
+  /// seven times, until the error of every real part is at most `tolerance` at the fitted points.
+  /// Between these points, the error can be about twice as large. Cost: cubic in the vertices; 5 ms
+  /// for a dozen, 200 ms for fifty.
   HilbertCoordinates(Cage cage, RealParts parts, double tolerance = 1e-3);
 
   const Cage& cage() const { return cage_; }
@@ -45,13 +45,14 @@ class HilbertCoordinates {
   /// Row i holds the coordinates at points[i] (order 0), or their derivatives (order 1). Points
   /// must be inside the cage or on its boundary. At a vertex of the cage, derivatives are not
   /// finite, and neither are coordinates whose real parts jump there. The coordinates are
-  /// determined up to imaginary constants. The sums in `linear` are 1, z and -i z up to rounding.
-  /// Cost per point: a row of Cauchy coordinates, and `unknowns` multiplications per column.
+  /// determined up to imaginary constants. Their sums with the weights `linear` are 1, z and -i z
+  /// up to rounding. Cost per point: a row of Cauchy coordinates, and `unknowns` multiplications
+  /// per column.
   MatrixXc at(std::span<const Complex> points, int order = 0) const;
 
  private:
   struct Vertex {
-    Complex at, tip;             ///< the branch cut runs between them, outside
+    Complex at, tip;             ///< the ends of the branch cut outside; `at` is the vertex
     double angle = 0;            ///< the inner angle
     std::vector<double> powers;  ///< exponents of (z - at) / (z - tip)
   };
@@ -74,12 +75,12 @@ class HilbertCoordinates {
 
   Cage cage_;
   RealParts parts_;
-  MatrixXd correction_weights_;  ///< correction weights that make the sums in `linear` exact
+  MatrixXd correction_weights_;  ///< weights that make the sums with `linear` exact
   MatrixXc log_coefficients_;    ///< coefficients of the logarithms, a column per coordinate
   std::vector<Vertex> vertices_;
   std::vector<Piece> pieces_;
   Cage boundary_;          ///< the pieces as segments of degree 3 or more
-  MatrixXc coefficients_;  ///< of the basis, a column per coordinate
+  MatrixXc coefficients_;  ///< coefficients of the basis, a column per coordinate
   double error_ = 0;
 };
 

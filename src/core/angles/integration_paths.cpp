@@ -13,10 +13,11 @@ namespace {
 
 constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
 constexpr double kRatio = 0.3;
-constexpr double kPower = 1e-8;  ///< of the shorter edge; nearer to a vertex only the power is left
+/// In units of the shorter edge. Closer to a vertex, only the power matters.
+constexpr double kPower = 1e-8;
 
-/// The number of Gauss nodes for a leg, by the ratio of its length to the distance of the nearest
-/// corner.
+/// The number of Gauss nodes for a leg, given the ratio of its length to its distance from the
+/// nearest corner.
 int nodes_for(double ratio) {
   return ratio < 0.25 ? 2 : ratio < 0.7 ? 3 : ratio < 2 ? 5 : 9;
 }
@@ -77,7 +78,7 @@ int IntegrationPaths::add_node(Complex z) {
   if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
   nodes_.push_back(z);
   vertex_at_.push_back(-1);
-  on_boundary_.push_back(1);  // treated as such, so that its leg is tested
+  on_boundary_.push_back(1);  // makes add() test whether the leg is inside
   add(nearest, nodes() - 1);
   return nodes() - 1;
 }
@@ -92,7 +93,7 @@ void IntegrationPaths::add_gauss_rule(Complex a, Complex b, int count, double si
 
 void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
   const Complex corner = corners_[static_cast<size_t>(vertex)];
-  // At this distance only the power is left, or rounding dominates.
+  // Closer than this distance, only the power matters, or rounding dominates.
   const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
   const double edge = std::min(std::abs(corners_[(at + 1) % n] - corner),
                                std::abs(corners_[(at + n - 1) % n] - corner)),
@@ -109,7 +110,8 @@ void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
   weights_.push_back(0);
 }
 
-/// Adds a chain of legs and returns true, unless one of their quadrature points is outside.
+/// Adds a chain of legs and returns true if all their quadrature points are inside. Otherwise adds
+/// nothing and returns false.
 bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   const size_t places = quadrature_points_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
@@ -124,7 +126,7 @@ bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
 }
 
 // The chord of a curve that bends inwards runs outside the cage, where the coordinates are
-// different functions. Inside, all paths between two nodes give the same integral.
+// different functions. Inside the cage, all paths between two nodes give the same integral.
 bool IntegrationPaths::add_detour(const End& a, const End& b) {
   const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
   for (const double aside : {0.05, 0.15, 0.4, 0.8})

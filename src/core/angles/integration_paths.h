@@ -1,5 +1,5 @@
-// Paths through a mesh for integrating a function that is smooth except for powers of the distance
-// at the vertices of a cage.
+// Paths through a mesh along which functions are integrated. The functions are smooth except at the
+// vertices of a cage, where they behave like powers of the distance.
 #pragma once
 
 #include <initializer_list>
@@ -9,16 +9,17 @@
 namespace holomorph {
 
 /// Nodes joined by steps, with the quadrature points and weights of each step. A step is integrated
-/// by a Gauss rule whose order grows as the cage's vertices come nearer. A step into a vertex is
-/// divided into panels that shrink towards the vertex, and the last part is the exact integral of a
-/// power.
+/// by a Gauss rule whose order is higher near the cage's vertices. A step that starts or ends at a
+/// cage vertex is divided into panels that shrink towards the vertex. On the part next to the
+/// vertex, a power is integrated exactly.
 class IntegrationPaths {
  public:
   /// The first nodes are the mesh's vertices. Mesh and cage must stay alive while steps are added.
   /// Precision::full uses nearly twice as many quadrature points.
   IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision);
 
-  /// Adds a step from a node that has been reached to another node.
+  /// Adds a step from one node to another. `from` must be a starting node of the paths or the end
+  /// of an earlier step.
   void add(int from, int to);
   /// The mesh vertex from which add_node reaches z.
   int vertex_near(Complex z) const;
@@ -30,17 +31,17 @@ class IntegrationPaths {
   /// The quadrature points: inside the cage or on its boundary, never at its vertices.
   const Points& quadrature_points() const { return quadrature_points_; }
 
-  /// Computes the integral at all nodes; on input, `integral` must hold its values where the paths
-  /// start. values[i] is the function at quadrature_points()[i]. Near vertex j the function is a
-  /// power of the distance with the exponent exponents[j], which must be above -1.
+  /// Computes the integral at all nodes. On input, `integral` must hold the values at the nodes
+  /// where the paths start. values[i] is the function at quadrature_points()[i]. Near vertex j the
+  /// function is a power of the distance with the exponent exponents[j], which must be above -1.
   void integrate(const VectorXc& values, const VectorXd& exponents, VectorXc& integral) const;
 
  private:
   struct PathStep {
     int from, to;
-    Index end;  ///< of its quadrature points; they start at the previous step's end
+    Index end;  ///< one past its last quadrature point; the first is the previous `end`
   };
-  /// The last part of a step into a cage vertex; it starts at a quadrature point of weight 0.
+  /// The part of a step next to a cage vertex. Its other end is a quadrature point of weight 0.
   struct Tail {
     Index step, point;
     Complex offset;
@@ -63,7 +64,7 @@ class IntegrationPaths {
   const Mesh* mesh_;
   const Cage* cage_;
   Points corners_, nodes_, quadrature_points_;
-  int more_nodes_, panels_;     ///< what Precision::full adds
+  int more_nodes_, panels_;     ///< larger with Precision::full
   std::vector<int> vertex_at_;  ///< the cage vertex at each node, or -1
   std::vector<char> on_boundary_;
   std::vector<PathStep> steps_;

@@ -1,5 +1,5 @@
-// Projections that alternate between projecting each element on its own and finding a map whose
-// elements fit together.
+// Projections that alternate between two steps: project each element separately, then find the
+// nearest map with elements that fit together.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -67,13 +67,13 @@ std::vector<Eigen::Matrix4d> identity_blocks(const DerivativeOperator& t) {
   return blocks;
 }
 
-/// One half-space per element: normal . y <= limit, or no constraint where the normal is 0.
+/// One half-space per element: normal . y <= limit, or no constraint if the normal is 0.
 struct HalfSpaces {
   VectorXd normals, limits;
 };
 
-/// Minimizes the sum of weights |T x - g|^2 / 2 subject to normal_i . (T x)_i <= limit_i where
-/// normal_i is not 0, by a primal-dual interior-point method from any start. Returns early when
+/// Minimizes the weighted sum of |T x - g|^2 / 2 subject to normal_i . (T x)_i <= limit_i for all
+/// nonzero normal_i. The primal-dual interior-point method can start from any x. Returns early when
 /// `stop` is requested.
 VectorXd quadratic_program(DerivativeOperator& t, const VectorXd& g, VectorXd x,
                            const HalfSpaces& spaces, const std::stop_token& stop) {

@@ -1,4 +1,4 @@
-// All rows use the same reference; each measures its own kind of map.
+// All rows use the same reference. Each row measures its own kind of map.
 #include "core/compared/comparison.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ class Comparison {
   struct Rival {
     const char *label, *hint;
     const DerivativeOperator& measured;  ///< the operator whose elements are measured
-    bool smooth;                         ///< whether its elements are the dense points
+    bool smooth;                         ///< whether `measured` uses the dense points
     std::function<Projected()> project;
   };
 
@@ -84,7 +84,7 @@ class Comparison {
   }
 
   /// The points at which harmonic maps are measured: the mesh's vertices, and points between the
-  /// boundary samples that are bounded.
+  /// boundary samples. The bounds are imposed only at the samples.
   void set_up_dense_points() {
     dense_ = derivative_samples(mesh_);
     for (const BoundaryPiece& piece : basis_->pieces())
@@ -95,7 +95,7 @@ class Comparison {
       }
   }
 
-  /// The reference at the mesh's vertices, and its derivatives next to the boundary's samples.
+  /// The reference at the mesh's vertices, and its derivatives just inside the boundary's samples.
   void set_up_reference() {
     const Method& followed = method_named(choice(method_, rest_.parameters, "reference"));
     Rest rest = used_by(followed, rest_);
@@ -153,8 +153,8 @@ class Comparison {
     return row;
   }
 
-  /// The turning number from derivatives along the boundary: the mesh's outline is too coarse where
-  /// a smooth map bends sharply.
+  /// Computes the turning number from derivatives along the boundary, because the mesh's outline is
+  /// too coarse where a smooth map bends sharply.
   double turning_number_of(const VectorXd& elements) const {
     const Index vertices = static_cast<Index>(mesh_.vertices.size());
     std::vector<Complex> tangents;
@@ -179,7 +179,7 @@ class Comparison {
     const VectorXd elements = rival.measured.apply(result.x);
     measure(elements, row);
     VectorXc f = rival.measured.map(result.x);
-    f.array() += (reference_ - f).mean();  // derivatives leave the translation open
+    f.array() += (reference_ - f).mean();  // derivatives do not determine the translation
     finish(std::move(f), row);
     if (rival.smooth) row.turning_number = turning_number_of(elements);
     return row;
@@ -191,8 +191,8 @@ class Comparison {
   const Method& method_;
   ProjectionSettings settings_;
   std::unique_ptr<BoundaryBasis> basis_;
-  Points dense_;                   ///< the mesh's vertices, then points of the boundary
-  std::vector<Complex> tangents_;  ///< of the boundary at those points
+  Points dense_;                   ///< the mesh's vertices, then points on the boundary
+  std::vector<Complex> tangents_;  ///< tangents at the boundary points of dense_
   VectorXc reference_;
   VectorXd on_boundary_;
 };

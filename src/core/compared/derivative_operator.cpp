@@ -1,4 +1,4 @@
-// Triangles give sparse normal matrices, harmonic functions dense ones.
+// The normal matrices are sparse for triangles and dense for harmonic maps.
 #include "core/compared/derivative_operator.h"
 
 #include <Eigen/SparseCholesky>

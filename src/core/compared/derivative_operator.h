@@ -1,5 +1,5 @@
-// Maps with finitely many unknowns and their derivatives at elements: the interface that all
-// projections onto bounds use.
+// Maps with finitely many unknowns, and their derivatives at elements. All projections onto bounds
+// use this interface.
 //
 // x holds the real unknowns; T x holds (Re f_z, Im f_z, Re f_zbar, Im f_zbar) for each element in
 // turn.
@@ -41,8 +41,8 @@ class DerivativeOperator {
 /// triangles. The mesh must outlive the operator.
 std::unique_ptr<DerivativeOperator> mesh_operator(const Mesh& mesh);
 
-/// Harmonic maps f_z = C a, conj(f_zbar) = C b: the elements are points of the domain. `basis` and
-/// `mesh` must outlive the operator.
+/// Harmonic maps with f_z = C a and conj(f_zbar) = C b. The elements are points of the domain.
+/// `basis` and `mesh` must outlive the operator.
 std::unique_ptr<DerivativeOperator> harmonic_operator(const BoundaryBasis& basis,
                                                       const MapOnMesh& mesh,
                                                       std::span<const Complex> points);

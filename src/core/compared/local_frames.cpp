@@ -82,7 +82,7 @@ class LocalFrames {
     return offsets;
   }
 
-  /// The sum of -ln (height^2 - |w|^2) over all cones; infinite outside of them.
+  /// The sum of -ln (height^2 - |w|^2) over all cones; infinite outside the cones.
   double barrier_value(const VectorXd& y, const VectorXd& r) const {
     double sum = 0;
     for (Index i = 0; i < t_.elements(); ++i) {
@@ -127,7 +127,8 @@ class LocalFrames {
         if (stop_.stop_requested() || !newton(mu)) break;
   }
 
-  /// One damped Newton step for distance + mu barrier; false when the iteration is finished.
+  /// One damped Newton step for distance + mu barrier; returns false when the iteration is
+  /// finished.
   bool newton(double mu) {
     const VectorXd y = t_.apply(x_);
     const Index m = t_.elements();
@@ -137,7 +138,7 @@ class LocalFrames {
     for (Index i = 0; i < m; ++i) {
       barriers.push_back(barrier(y, i));
       const Barrier& b = barriers.back();
-      // Eliminate r by its own row.
+      // Eliminate r with its own row of the system.
       const Eigen::Vector4d mixed = b.hessian.col(4).head<4>();
       const double rr = b.hessian(4, 4);
       blocks.push_back(mu * (b.hessian.topLeftCorner<4, 4>() - mixed * mixed.transpose() / rr));

@@ -1,4 +1,4 @@
-// Both fits use normal equations.
+// H and the map are both fitted with normal equations.
 #include "core/compared/published_angles.h"
 
 #include <Eigen/Cholesky>
@@ -15,7 +15,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   const FlatCage flat = flattened(cage);
   const RealParts angles = corner_values(cage, corners);
   const double length = perimeter(flat.points) / pieces;
-  // Parts of about equal length; every vertex of the polygon is an end of one.
+  // Parts of about equal length; every vertex of the polygon is the end of a part.
   std::vector<BoundaryPoint> starts;
   std::vector<double> lengths;  // the length of each part in the cage's parameter
   Points nodes;
@@ -80,7 +80,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   fit_ = normal.ldlt().solve(derivative.adjoint());
 }
 
-/// `parts` holds the part of the boundary that each point lies on, or -1 for a point inside.
+/// `parts` holds, for each point, the part of the boundary on which it lies, or -1 if it is inside.
 MatrixXc PublishedAngles::functions(std::span<const Complex> points,
                                     const std::vector<Index>& parts) const {
   Index count = 0;
@@ -104,7 +104,7 @@ PublishedAngles::Values PublishedAngles::map(const VectorXd& theta, const Points
   all.push_back(anchor_);
   const VectorXc f = cauchy_coordinates(nodes_, std::span<const Complex>(all)) * posed;
   const Index n = static_cast<Index>(samples.size());
-  // f' is not defined where parts meet, so it is evaluated at a point next to them.
+  // f' is not defined where parts meet, so it is evaluated slightly inside.
   const Points ends = vertices_of(nodes_);
   constexpr double kInside = 1e-3;
   for (Complex& z : off_ends)

@@ -1,4 +1,4 @@
-// Which pins of a rest a method can use, for methods whose maps are defined only inside the cage.
+// Selects the pins that a method can use if its maps are defined only inside the cage.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -7,7 +7,7 @@ namespace holomorph {
 
 struct UsablePins {
   std::vector<size_t> used;
-  std::string note;  ///< names the pins outside the cage or at the position of an earlier one
+  std::string note;  ///< names the pins outside the cage or at the position of an earlier pin
 };
 UsablePins usable_pins(const Rest& rest);
 

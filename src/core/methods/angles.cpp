@@ -1,4 +1,4 @@
-// Method `angles`: f' = exp(i H theta), where theta says how far the boundary turns.
+// Method `angles`: f' = exp(i H theta), where theta is the rotation of the boundary.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -53,10 +53,10 @@ struct Boundary {
   Cage cage;
   bool reversed;
   std::vector<Index> corners;
-  std::vector<size_t> order;  ///< where a pose lists each of the corners
+  std::vector<size_t> order;  ///< each corner's index in a pose
 };
 
-/// Integrates the map to any point from the nearest mesh vertex.
+/// Evaluates the map at any point by integrating from a nearby mesh vertex.
 class AnglePoints final : public PointMap {
  public:
   AnglePoints(std::shared_ptr<const Mesh> mesh, AngleMap map, PlacedAngles placed,
@@ -121,7 +121,7 @@ class AnglesDeformer final : public Deformer {
     std::vector<RestPin> pins;
     for (const size_t i : acting_.used) {
       pins.push_back(rest_.pins[i]);
-      // At a vertex f' is a power of the distance and has no argument.
+      // At a vertex, f' behaves like a power of the distance, so no frame can be prescribed.
       for (Index j = 0; j < boundary_.cage.size(); ++j)
         if (pins.back().position == boundary_.cage.vertex(j)) pins.back().has_frame = false;
     }
@@ -210,7 +210,7 @@ class AnglesDeformer final : public Deformer {
       limited.insert(answer.limited.begin(), answer.limited.end());
       out.iterations = answer.iterations;
       if (!answer.settled) out.status = SampledMap::Status::iterating;
-      constexpr double kFar = 1e-3;  // of the size
+      constexpr double kFar = 1e-3;  // relative to the size
       if (!draft && answer.largest_miss > kFar * box_of(rest_.mesh->vertices).diagonal())
         say(out, "Pins are missed: no map without folds was found that meets them");
     }

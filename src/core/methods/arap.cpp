@@ -2,8 +2,8 @@
 // Sorkine, Alexa 2007, with one rotation per triangle).
 //
 // The energy is the sum over all triangles of area (|f_z - R|^2 + |f_zbar|^2), with |R| = 1. Each
-// iteration sets R = f_z / |f_z| and then solves one sparse system for f. Where the picture is
-// stiff, triangles have larger weights.
+// iteration sets R = f_z / |f_z| and then solves one sparse system for f. Triangles have larger
+// weights in stiff parts of the picture.
 #include <Eigen/SparseCholesky>
 
 #include "core/arithmetic.h"
@@ -39,8 +39,8 @@ class ArapDeformer final : public Deformer {
           const double weight = dot(ea, eb) / (8 * area);
           rigid.push_back({t[a], t[b], weight});
           if (a == b) diagonal += weight / stiffness_.back();
-          // The product of conj(f_zbar's weight of a) and the weight of b. A small part of the
-          // rigid energy makes the matrix definite.
+          // The product of the conjugated coefficient of a in f_zbar and the coefficient of b. A
+          // small part of the rigid energy makes the matrix definite.
           constexpr double kRigidPart = 1e-3;
           angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kRigidPart * weight});
         }
@@ -117,8 +117,8 @@ class ArapDeformer final : public Deformer {
     }
   }
 
-  /// Starts from the most conformal map, which one solve finds. While dragging, minimize() starts
-  /// from the last answer instead.
+  /// Starts from the most conformal map, found by one linear solve. While dragging, minimize()
+  /// starts from the last answer instead.
   void start(const Points& targets) {
     VectorXc right = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
     add_targets(targets, right);
@@ -198,7 +198,7 @@ class ArapDeformer final : public Deformer {
   Rest rest_;
   const Mesh& mesh_;
   HandlePoints handles_;
-  std::vector<double> stiffness_;  ///< of each triangle
+  std::vector<double> stiffness_;  ///< one per triangle
   double size_ = 1, handle_weight_ = 1;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;

@@ -1,5 +1,5 @@
-// Method `bounded`: of all maps that fold nowhere and stretch no more than allowed, the one nearest
-// to the map of another method (Levi, Weber 2016).
+// Method `bounded`: among all maps that fold nowhere and stretch no more than allowed, finds the
+// map nearest to another method's map (Levi, Weber 2016).
 //
 // The steps are: reference at the boundary's samples -> continuous ln f_z -> cone program -> proof
 // -> integration along the mesh.
@@ -39,7 +39,7 @@ class BoundedDeformer final : public Deformer {
   }
 
   static int final_basis(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
-  /// Prepares a coarser basis for drags, which is fast enough when the cage has many points.
+  /// Prepares a coarser basis, which keeps drags fast when the cage has many points.
   void prepare_draft() {
     const int coarse = BoundaryBasis::usual_size(rest_.cage.size());
     if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
@@ -80,7 +80,7 @@ class BoundedDeformer final : public Deformer {
     return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, solution_.map, f_);
   }
 
-  /// Locations in the mesh of the pins that the solve takes into account.
+  /// The locations of the pins that the solve takes into account.
   std::vector<Location> pin_locations() const {
     std::vector<Location> places;
     if (space_ == "psi" && reference_->uses_pins())
@@ -113,7 +113,7 @@ class BoundedDeformer final : public Deformer {
     solution_ = psi_->nearest(conformal_, target, psi_at_pins(pose), warm ? &solution_ : nullptr);
   }
 
-  /// The values of Psi at the pins that would take them to their targets.
+  /// The values that Psi must have at the pins to take them to their targets.
   VectorXc psi_at_pins(const Pose& pose) const {
     if (pin_locations().empty()) return {};
     const VectorXc phi = on_mesh_->phi(conformal_.map.l);
@@ -154,7 +154,7 @@ class BoundedDeformer final : public Deformer {
     auto [f, first] = on_mesh_->values(solution_.map);
     f_ = std::move(f);
     first_ = std::move(first);
-    // Next to the boundary, the rule of the tree is off by a thousandth of a pixel.
+    // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel.
     if (!draft) f_ = on_mesh_->integrated(solution_.map);
     align(pose);
     posed_ = pose;
@@ -162,8 +162,8 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
-  /// reference. A rotation preserves all bounds. A change of scale is certified again, and left out
-  /// if that fails.
+  /// reference. A rotation preserves all bounds. A change of scale requires a new certificate. If
+  /// that fails, the scale is not changed.
   void align(const Pose& pose) {
     Points from, to;
     const std::span<const Complex> f = as_span(f_);
@@ -208,7 +208,7 @@ class BoundedDeformer final : public Deformer {
     out.fzbar = std::move(map.fzbar);
   }
 
-  /// "smallest size 20 %".
+  /// A limit as text, for example "smallest size 20 %".
   std::string limit_text(Bound bound) const {
     const double value = bound == Bound::k       ? bounds_.k
                          : bound == Bound::sigma ? bounds_.sigma
@@ -218,7 +218,7 @@ class BoundedDeformer final : public Deformer {
     return text;
   }
 
-  /// The result of the proof, and what else the user should know.
+  /// The result of the proof, and other remarks for the user.
   std::string note(const Pose& pose) const {
     if (!solution_.certificate.holds)
       return std::string("Not proved: limit on ") + bound_name(solution_.certificate.failed) +
@@ -266,7 +266,7 @@ class BoundedDeformer final : public Deformer {
 
   BoundedMap solution_, conformal_;
   bool warm_ = false;          ///< whether a drag can start from the solution
-  int flipped_triangles_ = 0;  ///< inverted triangles, where the mesh is too coarse for the map
+  int flipped_triangles_ = 0;  ///< triangles inverted because the mesh is too coarse
   std::optional<Pose> posed_;
   VectorXc f_;
   Derivatives first_;

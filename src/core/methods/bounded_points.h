@@ -7,7 +7,7 @@
 
 namespace holomorph {
 
-/// The map with the derivatives of `map` and the values f at the mesh's vertices.
+/// A map that takes its derivatives from `map` and has the values f at the mesh's vertices.
 class BoundedPointMap final : public PointMap {
  public:
   BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,

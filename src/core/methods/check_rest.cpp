@@ -14,7 +14,7 @@ namespace {
   throw Error(ErrorKind::bad_input, what);
 }
 
-/// Refuses, for example, "sample 7 is (nan, 0); coordinates must be finite and at most 1e70".
+/// Throws an Error such as "sample 7 is (nan, 0); coordinates must be finite and at most 1e70".
 void check_finite(const Points& points, const std::string& what) {
   const auto wrong = std::ranges::find_if_not(points, is_moderate);
   if (wrong != points.end())

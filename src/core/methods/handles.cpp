@@ -1,4 +1,4 @@
-// A pin with a frame also holds points around it, so that positions alone prescribe its angle and
+// A pin with a frame adds handle points around it. Their positions prescribe the pin's angle and
 // scale.
 #include "core/methods/handles.h"
 

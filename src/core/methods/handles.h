@@ -6,22 +6,22 @@
 
 namespace holomorph {
 
-/// The handle points of a rest: its pins, and four points around each pin with a frame. Without any
-/// pin, the vertices of the cage.
+/// The handle points of a rest are its pins, and four points around each pin with a frame. If none
+/// of them lies in the mesh, the handle points are the vertices of the cage.
 class HandlePoints {
  public:
   explicit HandlePoints(const Rest& rest);
 
-  /// Their positions at rest; points outside the mesh are left out.
+  /// Positions at rest. Points outside the mesh are left out.
   const Points& rest() const { return rest_points_; }
-  /// Their triangles in the mesh.
+  /// Locations of the handle points in the mesh.
   const std::vector<Location>& locations() const { return locations_; }
-  /// Their targets in a pose. Throws Error as check_pose does.
+  /// Targets of the handle points in a pose. Throws Error if check_pose does.
   Points targets(const Pose& pose) const;
-  /// The rigid motion that takes all handles to their targets up to rounding, if there is one. At
-  /// rest it is exactly the identity.
+  /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
+  /// exists. At rest, the motion is exactly the identity.
   std::optional<Similarity> rigid(const Points& targets) const;
-  /// Names a pin outside the cage; empty when there is none.
+  /// Names the first pin outside the cage. Empty if all pins are inside.
   const std::string& note() const { return note_; }
 
  private:

@@ -1,8 +1,8 @@
 // Method `har_arap`: minimizes the energy of `arap` over the smooth maps f = Phi + conj(Psi), with
 // Phi and Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
 //
-// There are a few hundred unknowns, and the energy uses samples instead of triangles: f_z = Phi'
-// and f_zbar = conj(Psi').
+// There are a few hundred unknowns. The energy is a sum over samples instead of triangles. Here f_z
+// = Phi' and f_zbar = conj(Psi').
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
 #include "core/methods/handles.h"
@@ -18,7 +18,7 @@ constexpr int kMostIterations = 400, kDraftIterations = 30;
 constexpr double kSettled = 1e-9;
 constexpr double kHandleWeight = 1e3;  ///< weight of a handle, relative to the mean energy
 constexpr double kRigidPart = 1e-3;    ///< weight of rigidity in the otherwise conformal start
-constexpr double kDefinite = 1e-9;     ///< fixes the constant that Phi and Psi can exchange
+constexpr double kDefinite = 1e-9;     ///< fixes a constant that can move between Phi and Psi
 
 class HarArapDeformer final : public Deformer {
  public:
@@ -65,7 +65,7 @@ class HarArapDeformer final : public Deformer {
       for (const int v : {a, b, c}) areas[static_cast<size_t>(v)] += area;
       total += 3 * area;
     }
-    // The weight of skipped vertices goes to the next sample.
+    // The weight of skipped vertices is added to the next sample.
     const size_t step = std::max<size_t>(1, mesh.vertices.size() / kInnerSamples);
     Points points;
     std::vector<double> weights;
@@ -82,8 +82,8 @@ class HarArapDeformer final : public Deformer {
     weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
   }
 
-  /// The normal matrices in the unknowns (Re Phi, Im Phi, Re Psi, Im Psi), with f = C Phi + conj(C
-  /// Psi) at the handles.
+  /// Sets up the normal matrices for the unknowns (Re Phi, Im Phi, Re Psi, Im Psi). At the handles,
+  /// f = C Phi + conj(C Psi).
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
@@ -140,7 +140,7 @@ class HarArapDeformer final : public Deformer {
     const int most = draft ? kDraftIterations : kMostIterations;
     int iteration = 0;
     for (double moved = 1; iteration < most && moved > kSettled; ++iteration) {
-      VectorXc turn = gradient_ * phi_;  // already weighted
+      VectorXc turn = gradient_ * phi_;  // `gradient_` includes the weights
       for (Index i = 0; i < turn.size(); ++i) {
         const double size = std::abs(turn[i]);
         turn[i] = size > 0 ? weights_[i] * turn[i] / size : Complex(weights_[i]);

@@ -21,10 +21,10 @@ RealParts control_weights(const Cage& cage) {
   return parts;
 }
 
-/// h as the real parts of holomorphic functions g.
+/// Harmonic coordinates h, computed as the real parts of holomorphic functions g.
 class HarmonicCoordinates final : public RealCoordinates {
  public:
-  /// `cage` must be counter-clockwise. Outside of it, the functions are continued linearly.
+  /// `cage` must be counter-clockwise. Outside the cage, the functions are continued linearly.
   explicit HarmonicCoordinates(const Cage& cage)
       : cage_(cage),
         flat_(flattened(cage)),
@@ -45,7 +45,7 @@ class HarmonicCoordinates final : public RealCoordinates {
       outside.push_back(static_cast<Index>(places.size()));
       const BoundaryPoint foot = nearest(z);
       constexpr double kLeast =
-          0.02;  // in a segment's parameter; slopes may be infinite at its ends
+          0.02;  // parameter distance from a segment's ends, where slopes may be infinite
       const Complex on = position_of(cage_, foot),
                     off_ends =
                         position_of(cage_, {foot.segment, std::clamp(foot.t, kLeast, 1 - kLeast)});
@@ -62,7 +62,7 @@ class HarmonicCoordinates final : public RealCoordinates {
   }
 
  private:
-  /// Whether z is inside the cage or on its boundary.
+  /// Returns whether z is inside the cage or on its boundary.
   bool is_inside(Complex z) const {
     if (contact_of(segments_, z)) return true;
     return is_straight(cage_) ? winding_number(flat_.points, z) != 0 : contains(cage_, z);

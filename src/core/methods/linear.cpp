@@ -1,4 +1,4 @@
-// Products with the operator, and the parts that cage operators are made of.
+// Products with the operator, and functions that the linear methods share.
 #include "core/methods/linear.h"
 
 #include "core/cauchy/cauchy.h"

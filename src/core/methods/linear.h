@@ -1,8 +1,8 @@
 // Common parts of methods that are linear in the pose: f = z + M c(pose) and f_z = 1 + M' c(pose)
 // at the samples.
 //
-// Controls are displacements. Therefore the rest pose gives exactly the identity, and rounding
-// errors scale with the deformation, not with the picture.
+// The controls c are displacements. Therefore the rest pose gives exactly the identity, and
+// rounding errors scale with the deformation, not with the picture.
 #pragma once
 
 #include "core/cauchy/cauchy_map.h"
@@ -20,7 +20,7 @@ class LinearDeformer : public Deformer {
   const PlanarMatrix<float>* operator_matrix() const override;
 
  protected:
-  /// M' at the derivative samples; called on first use.
+  /// Computes M' at the derivative samples. Called when derivatives are first needed.
   virtual PlanarMatrix<T> derivative_matrix() const = 0;
 
   const Points& derivative_points() const {
@@ -35,7 +35,7 @@ class LinearDeformer : public Deformer {
   PlanarMatrix<T> derivative_;
 };
 
-/// f(z) = z + constant + slope (z - center) + sum of Cauchy integrals + sum of conjugated ones.
+/// f(z) = z + constant + slope (z - center) + Cauchy integrals + conjugated Cauchy integrals.
 class SumMap final : public PointMap {
  public:
   std::vector<CauchySum> terms, conjugates;
@@ -51,7 +51,7 @@ void check_pose(const Rest& rest, const Pose& pose);
 /// degrees of the rest.
 VectorXc cage_displacement(const Rest& rest, const Pose& pose);
 
-/// Two operators side by side.
+/// A matrix that contains the columns of both operators.
 template <class T>
 PlanarMatrix<T> side_by_side(const PlanarMatrix<T>& left, const PlanarMatrix<T>& right);
 

@@ -49,7 +49,7 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   const size_t n = polygon.size();
   struct Angle {
     Dual along, across, product;
-    /// The tangent of half the angle, in the form without cancellation.
+    /// The tangent of half the angle, computed without cancellation.
     Dual tangent() const {
       return along.value > 0 ? across / (product + along) : (product - along) / across;
     }
@@ -76,8 +76,8 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
     weights[(i + 1) % n] = weights[(i + 1) % n] + end;
     sum = sum + start + end;
   }
-  // The weights sum to 1, which gives the weight of the nearest vertex: next to that vertex, the
-  // derivative of its own formula suffers from cancellation.
+  // The weight of the nearest vertex is 1 minus all other weights. The usual formula would lose
+  // precision next to that vertex, because its derivative suffers from cancellation.
   Dual rest{1, 0, 0};
   const size_t own = static_cast<size_t>(nearest_side - sides.begin());
   for (size_t i = 0; i < n; ++i) {
@@ -89,8 +89,8 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   return weights;
 }
 
-/// For a curved cage, these are the coordinates of a fine polygon on it, whose vertices are
-/// weighted sums of control points.
+/// A curved cage is replaced by a fine polygon. The polygon's vertices are weighted sums of the
+/// control points.
 class MeanValueCoordinates final : public RealCoordinates {
  public:
   explicit MeanValueCoordinates(const Cage& cage)

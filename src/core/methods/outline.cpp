@@ -27,7 +27,7 @@ class OutlineDeformer final : public Deformer {
     }
     fit_ = new_fit();
     set_up_values();
-    // Without pins, no pose changes the solution, so it is part of the preparation.
+    // Without pins, the solution does not depend on the pose, so it is computed here.
     if (pins_.used.empty()) solve({}, false);
   }
 
@@ -43,7 +43,7 @@ class OutlineDeformer final : public Deformer {
     solve(pin_targets(pose), options.draft);
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(options.iteration.value_or(last), last));
-    // An earlier iteration, which the user may look at, can have another basis.
+    // The user can view an earlier iteration, which may have a different basis.
     const bool is_own = match.basis == fit_->basis();
     out.f = image(is_own ? value_ : planar_coordinates<T>(match.basis, rest_.samples), match);
     if (options.derivatives) {
@@ -129,8 +129,8 @@ class OutlineDeformer final : public Deformer {
     slope_ = {};
   }
 
-  /// The rows of c sum to one up to rounding. Subtracting the center keeps that error from growing
-  /// with the drawing's distance from the origin.
+  /// The rows of c sum to one up to rounding. Subtracting the center keeps the rounding error from
+  /// growing with the drawing's distance from the origin.
   static VectorXc image(const PlanarMatrix<T>& c, const OutlineMatch& match) {
     const Complex center = match.phi.mean();
     VectorXc f = product(c, VectorXc(match.phi.array() - center)).array() + center;

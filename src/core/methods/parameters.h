@@ -1,4 +1,4 @@
-// Short constructors for the parameters in a method's row of the table.
+// Functions that create the parameters in a method's table row.
 #pragma once
 
 #include "core/maps/deformer.h"
@@ -41,14 +41,15 @@ inline ParameterSpec one_of(std::string key, std::string label, std::string hint
   return spec;
 }
 
-/// The parameter `spec`, which has an effect only while the parameter `key` has this value.
+/// Returns `spec`, restricted to have an effect only while the parameter `key` has this value.
 inline ParameterSpec used_with(std::string key, double value, ParameterSpec spec) {
   spec.used_when = ParameterSpec::Condition{std::move(key), value};
   return spec;
 }
 
-/// The weight of mean |f_zbar|^2 for a softness from 0 to 1. Above 0 it falls exponentially from 1,
-/// which is nearly conformal, to 0.001. Softness 0 demands f_zbar = 0, and the weight is 0.
+/// The weight of mean |f_zbar|^2 for a softness from 0 to 1. For positive softness, it falls
+/// exponentially from 1, which is nearly conformal, to 0.001. Softness 0 requires f_zbar = 0
+/// exactly, and the returned weight is 0.
 inline double stiffness_of(double softness) {
   return softness > 0 ? std::pow(10.0, -3 * softness) : 0;
 }

@@ -4,9 +4,10 @@
 // curved cages).
 //
 // With the energy's rows in QR form, R g = y, the minimizer is a combination of one function per
-// pin, as for thin-plate splines: (M M* + ridge) lambda + T c = data, with M = P R^-1 and T the
-// affine maps, which have no energy. Soft pins have a ridge, exact pins have none. The system is
-// only as large as the number of pins, and each further pin adds one column to the operator.
+// pin, as for thin-plate splines: (M M* + ridge) lambda + T c = data, with M = P R^-1. P evaluates
+// the basis at the pins, and T evaluates the affine maps, whose energy is 0. The ridge is positive
+// for soft pins and 0 for exact pins. The system is only as large as the number of pins, and each
+// pin adds one column to the operator.
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -50,8 +51,8 @@ Cage basis_cage(const Cage& cage) {
   return basis;
 }
 
-/// The points where smoothness is measured: as many on each segment as its degree, away from its
-/// ends, where f'' has poles.
+/// The points where smoothness is measured. Their number on each segment is the segment's degree.
+/// They avoid the ends, where f'' has poles.
 std::vector<BoundaryPoint> smoothness_points(const Cage& basis) {
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < basis.size(); ++e)
@@ -91,7 +92,7 @@ struct PinBasis {
     factor = qr.matrixQR().topRows(n).template triangularView<Eigen::Upper>();
   }
 
-  /// The deepest of a grid of points.
+  /// Returns the grid point that is deepest inside the outline.
   Complex inner_point() const {
     const Points outline = outline_of(basis);
     const Box box = box_of(outline);
@@ -197,8 +198,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
  private:
   /// The basis has corners all along the boundary, where its derivatives have logarithmic poles.
-  /// Points on the boundary, which represent their neighborhood, are moved inwards by a fraction of
-  /// the nearest segment's length.
+  /// Points on the boundary represent their neighborhood, so they are moved inwards by a fraction
+  /// of the nearest segment's length.
   Points inset(Points points) const {
     constexpr double kOn = 0.05, kBy = 0.2;
     const Points outline = outline_of(basis_->basis, 4);
@@ -217,8 +218,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
   Index functionals() const { return cage_at_pins_.rows(); }
 
-  /// Solves once for all unit data: the coefficients of the basis and of the affine maps, one
-  /// column per functional.
+  /// Solves the system with unit data for each functional. The results are the coefficients of the
+  /// basis and of the affine maps, one column per functional.
   void solve(double ridge_per_pin) {
     const auto& pins = this->rest_.pins;
     Points places, turning;
@@ -236,14 +237,15 @@ class PinsDeformer final : public LinearDeformer<T> {
     cage_at_pins_.resize(m, this->rest_.cage.control_count());
     cage_at_pins_.topRows(p) = cauchy_coordinates(this->rest_.cage, places, 0);
     if (q > 0) {
-      // At a vertex, where derivatives are infinite in general, a point just inside is used.
+      // At a vertex, derivatives are generally infinite, so planar_coordinates uses a point just
+      // inside.
       const auto slopes = [&](const Cage& cage) {
         return as_complex(planar_coordinates<double>(cage, turning, 1));
       };
       rows.bottomRows(q) = length * slopes(basis);
       cage_at_pins_.bottomRows(q) = length * slopes(this->rest_.cage);
     }
-    // The affine maps 1 and (z - center) / L; a single pin without a frame only translates.
+    // The affine maps 1 and (z - center) / L; a single pin without a frame uses only the first.
     const Index affine = m >= 2 ? 2 : 1;
     center_ = places[0];
     MatrixXc T_rows = MatrixXc::Zero(m, affine);
@@ -274,7 +276,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     coefficients_.im = coefficients.imag().template cast<T>();
   }
 
-  /// Adds the affine part's operator (order 0) or its derivative's (order 1).
+  /// Adds the operator of the affine part (order 0) or of its derivative (order 1).
   void add_affine(PlanarMatrix<T>& matrix, const Points& points, int order) const {
     for (Index column = 0; column < matrix.cols(); ++column) {
       const Complex constant = affine_(0, column);

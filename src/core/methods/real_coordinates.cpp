@@ -1,5 +1,5 @@
-// The weights are stored as real parts, so that the operator is complex like those of other
-// methods.
+// The weights are stored as the real parts of a complex operator, because other methods also have
+// complex operators.
 #include "core/methods/real_coordinates.h"
 
 namespace holomorph {

@@ -9,12 +9,12 @@ namespace holomorph {
 class RealCoordinates {
  public:
   virtual ~RealCoordinates() = default;
-  /// One row per point: h in the real parts (order 0), or h_x - i h_y (order 1).
+  /// One row per point. Order 0: the real parts are h. Order 1: h_x - i h_y.
   virtual MatrixXc at(std::span<const Complex> points, int order) const = 0;
 };
 
-/// The linear deformer of a rest, given such coordinates of its cage in counter-clockwise
-/// orientation.
+/// Creates a linear deformer for a rest. `coordinates` must belong to the rest's cage in
+/// counter-clockwise orientation.
 std::unique_ptr<Deformer> real_deformer(const Rest& rest,
                                         std::shared_ptr<const RealCoordinates> coordinates);
 

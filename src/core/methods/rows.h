@@ -21,7 +21,7 @@ Method har_arap_method();
 /// `outline`: maps the cage's shape onto a drawn outline (Segall, Ben-Chen 2016).
 Method outline_method();
 
-/// `strokes`: maps curves inside the cage onto other curves, along which their points may slide
+/// `strokes`: maps curves inside the cage onto other curves. Points may slide along the curves
 /// (Segall, Ben-Chen 2016).
 Method strokes_method();
 
@@ -35,8 +35,8 @@ Method harmonic_method();
 /// `mean_value`: f = h b, with mean value coordinates h.
 Method mean_value_method();
 
-/// `bounded`: the locally injective map of bounded distortion that is nearest to the map of one of
-/// the other methods (Levi, Weber 2016).
+/// `bounded`: finds the locally injective map of bounded distortion that is nearest to another
+/// method's map (Levi, Weber 2016).
 Method bounded_method(const std::vector<Method>& references);
 
 }  // namespace holomorph

@@ -1,6 +1,6 @@
-// Method `strokes`: maps curves inside the cage onto other curves, along which their points may
-// slide (Segall, Ben-Chen 2016, E_s2s). Elsewhere the map is as smooth (E_s), as rigid (E_r) and as
-// conformal as the parameters ask for.
+// Method `strokes`: maps curves inside the cage onto other curves. Points may slide along the
+// curves (Segall, Ben-Chen 2016, E_s2s). Elsewhere the map is as smooth (E_s), as rigid (E_r) and
+// as conformal as the parameters ask for.
 //
 // f is the cage's map plus h, with h in a smooth basis. Alternating least squares minimize the
 // residuals of pins, strokes and rigidity. Without strokes, this is method `pins`.
@@ -20,18 +20,19 @@ namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerVertex = 2;
-constexpr double kInset = 1;  ///< of rigidity's and smoothness's samples, in units of their spacing
+constexpr double kInset = 1;       ///< inset of the inner points, in units of the samples' spacing
 constexpr double kPerLength = 20;  ///< samples per length L of a stroke
-constexpr double kLittle = 1e-3;   ///< factor of the weight of rigidity in the start
+constexpr double kLittle = 1e-3;   ///< factor on the weight of rigidity in the first solve
 constexpr int kFewestSamples = 8, kMostSamples = 40;
 constexpr int kDraftSteps = 20, kSteps = 300;
 constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
 
-/// The samples of a stroke at rest, and the fraction of its length at which each lies.
+/// The samples of a stroke at rest, and the position of each sample as a fraction of the stroke's
+/// length.
 struct Samples {
   Points points;
   std::vector<double> fractions;
-  size_t stroke = 0;     ///< its number in the rest
+  size_t stroke = 0;     ///< the stroke's index in the rest
   bool clipped = false;  ///< whether a part of the stroke lies outside the cage
 };
 
@@ -54,8 +55,8 @@ Samples samples_of(const Points& stroke, const Cage& cage, double unit) {
 /// The targets of the fit's terms in a pose, for the strokes' samples and for f' at inner points.
 class StrokeTargets {
  public:
-  /// `on` and `slopes` are given by the cage's map: the displacements of the samples, and L f' at
-  /// inner points.
+  /// `on` and `slopes` describe the cage's map. `on` holds the displacements of the samples, and
+  /// `slopes` holds L f' at the inner points.
   StrokeTargets(const std::vector<Samples>& strokes, const std::vector<Points>& posed,
                 const VectorXc& on, VectorXc slopes, double unit)
       : slopes_(std::move(slopes)), unit_(unit) {
@@ -92,7 +93,7 @@ class StrokeTargets {
       targets[row] = nearest.point - place;
     }
   }
-  /// Sets the targets so that f' is the nearest number of modulus 1.
+  /// Sets the targets that make f' the nearest number of modulus 1.
   void make_rigid(const VectorXc& values, VectorXc& targets) const {
     for (Index i = 0; i < values.size(); ++i) {
       const Complex slope = slopes_[i] + values[i];
@@ -104,7 +105,7 @@ class StrokeTargets {
  private:
   struct CurveSample {
     size_t curve;
-    Complex place;  ///< its image under the cage's map
+    Complex place;  ///< the sample's image under the cage's map
   };
   std::vector<Polyline> curves_;
   std::vector<double> lengths_;
@@ -203,7 +204,7 @@ class StrokesDeformer final : public Deformer {
     int iterations = 0;
     bool settled = true;
     double miss = 0;                ///< root mean square distance from the posed strokes
-    std::vector<double> fractions;  ///< each sample's fraction of its posed stroke's length
+    std::vector<double> fractions;  ///< the samples' positions as fractions of the posed strokes
   };
   enum Term : size_t { on_strokes, rigid, on_pins };
 
@@ -268,7 +269,8 @@ class StrokesDeformer final : public Deformer {
     if (soft_) {
       terms.push_back({with_psi(bent, Psi::alone), value("smoothness")});
       terms.push_back({with_psi(slopes, Psi::alone), stiffness_of(value("softness"))});
-      MatrixXc constant = MatrixXc::Zero(1, 2 * n);  // phi and psi can exchange a constant
+      // A constant can move between phi and psi. This term fixes it.
+      MatrixXc constant = MatrixXc::Zero(1, 2 * n);
       constant.rightCols(n) = basis_->one().transpose();
       terms.push_back({std::move(constant)});
     }
@@ -278,8 +280,8 @@ class StrokesDeformer final : public Deformer {
     loose_.emplace(std::move(terms));
   }
 
-  /// Rows for whitened unknowns: of phi alone, of phi and conj(psi), or of conj(psi) alone. Rows
-  /// from `holomorphic` on are those of f_z, which does not depend on psi.
+  /// Rows for whitened unknowns: of phi alone, of phi and conj(psi), or of conj(psi) alone. From
+  /// row `holomorphic` on, the rows belong to f_z, which does not depend on psi.
   enum class Psi { none, added, alone };
   MatrixXc with_psi(const MatrixXc& values, Psi psi, Index holomorphic = -1) const {
     const MatrixXc rows = basis_->whitened(values);
@@ -317,8 +319,8 @@ class StrokesDeformer final : public Deformer {
     const VectorXc first = targets->at(warm ? correction_.fractions : targets->fractions());
     if (!pins_.used.empty()) fit.set_targets(on_pins, pin_targets(pose, cage));
     if (!warm) {
-      // The first solve has almost no rigidity, which would keep parts that rotate far near their
-      // original directions.
+      // The first solve has almost no rigidity. Full rigidity would keep parts near their original
+      // directions even if they must rotate far.
       if (!pins_.used.empty()) loose_->set_targets(on_pins, pin_targets(pose, cage));
       loose_->start(first);
       fit.reset(loose_->unknowns());
