@@ -1,6 +1,6 @@
-// The offset outline is a level curve of the distance field of the content. Marching squares traces
-// it, and simplified_around simplifies it while it keeps a lower level curve, which contains the
-// content, inside.
+// The offset outline is a level curve of the content's distance field, traced by marching squares.
+// simplified_around() then simplifies the outline. The result still encloses a lower level curve,
+// which in turn encloses the content.
 #include "scene/auto_cage.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Grid {
   T operator()(int c, int r) const { return cells[static_cast<size_t>(r) * width + c]; }
 };
 
-/// A run of ones in a row, and the run that represents its connected part so far (union-find).
+/// A run of ones in a row, and its parent in the union-find forest of connected parts.
 struct Run {
   int row, begin, end;
   size_t parent;
@@ -46,7 +46,7 @@ size_t root_of(std::vector<Run>& runs, size_t run) {
   return run;
 }
 
-/// Keeps the largest 8-connected set of ones.
+/// Clears all ones except the largest 8-connected set.
 void keep_largest_part(Grid<std::uint8_t>& mask) {
   std::vector<Run> runs = runs_of(mask);
   size_t above = 0;  // the first run of the previous row that may touch this one
@@ -75,7 +75,8 @@ Grid<std::uint8_t> content_of(const Image& image) {
   return mask;
 }
 
-/// One line of the exact squared Euclidean distance transform: the lower envelope of parabolas.
+/// Computes one line of the exact squared Euclidean distance transform as the lower envelope of
+/// parabolas.
 void transform_line(const std::vector<double>& f, std::vector<double>& d, std::vector<int>& site,
                     std::vector<double>& bound) {
   const int n = static_cast<int>(f.size());
@@ -101,7 +102,7 @@ void transform_line(const std::vector<double>& f, std::vector<double>& d, std::v
   }
 }
 
-/// The distance of the center of each cell to the nearest center of a cell of the mask, in cells.
+/// The distance from the center of each cell to the nearest center of a set cell, in cells.
 Grid<double> distance_field(const Grid<std::uint8_t>& mask) {
   Grid<double> field(mask.width, mask.height, 1e20);
   const int longest = std::max(mask.width, mask.height);
@@ -122,8 +123,8 @@ Grid<double> distance_field(const Grid<std::uint8_t>& mask) {
   return field;
 }
 
-/// The level curve {field = level} of largest area, as a closed polygon. The center of cell (c, r)
-/// is at c - i r, with r downwards. Lower values are to its left.
+/// The level curve {field = level} with the largest area, as a closed polygon. Lower values lie to
+/// the left of the curve. The center of cell (c, r) is at c - i r, and r increases downwards.
 Points level_curve(const Grid<double>& field, double level) {
   // Crossings are numbered by the grid edge on which they lie: horizontal edges first, then
   // vertical ones.
@@ -146,7 +147,8 @@ Points level_curve(const Grid<double>& field, double level) {
         if (!corner[k] && corner[(k + 1) % 4]) leaving[outs++] = k;
       }
       for (int k = 0; k < ins; ++k) {
-        // In a saddle the inside is connected: each entry joins the exit before it around the cell.
+        // At a saddle, the two inside corners are connected. Therefore each entry is joined to the
+        // exit that precedes it around the cell.
         int to = leaving[0];
         if (ins == 2) to = leaving[0] == (entering[k] + 3) % 4 ? leaving[1] : leaving[0];
         next[edge[entering[k]]] = edge[to];
@@ -190,8 +192,9 @@ std::vector<std::uint8_t> largest_part(const Image& image) {
 
 namespace {
 
-/// Level curves of the distance to the content. The cage follows the outer one and contains the
-/// inner one. Both are empty if there is no content to follow.
+/// Level curves of the distance to the content. The cage follows the outer curve (`outline`) and
+/// encloses the inner curve (`kept`). Both are empty if the picture has no content or no
+/// transparency.
 struct Levels {
   Points outline, kept;
 };
@@ -200,12 +203,12 @@ Levels levels_of(const Image& image, double margin) {
   if (!has_transparency(image)) return {};
   const std::vector<std::uint8_t> part = largest_part(image);
   if (part.empty()) return {};
-  // Each cell has scale x scale pixels; it is set if any of them belongs to the part.
+  // A cell covers scale x scale pixels. It is set if any of these pixels belongs to the part.
   constexpr int kMostCells = 768;
   const int longest = std::max(image.width, image.height);
   const int scale = (longest + kMostCells - 1) / kMostCells;
-  // Distances are square roots of integers. A level between two of them never passes through the
-  // center of a cell, where a level curve could touch itself.
+  // Distances are square roots of integers. A level between these values avoids the centers of
+  // cells, where a level curve could touch itself.
   constexpr double kBetween = 0.0073;
   const double level = std::max(margin / scale, 1.6) + kBetween,
                kept_level = std::max(0.45 * level, 0.75) + kBetween;
@@ -224,7 +227,8 @@ Levels levels_of(const Image& image, double margin) {
   return levels;
 }
 
-/// Rounded to 1/16 px, which reads well in files and cannot reach the content, 0.7 cells away.
+/// The cage rounded to 1/16 px, which keeps numbers in files short. This is too small a change to
+/// reach the content, which is at least 0.7 cells away.
 Cage rounded(Cage cage) {
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};

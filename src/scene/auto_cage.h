@@ -16,8 +16,8 @@ struct AutoCageOptions {
 };
 
 /// A simple counter-clockwise cage around the largest connected part of a picture's content
-/// (8-neighbors). It contains every pixel of that part, keeps about `margin` away from it and has
-/// about the requested number of vertices, or more where fewer would cut the content. A picture
+/// (8-neighbors). The cage contains every pixel of that part at a distance of about `margin`. It
+/// has about the requested number of vertices, or more if fewer would cut the content. A picture
 /// without transparency, or without content, gets a rectangle around it. Throws Error for options
 /// out of range. Cost: a few ns per pixel, plus about 50 ms for the outline on a grid of at most
 /// 768 cells per side.

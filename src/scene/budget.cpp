@@ -1,4 +1,4 @@
-// A single table has the names of all limits, for messages and for the command line.
+// One table contains the names of all limits, for error messages and the command line.
 #include "scene/budget.h"
 
 #include <algorithm>

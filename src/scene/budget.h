@@ -1,5 +1,5 @@
-// Limits on the memory and time that a file may use, so that an untrusted file cannot exhaust the
-// machine.
+// Limits on the memory and time that a file may use. They keep an untrusted file from exhausting
+// the machine.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@ namespace holomorph {
 
 /// Limits on what is read and prepared. Each can be raised on the command line.
 struct Budget {
-  double pixels = 256e6;      ///< of all pictures of a scene together
-  double coordinates = 50e6;  ///< control points (those of curves count twice) times sample points
+  double pixels = 256e6;      ///< total pixels of all pictures in a scene
+  double coordinates = 50e6;  ///< control points (twice for curves) times sample points
   double operators = 1e9;     ///< bytes of the maps kept for keyframes
   double scene = 64e6;        ///< bytes of a scene file
   double groups = 256;        ///< nesting levels of groups in an SVG file
-  double frames = 100000;     ///< of one film
+  double frames = 100000;     ///< frames in one film
 };
 
-/// The limits in force. Set them before anything is read; access is not synchronized between
+/// The current limits. Set them before reading any file. Access is not synchronized between
 /// threads.
 const Budget& budget();
 void set_budget(const Budget& budget);
 
-/// The command-line option of a limit: its name, the name of its unit, its help text, and the size
-/// of one unit.
+/// The command-line option that sets a limit: the option's name, the name of its unit, the help
+/// text, the limit, and the size of one unit.
 struct BudgetOption {
   const char *name, *unit, *what;
   double Budget::*limit;

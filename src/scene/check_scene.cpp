@@ -1,4 +1,4 @@
-// The same limits as the readers in formats/ have, on values in memory.
+// Applies the limits of the readers in formats/ to a scene in memory.
 #include "scene/check_scene.h"
 
 #include <algorithm>
@@ -156,7 +156,7 @@ bool has_extras(const Deformation& deformation) {
          std::ranges::any_of(deformation.keyframes, kept_in_pose);
 }
 
-/// Whether the scene holds unknown keys of its file.
+/// Whether the scene contains unknown keys from its file.
 bool has_extras(const Scene& scene) {
   return !scene.extra.empty() || !scene.animation_extra.empty() ||
          std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
@@ -165,7 +165,8 @@ bool has_extras(const Scene& scene) {
          });
 }
 
-/// Bytes that the numbers of a pose take in a file at most: two of 24 characters and their frame.
+/// An upper bound on the bytes of a pose in a file. A point has two numbers of 24 characters, plus
+/// brackets and blanks.
 double size_of(const Pose& pose) {
   constexpr double kPoint = 60, kPart = 300;
   double points = static_cast<double>(pose.cage.control_count());
@@ -215,7 +216,7 @@ void check_scene(const Scene& scene) {
       throw Error(error.kind(), numbered("layer", i) + ": " + error.what(), error.where());
     }
   }
-  // Unknown keys may be large and deep: what they come to is only known in the file.
+  // Unknown keys may be large and deeply nested. Their size is known only after writing the text.
   if (has_extras(scene))
     scene_from_json(json_of(scene), "the scene");
   else if (largest_size(scene) > budget().scene / 4)

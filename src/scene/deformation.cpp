@@ -1,4 +1,4 @@
-// Splits a deformation into the two inputs of its map: the rest state and the pose.
+// Splits a deformation into the two inputs of its map, the rest state and the pose.
 #include "scene/deformation.h"
 
 #include "core/error.h"
@@ -42,7 +42,7 @@ Pose pose_of(const Deformation& deformation) {
   return used_by(method_named(deformation.method), whole_pose_of(deformation));
 }
 
-// A pose without corners was made before corners were listed, so none of them is turned.
+// A pose without corners predates the list of corners. All corners are then at rest.
 bool fits(const Deformation& deformation, const Pose& pose) {
   return pose.cage.size() == deformation.rest.size() &&
          pose.pins.size() == deformation.pins.size() &&

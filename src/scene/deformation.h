@@ -1,5 +1,5 @@
-// The deformation of a layer as methods and tools see it: handles at rest and posed, the method,
-// and keyframes.
+// The deformation of a layer: its handles with their rest and posed positions, the method, and the
+// keyframes.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@
 
 namespace holomorph {
 
-/// The keys that this version does not know, as the text of a JSON object. They are kept and
-/// written back.
+/// The text of a JSON object with all keys that this version does not know. Saving writes them
+/// back.
 using Extra = std::string;
 
-/// A surface in space whose flattened boundary is the outline. The path is relative to the scene's
-/// folder in a file, and absolute in a loaded scene.
+/// A surface in space. Its flattened boundary is the outline. The path is relative to the scene's
+/// folder in a scene file, and absolute in a loaded scene.
 struct SurfaceReference {
   std::string file;
   Flattening flattening = Flattening::lscm;
@@ -26,13 +26,13 @@ struct SurfaceReference {
   bool operator==(const SurfaceReference&) const = default;
 };
 
-/// A point handle. With an angle, it also rotates and scales the picture around it.
+/// A point handle. A pin with an angle also rotates and scales the picture around itself.
 struct Pin {
   Complex rest, pose;
   std::optional<double> angle;
   Extra extra;
   double scale = 1;  ///< has an effect only with an angle
-  int depth = 0;     ///< the picture around a pin of greater depth is drawn on top
+  int depth = 0;     ///< the picture near a pin with a greater depth is drawn on top
   bool operator==(const Pin&) const = default;
 };
 
@@ -43,8 +43,8 @@ struct Stroke {
   bool operator==(const Stroke&) const = default;
 };
 
-/// A cage vertex whose boundary angles method `angles` sets. If no corners are listed, all vertices
-/// are corners.
+/// A cage vertex at which the method `angles` sets the boundary angles. If no corners are listed,
+/// all vertices are corners.
 struct Corner {
   Index vertex = 0;
   PoseCorner pose = {};
@@ -52,9 +52,9 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-/// How the motion runs from a keyframe to the next one. Smooth: it passes through keys without
-/// stopping and comes to rest at both ends. Linear: it runs at constant speed. Hold: the pose stays
-/// until the next key.
+/// The motion from a keyframe to the next one. Smooth: starts and ends at rest, but passes through
+/// keys between smooth intervals without stopping. Linear: constant speed. Hold: the pose does not
+/// change until the next key.
 enum class Ease { smooth, linear, hold };
 
 /// A pose at a time.
@@ -77,12 +77,11 @@ struct Deformation {
   std::optional<SurfaceReference> surface = {};
   std::vector<Corner> corners = {};      ///< sorted by vertex
   std::vector<BrushDab> stiffness = {};  ///< painted, for methods that use it
-  /// Sorted by time. Keyframes whose structure differs from that of the handles are kept but do not
-  /// play.
+  /// Sorted by time. Keyframes whose poses do not fit the handles are kept but do not play.
   std::vector<Keyframe> keyframes = {};
   std::string method = usual_method(MethodUse::cage).id;
   Parameters parameters = {};
-  std::map<std::string, Parameters> other_parameters = {};  ///< of earlier methods, by id
+  std::map<std::string, Parameters> other_parameters = {};  ///< of other methods used before, by id
   Extra cage_extra = {}, method_extra = {};
 
   bool has_cage() const { return rest.size() > 0; }
@@ -91,20 +90,21 @@ struct Deformation {
 
 /// The pose of all handles, including those that the method does not use.
 Pose whole_pose_of(const Deformation& deformation);
-/// Whether a pose has the structure of the deformation.
+/// Whether a pose has the same numbers of cage segments, pins, strokes and corners as the
+/// deformation.
 bool fits(const Deformation& deformation, const Pose& pose);
-/// The deformation in this pose, which must fit.
+/// The deformation with this pose, which must fit the handles.
 Deformation posed_as(Deformation deformation, const Pose& pose);
 
-/// The rest state from which the deformation's method precomputes, without samples. Its degrees are
-/// high enough for all keyframes.
+/// The rest state, without samples, that the deformation's method uses for its precomputation. The
+/// degrees of its segments are high enough for all keyframes.
 Rest rest_of(const Deformation& deformation, Precision precision);
 /// The pose of the handles that the method uses.
 Pose pose_of(const Deformation& deformation);
 /// The deformation with all handles at rest.
 Deformation at_rest(Deformation deformation);
-/// The deformation with this cage and all handles at rest. Pins and strokes keep their rest
-/// positions and return to them.
+/// The deformation with this cage and all handles at rest. The rest positions of pins and strokes
+/// do not change.
 Deformation with_cage(Deformation deformation, Cage cage);
 Deformation with_cage(Deformation deformation, const Points& polygon);
 

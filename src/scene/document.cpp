@@ -1,4 +1,4 @@
-// Saving to another folder rewrites the paths in the scene. An autosave has absolute paths.
+// A saved scene has paths relative to its folder. An autosave has absolute paths.
 #include "scene/document.h"
 
 #include <random>
@@ -108,8 +108,8 @@ bool Document::commit(const std::string& label, Scene scene, std::optional<doubl
 
 namespace {
 
-/// The scene with its pictures as they are in memory, and with copies of pasted ones next to its
-/// file.
+/// The scene with references updated to the pictures in memory. Copies pasted pictures to files
+/// next to the scene's file, and refers to the copies.
 Scene with_current_pictures(Scene scene, Pictures& pictures, const Path& target) {
   std::vector<Layer> layers = layers_of(scene);
   for (Layer& layer : layers) {
@@ -121,7 +121,7 @@ Scene with_current_pictures(Scene scene, Pictures& pictures, const Path& target)
     if (file.parent_path() != pasted_folder() || !picture) continue;
     const Path copy =
         target.parent_path() / (target.stem().string() + "-" + file.stem().string() + ".png");
-    // A pasted picture is named after its content, so an existing file of this name is the copy.
+    // A pasted picture is named after its content. If the file exists, it is already the copy.
     if (!path_exists(copy)) write_file(copy, encode_png(*picture->image));
     Picture copied = *picture;
     std::error_code ignored;

@@ -1,4 +1,5 @@
-// A flattened surface placed in the plane of the picture. Its texture is made from this placement.
+// A flattened surface placed in the plane of the picture. The surface's texture is rendered from
+// this placement.
 #pragma once
 
 #include "core/mesh/mesh.h"
@@ -16,20 +17,21 @@ struct FlattenedSurface {
   Points outline() const;
 };
 
-/// Flattens a surface, then moves and scales it so that its bounding box has the center and the
-/// diagonal of `onto`. Throws Error as flattened() does.
+/// Flattens a surface, then moves and scales it to give its bounding box the same center and
+/// diagonal as `onto`. Throws the errors of flattened().
 FlattenedSurface flattened_onto(const Surface& surface, Flattening how, const Box& onto);
 
-/// Rotates, scales and moves the surface so that its boundary is this outline, to 1e-6 of the
-/// outline's size. Throws Error if the boundary has another shape.
+/// Rotates, scales and moves the surface to make its boundary coincide with this outline, within
+/// 1e-6 of the outline's size. Throws Error if the boundary has a different shape.
 FlattenedSurface aligned_with_outline(FlattenedSurface laid, const Points& outline);
 
 /// The deformation's surface, read from its file and placed along the outline. Throws Error if
-/// there is no surface, if the file is not a valid one, or if the outline is not its boundary.
+/// there is no surface, if the file is not a valid surface, or if the outline is not the surface's
+/// boundary.
 FlattenedSurface flattened_surface_of(const Deformation& deformation);
 
-/// The boundary of a surface's texture coordinates in a picture of this size: a cage around the
-/// part of the picture that the surface shows. Throws Error if the surface has no texture
+/// The boundary of a surface's texture coordinates in a picture of this size. It is a cage around
+/// the part of the picture used by the texture. Throws Error if the surface has no texture
 /// coordinates or is not a disk.
 Points texture_boundary(const SurfaceFile& file, int width, int height);
 

@@ -1,4 +1,4 @@
-// Undo by snapshots: one drag is one snapshot, taken on release.
+// Undo by snapshots. Each drag adds one snapshot, taken when the mouse button is released.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ class History {
   struct Entry {
     std::string label;
     Scene scene;
-    std::optional<double> at = {};  ///< the time that was displayed when it was made
+    std::optional<double> at = {};  ///< the time displayed when the entry was made
   };
 
   explicit History(Scene scene, std::string label = "Open") {
@@ -31,13 +31,13 @@ class History {
     index_ = entries_.size() - 1;
     return true;
   }
-  /// Replaces the current scene, to continue the last step, and discards the scenes that were
-  /// undone.
+  /// Replaces the current scene to continue the last step. Discards the scenes that were undone.
   void amend(Scene scene) {
     entries_.resize(index_ + 1);
     entries_[index_].scene = std::move(scene);
   }
-  /// Replaces the current scene by an equivalent one. What was undone can still be redone.
+  /// Replaces the current scene with an equivalent one. Scenes that were undone can still be
+  /// redone.
   void replace(Scene scene) { entries_[index_].scene = std::move(scene); }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }

@@ -8,22 +8,22 @@
 
 namespace holomorph {
 
-/// One LiveMap per layer. A layer keeps its map when layers are reordered or another one is
+/// One LiveMap per layer. A layer keeps its map when layers are reordered or another layer is
 /// selected.
 class LayerMaps {
  public:
   explicit LayerMaps(MeshOptions options = {}) : options_(options) {}
 
-  /// Sets a function that workers call when a preparation has ended, to wake an event loop. Call it
-  /// before use.
+  /// Sets a function that workers call at the end of each preparation, for example to wake an event
+  /// loop. Set it before any other call.
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
-  /// The map of the layer with this id, created if it has none yet.
+  /// The map of the layer with this id. Creates it if it does not exist yet.
   LiveMap& of(int id);
-  /// The same to look at; an empty map if it has none yet.
+  /// The map of the layer with this id, or an empty map if it does not exist yet.
   const LiveMap& of(int id) const;
-  /// Updates the maps of all visible layers except the edited one for the given moment, and
-  /// releases the maps of deleted layers. Returns whether any map changed.
+  /// Updates the maps of all visible layers, except the edited layer, to the given moment. Releases
+  /// the maps of deleted layers. Returns whether any map changed.
   bool update_others(const Scene& scene, const Moment& moment);
   /// Discards all maps, including those that workers are preparing.
   void clear();
@@ -31,7 +31,7 @@ class LayerMaps {
  private:
   MeshOptions options_;
   std::function<void()> wake_;
-  // Unused maps are kept for later layers, so that no caller has to wait for a worker to end.
+  // Unused maps are kept for later layers, because destroying a map waits for its worker.
   std::map<int, std::unique_ptr<LiveMap>> maps_;
   std::vector<std::unique_ptr<LiveMap>> spare_;
   LiveMap none_;

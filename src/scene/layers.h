@@ -1,4 +1,4 @@
-// Edits of a scene's stack of layers, which are numbered from bottom to top.
+// Edits of a scene's stack of layers. Layers are numbered from bottom to top.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,20 +7,21 @@ namespace holomorph {
 
 /// The index of the layer with this id; the number of layers if there is none.
 size_t layer_index(const Scene& scene, int id);
-/// The layer's name, else that of its picture, else "Layer 2" for the second one.
+/// The layer's name. If it is empty, the name of the layer's picture. Without a picture, "Layer"
+/// and the layer's number, counting from 1.
 std::string title_of_layer(const Scene& scene, size_t layer);
 /// Whether the scene is anything other than a single plain layer.
 bool has_layers(const Scene& scene);
 
-/// Replaces the layer at this index; the replacement takes over its id.
+/// Replaces the layer at this index. The new layer takes over the id of the old one.
 Scene with_layer_at(Scene scene, size_t number, Layer layer);
-/// Adds the layers of another scene above the edited one. The edited layer of `added` becomes the
-/// edited layer. Throws Error if there would be more than kMaxLayers.
+/// Adds the layers of another scene above the edited layer. The edited layer of `added` becomes the
+/// edited layer of the result. Throws Error if the result would have more than kMaxLayers layers.
 Scene with_layers_added(Scene scene, const Scene& added);
-/// Adds a copy of the edited layer above it, which becomes the edited layer.
+/// Duplicates the edited layer. The copy is placed above it and becomes the edited layer.
 Scene with_layer_duplicated(const Scene& scene);
-/// Removes the edited layer. The layer below it becomes the edited one, or the layer above it if
-/// there is none below. There must be another layer.
+/// Removes the edited layer, which must not be the only one. The layer below it becomes the edited
+/// layer. If the lowest layer is removed, the layer above it becomes the edited layer.
 Scene without_layer(Scene scene);
 /// Moves the edited layer to another index, which must exist.
 Scene with_layer_moved(Scene scene, size_t to);

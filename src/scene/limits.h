@@ -1,16 +1,16 @@
-// The largest scene that a file can hold. Readers refuse what is larger, and so do edits.
+// Limits on the contents of a scene. Readers and edits refuse larger values.
 #pragma once
 
 #include <cstddef>
 
 namespace holomorph {
 
-inline constexpr double kMaxCoordinate = 1e8;  ///< plane units, from the origin along each axis
+inline constexpr double kMaxCoordinate = 1e8;  ///< absolute value of x and y, in plane units
 inline constexpr size_t kMaxLayers = 100;
 inline constexpr int kMaxImageSide = 1 << 20;  ///< pixels
-inline constexpr size_t kMaxSegments = 5000;   ///< of a cage
+inline constexpr size_t kMaxSegments = 5000;   ///< in one cage
 inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
-inline constexpr size_t kMaxCurvePoints = 20000;  ///< of a stroke or an outline
+inline constexpr size_t kMaxCurvePoints = 20000;  ///< in one stroke or outline
 inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value
 inline constexpr double kMaxCornerTurn = 1e3;     ///< radians: 159 full turns
 inline constexpr double kMaxPinTurn = 1e5;        ///< radians

@@ -1,5 +1,5 @@
-// Values are compared instead of keeping dirty flags: the worker gets a request when the input of a
-// preparation differs.
+// There are no dirty flags. Inputs are compared by value, and the worker gets a request when the
+// input of the preparation has changed.
 #include "scene/live_map.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void LiveMap::work() {
       try {
         inbetween_of(*base);
       } catch (const std::exception&) {
-        // Playback will fail in the same way and say why.
+        // Playback will fail in the same way and report the reason.
       }
       lock.lock();
       continue;
@@ -74,8 +74,8 @@ void LiveMap::work() {
     lock.lock();
     working_ = false;
     if (result) base_ = result;
-    // If the deformation has changed in the meantime, the map of its earlier state is shown until
-    // the next one is ready. An error of the earlier state is not shown.
+    // If the deformation has changed in the meantime, the map of the earlier state is displayed
+    // until the next map is ready. Errors of the earlier state are ignored.
     if (document == document_ && (result || wanted == generation_)) {
       finished_ = true;
       result_ = std::move(result);
@@ -104,8 +104,8 @@ void LiveMap::adopt_result(const Deformation& deformation, EvalOptions options) 
   posed_.reset();
   map_ = SampledMap{};
   ++preparation_;
-  // Mesh and map always belong together: if the deformation has changed since the request, it is
-  // posed as it was requested.
+  // Mesh and map must match. If the rest state has changed since the request, pose the deformation
+  // that was requested.
   pose(same_rest(*result_deformation_, deformation) ? deformation : *result_deformation_, options);
 }
 
@@ -163,7 +163,7 @@ std::optional<Complex> LiveMap::pin_image(size_t i) const {
   return prepared_->pins[i]->in(*prepared_->mesh, as_span(map_.f));
 }
 
-/// Evaluates the map that was just posed: its injectivity, and the images of its zeros.
+/// Computes the injectivity and the images of the zeros of a newly posed map.
 void LiveMap::evaluate_map() {
   const Mesh& mesh = *prepared_->mesh;
   injectivity_ = injectivity_of(mesh, map_.f);
@@ -193,10 +193,10 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-/// Whether the maps at keyframes are needed and would block the caller noticeably. Keys that were
-/// requested and still have no map cannot be mapped.
+/// Whether the maps at keyframes are needed and computing them would block the caller noticeably.
+/// Keys that still have no map after a request have no valid map, so they are not requested again.
 bool LiveMap::needs_worker(const Deformation& deformation) const {
-  constexpr double kNoticed = 50, kShape = 4;  // both in ms; kShape is for the logarithms of a key
+  constexpr double kNoticed = 50, kShape = 4;  // ms; kShape: logarithms of a key
   if (!moment_.time || !prepared_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == deformation.keyframes) return false;
   if (posed_moment_.time && posed_ && posed_->keyframes == deformation.keyframes) return false;

@@ -13,9 +13,9 @@
 
 namespace holomorph {
 
-/// Keeps the map of a deformation up to date. update() never waits: while the worker prepares a
-/// changed rest state or the maps of many keyframes, the last map stays. It also stays after an
-/// error, which is kept for display.
+/// Keeps the map of a deformation up to date. update() never waits. While the worker prepares a
+/// changed rest state or the maps of many keyframes, the previous map remains available. It also
+/// remains after an error, which error() returns.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {});
@@ -23,24 +23,24 @@ class LiveMap {
   LiveMap(const LiveMap&) = delete;
   LiveMap& operator=(const LiveMap&) = delete;
 
-  /// Sets a function that the worker calls when a preparation has ended, to wake an event loop.
-  /// Call it before use.
+  /// Sets a function that the worker calls at the end of each preparation, for example to wake an
+  /// event loop. Set it before any other call.
   void on_ready(std::function<void()> wake) { wake_ = std::move(wake); }
 
-  /// Takes over the worker's result, requests what the deformation needs, and poses the map if it
-  /// matches the deformation. If `moment` has a time and there are keyframes that play, it becomes
-  /// the keyframes' map at that time. Returns whether the map changed.
+  /// Adopts any finished result of the worker. Requests a new preparation if the deformation needs
+  /// one, and otherwise poses the map. If `moment` has a time and any keyframes play, the map is
+  /// the animation's map at that time. Returns whether the map changed.
   bool update(const Deformation& deformation, EvalOptions options, const Moment& moment = {});
-  /// Discards the deformation, the map and what the worker is preparing.
+  /// Discards the deformation, the map, and the preparation in progress.
   void clear();
-  /// Calls update() and waits until the worker has prepared the deformation's map or failed. For
-  /// tests.
+  /// Calls update() and waits until the worker has prepared the deformation's map or has failed.
+  /// Used by tests.
   void finish(const Deformation& deformation, EvalOptions options);
 
   const PreparedMap* prepared() const { return prepared_.get(); }
-  /// The prepared mesh in drawing order, as it is drawn and picked.
+  /// The prepared mesh with its triangles in drawing order. Used for drawing and picking.
   const std::shared_ptr<const Mesh>& drawn() const { return drawn_; }
-  /// The map at the mesh's vertices; empty until there is one.
+  /// The map at the mesh's vertices; empty until the first map is ready.
   const SampledMap& map() const { return map_; }
   bool has_map() const { return prepared_ && map_.f.size() > 0; }
   bool busy() const { return busy_; }
@@ -50,11 +50,11 @@ class LiveMap {
   /// The image of the rest position of pin `i` of a deformation. None if the map ignores pins, if
   /// the pin lies outside the mesh, or if the map belongs to another rest state.
   std::optional<Complex> pin_image(const Deformation& deformation, size_t i) const;
-  /// The same for a deformation that is known to have the rest of posed().
+  /// The same without the check of the rest state, for a deformation that shares it with posed().
   std::optional<Complex> pin_image(size_t i) const;
   /// The images of the zeros that the map reports.
   const Points& zero_images() const { return zero_images_; }
-  /// The deformation to which map() belongs. It may lag behind the one being edited.
+  /// The deformation to which map() belongs. It may be an earlier state of the edited deformation.
   const std::optional<Deformation>& posed() const { return posed_; }
   /// The deformation with its handles at the displayed time; none if no time is displayed.
   const std::optional<Deformation>& timed() const { return timed_; }
@@ -65,11 +65,11 @@ class LiveMap {
   void follow_keys() {
     if (prepared_ && posed_) motion_.follow(*posed_, moment_.linear_blend, prepared_);
   }
-  /// The images of rest positions at a time of the posed deformation's keyframes. Positions outside
-  /// the mesh stay.
+  /// The images of rest positions under the posed deformation's animation at a time. Positions
+  /// outside the mesh are returned unchanged.
   Points images_at(double time, std::span<const Complex> rest);
   double pose_milliseconds() const { return pose_milliseconds_; }
-  /// Increases by one whenever a newly prepared map is taken over.
+  /// A counter that increases by one whenever a newly prepared map is adopted.
   unsigned preparation() const { return preparation_; }
 
  private:
@@ -84,7 +84,7 @@ class LiveMap {
   std::function<void()> wake_;
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
-  std::vector<Depth> depths_;  ///< by which drawn_ is ordered
+  std::vector<Depth> depths_;  ///< the depths that determine the order of drawn_
   SampledMap map_;
   std::optional<Error> error_;
   Injectivity injectivity_;
@@ -98,7 +98,7 @@ class LiveMap {
   std::optional<Deformation> timed_;
   bool busy_ = false, failed_ = false;
   double pose_milliseconds_ = 0;
-  double solve_milliseconds_ = 0;  ///< of a final pose, without in-betweens
+  double solve_milliseconds_ = 0;  ///< time to compute a final pose, without in-betweens
   unsigned preparation_ = 0;
 
   std::mutex mutex_;  ///< guards the members below
@@ -111,7 +111,7 @@ class LiveMap {
   std::optional<Error> failure_;
   std::optional<Deformation> result_deformation_;
   unsigned generation_ = 0;  ///< increases with every request
-  unsigned document_ = 0;    ///< increases in clear(); the worker's result is then dropped
+  unsigned document_ = 0;    ///< increases in clear(), to discard the worker's result
   bool working_ = false, finished_ = false, stop_ = false;
   std::thread worker_;  ///< started by the first request
 };

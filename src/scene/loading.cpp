@@ -1,4 +1,4 @@
-// A scene file names its files by paths relative to itself. In memory all paths are absolute.
+// Paths in a scene file are relative to the file's folder. In memory, all paths are absolute.
 #include "scene/loading.h"
 
 #include "core/error.h"
@@ -15,12 +15,13 @@ namespace holomorph {
 namespace fs = std::filesystem;
 namespace {
 
-/// The absolute path of a file that a scene file names.
+/// The absolute path of a file named in a scene file.
 Path resolved_path(const Path& scene, const Path& file) {
   return absolute_path(file.is_absolute() ? file : scene.parent_path() / file);
 }
 
-/// The inverse: the path relative to an absolute folder, or unchanged if the folder is empty.
+/// The inverse of resolved_path(): the path relative to an absolute folder. Returns the path
+/// unchanged if the folder is empty.
 std::string relative_to(const Path& folder, const Path& file) {
   const Path relative = folder.empty() ? Path() : file.lexically_relative(folder);
   return relative.empty() ? file.string() : relative.generic_string();
@@ -35,8 +36,7 @@ void for_each_file(std::vector<Layer>& layers, Use use) {
   }
 }
 
-/// Redirects a reference to the file of the same name next to the scene if that is the same
-/// picture.
+/// If a file with the same name and content lies next to the scene, redirects the reference to it.
 void look_next_to_scene(const Path& scene, ImageReference& reference, const Reach& reach,
                         PictureFiles& files) {
   const Path name = Path(reference.file).filename();
@@ -46,12 +46,12 @@ void look_next_to_scene(const Path& scene, ImageReference& reference, const Reac
   try {
     if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
   } catch (const Error&) {
-    // It is not there either.
+    // There is no readable file next to the scene either.
   }
 }
 
-/// Reads the picture of a layer. Returns a warning or "", for example that the picture is missing,
-/// if it may be.
+/// Reads the picture of a layer. Returns a warning, or "" if there is none. A missing picture
+/// causes a warning if pictures may be missing, otherwise an Error.
 std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
                          const std::string& pointer, const LoadOptions& options) {
   if (!layer.image) return "";
@@ -90,8 +90,9 @@ LoadedScene load_scene(const Path& path, const LoadOptions& options) {
 
 namespace {
 
-/// Withholds the files that are out of a scene's reach, before any file is accessed. Throws Error
-/// if pictures may not be missing. A picture that also lies next to the scene is taken from there.
+/// Withholds the files that are out of a scene's reach before any of them is accessed. Throws Error
+/// instead if pictures may not be missing. If the same picture also lies next to the scene, it is
+/// used from there.
 void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
                           PictureFiles& files, Pictures& pictures) {
   const Path folder = scene.parent_path();

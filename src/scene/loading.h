@@ -1,4 +1,4 @@
-// Scenes, pictures and surfaces as read from disk, with all the files that they name.
+// Loads scenes, pictures and surfaces from disk, with all files that they refer to.
 #pragma once
 
 #include "scene/layers.h"
@@ -17,53 +17,53 @@ struct LoadedScene {
 
   const Image* image() const { return pictures.of(scene.layer()); }  ///< the edited layer's
 };
-/// How a scene is read.
+/// Options for reading a scene.
 struct LoadOptions {
-  /// Whether a picture that cannot be read is only a warning and one out of reach is withheld.
-  /// Otherwise both are errors.
+  /// If true, a picture that cannot be read causes a warning, and files out of reach are withheld.
+  /// If false, both are errors.
   bool pictures_may_be_missing = false;
   Reach reach = {};
-  double open_pixels = 0;     ///< of pictures that are already open
-  bool keeps_origin = false;  ///< keep what an autosave says about its origin
+  double open_pixels = 0;     ///< number of pixels in pictures that are already open
+  bool keeps_origin = false;  ///< keep the origin that an autosave records
 };
-/// Reads a scene file and the pictures that it names, relative to the file's folder. A missing
-/// picture is looked for next to the scene. Throws Error.
+/// Reads a scene file and the pictures that it names by paths relative to the file's folder. Looks
+/// for missing pictures next to the scene file. Throws Error.
 LoadedScene load_scene(const Path& path, const LoadOptions& options = {});
-/// The same for a text that stands in for the file's content.
+/// The same with a given text instead of the file's content.
 LoadedScene scene_of_text(const std::string& text, const Path& path,
                           const LoadOptions& options = {});
-/// Whether a file name is that of a scene: .json, or .holomorph, which desktops recognize.
+/// Whether a path has a scene's extension: .json, or .holomorph, which desktops recognize.
 bool is_scene_name(const Path& path);
 
-/// The scene of a picture that has no file of its own and is kept in pasted_folder(). Saving a
-/// scene puts copies of such pictures next to it. Throws Error.
+/// The scene of a pasted picture, which is stored in pasted_folder(). Saving a scene places copies
+/// of such pictures next to the scene file. Throws Error.
 LoadedScene scene_of_pasted(const std::string& png);
 
-/// The scene of a single picture, without a cage. For an OpenRaster file it has all of the file's
-/// layers.
+/// The scene of a single picture file, without a cage. An OpenRaster file gives one scene layer for
+/// each of its layers.
 LoadedScene scene_of_image(const Path& image, double open_pixels = 0);
 
-/// The scene of a textured surface: its picture, with the boundary of its texture coordinates as
-/// the cage. Throws Error, also if the picture is out of reach.
+/// The scene of a textured surface: the texture picture, with the boundary of the texture
+/// coordinates as the cage. Throws Error, also if the picture is out of reach.
 LoadedScene scene_of_surface(const Path& obj, const Reach& reach = {});
 
-/// The files that a scene consists of; empty where it has none.
+/// The files that a scene consists of. `scene` is empty if the scene has no file.
 struct Sources {
   Path scene;
   std::vector<Path> images, surfaces;
 };
-/// The sources of a loaded scene that was read from this file.
+/// The files of a loaded scene that was read from `scene_path`.
 Sources sources_of(const Scene& scene, const Path& scene_path);
-/// Throws Error if writing to `out` would replace one of them.
+/// Throws Error if writing to `out` would replace one of the sources.
 void check_not_a_source(const Path& out, const Sources& sources);
 /// The same, and throws Error if `out` is read-only.
 void check_may_write(const Path& out, const Sources& sources);
 
-/// The scene as a file in this absolute folder holds it, with paths relative to the folder; with
-/// absolute paths if the folder is empty.
+/// The scene with its paths made relative to this absolute folder, for saving there. If the folder
+/// is empty, the paths remain absolute.
 Scene portable(Scene scene, const Path& folder);
 
-/// The text of a scene file. Its size is checked before it is read. Throws Error.
+/// The text of a scene file. Checks the file's size before reading it. Throws Error.
 std::string read_scene_file(const Path& path);
 
 }  // namespace holomorph

@@ -23,9 +23,9 @@ class Mirror {
     for (Complex& z : line) z = (*this)(z);
     return line;
   }
-  /// The index of the counterpart of z among these points, z being one of them: the point nearest
-  /// to the mirror image of z, provided that it is within 2 % of the cage's size and that z is the
-  /// point nearest to its own mirror image.
+  /// The index of the counterpart of z, where z is one of the points. The counterpart is the point
+  /// w nearest to the mirror image of z. It must lie within 2 % of the cage's size from that image,
+  /// and z must be the point nearest to the mirror image of w. None if there is no such point.
   std::optional<size_t> counterpart(const Points& points, Complex z) const {
     const auto nearest_to = [&](Complex wanted) {
       return std::ranges::min_element(points, {}, [&](Complex w) { return std::abs(w - wanted); });

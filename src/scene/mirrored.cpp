@@ -22,8 +22,8 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   const size_t n = vertices.size();
   Cage result;
   for (size_t e = 0; e < n; ++e) {
-    // The mirrored cage runs in the opposite direction: the counterpart of segment e starts at the
-    // counterpart of its end.
+    // The mirrored cage runs in the opposite direction. Therefore the counterpart of segment e
+    // starts at the counterpart of the end of segment e.
     const size_t start = counterpart(mirror, vertices, vertices[e], "cage point"),
                  end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
     if ((end + 1) % n != start)
@@ -61,7 +61,7 @@ std::vector<Points> mirrored_strokes(const Mirror& mirror, const std::vector<Str
   for (size_t i = 0; i < strokes.size(); ++i) {
     const size_t other = counterpart(mirror, middles, middles[i], "stroke");
     result.push_back(mirror(posed[other]));
-    // If it was drawn in the opposite direction, its start corresponds to the end of the
+    // If a stroke was drawn in the opposite direction, its start corresponds to the end of its
     // counterpart.
     const Points &rest = strokes[i].rest, &theirs = strokes[other].rest;
     if (std::abs(mirror(theirs.back()) - rest.front()) <

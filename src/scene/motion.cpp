@@ -1,4 +1,5 @@
-// The maps at keys come from the deformer; the maps between keys are blended from their shapes.
+// The deformer computes the maps at keys. Maps between keys are interpolated from the shapes of the
+// keys.
 #include "scene/motion.h"
 
 #include <algorithm>
@@ -12,17 +13,17 @@ namespace {
 
 constexpr double kTie = 1e-3;
 
-/// The fraction of the way to the next key that is covered at the fraction u of the time.
+/// The progress of the motion, 0 to 1, at the fraction u of the time between two keys.
 double eased(Ease ease, double u) {
   return ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
 }
 
-/// The expected rotation of the picture from one pose to another, including whole turns: that of
-/// the first pin with an angle, or else the average over the corners.
+/// The expected rotation of the picture from one pose to another, including whole turns. It is the
+/// rotation of the first pin with an angle, or else the average rotation of the corners.
 ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
                                int turns) {
   ExpectedTurn expected;
-  // Slightly less than whole turns: of two equally near rotations, the smaller one is chosen.
+  // Slightly less than whole turns, to choose the smaller of two equally near rotations.
   expected.radians = 2 * kPi * turns * (1 - kTie);
   const Method& method = method_named(deformation.method);
   if (method.uses_pins)
@@ -42,8 +43,8 @@ ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from,
   return expected;
 }
 
-/// The control points of a segment at rest, raised to a degree. If the segment has a higher degree,
-/// points along its curve.
+/// The control points of a rest segment, elevated to a degree. If the segment has a higher degree,
+/// returns points along the curve instead.
 Points rest_controls(const Cage& rest, Index segment, int degree) {
   const Points controls = rest.controls(segment);
   if (static_cast<int>(controls.size()) - 1 <= degree) return elevated(controls, degree);
@@ -132,7 +133,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   align(deformation);
 }
 
-/// Determines the whole turns from key to key.
+/// Determines the whole turns of the picture from key to key.
 void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
@@ -201,7 +202,8 @@ const Pose* Motion::pose_at(double time) {
     if (std::abs(key.time - time) < kHere) return &key.pose;
   const auto [i, u] = position_of(time);
   if (u == 0) return &keys_[i].pose;
-  // Between two keys with the same pose nothing moves, unless a smooth motion passes through them.
+  // If two successive keys have the same pose, nothing moves between them, unless a smooth motion
+  // passes through them.
   constexpr double kStill = 1e-9;  // relative to the size
   const Key &from = keys_[i], &to = keys_[i + 1];
   if (!(from.pose == to.pose) || to.turns != 0) return nullptr;
@@ -299,7 +301,7 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
                  to = elevated(b.pose.cage.controls(e), degree);
     Points& segment = pose.cage.segments[static_cast<size_t>(e)];
     segment.resize(static_cast<size_t>(degree));
-    // If the cage only prescribes directions, the picture is not at the cage.
+    // If the cage prescribes only directions, the picture's boundary does not follow the cage.
     for (size_t m = 0; m < segment.size(); ++m)
       segment[m] = method_named(deformation.method).uses_corners ? (1 - s) * from[m] + s * to[m]
                                                                  : carried(rest[m], from[m], to[m]);

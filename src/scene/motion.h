@@ -1,4 +1,4 @@
-// The map of a deformation's keyframes at any time.
+// The animation defined by a deformation's keyframes: its map at any time.
 #pragma once
 
 #include <map>
@@ -9,24 +9,25 @@
 
 namespace holomorph {
 
-/// The time at which a deformation is displayed (none: in its own pose), and how
-/// poses are blended between keyframes, as in AnimationSettings.
+/// The displayed time, and the choice of blending between keyframes (see AnimationSettings).
+/// Without a time, the deformation is displayed in its own pose.
 struct Moment {
   std::optional<double> time = {};  ///< seconds
   bool linear_blend = false;
   bool operator==(const Moment&) const = default;
 };
 
-/// The map that is linear in each triangle of a mesh, from its values at the vertices.
+/// The piecewise linear map on a mesh with values `f` at the vertices.
 SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives);
 
-/// The maps at keyframes, kept until their inputs change, and the maps in between.
+/// The maps at keyframes and between them. The maps at keyframes are kept until their inputs
+/// change.
 class Motion {
  public:
-  /// Updates the maps at a deformation's keyframes; the deformer recomputes those whose pose has
-  /// changed. `prepared` must be prepared for the deformation. Keyframes that cannot be mapped are
-  /// left out; error() gives the reason for the first one. Cost: a final pose for each changed
-  /// keyframe. Throws Error{bad_input} if the maps would need more memory than the budget allows.
+  /// Updates the maps at a deformation's keyframes. Only maps of changed poses are recomputed.
+  /// `prepared` must be the prepared map of the deformation. Keyframes without a valid map are left
+  /// out, and error() returns the first reason. Cost: one final pose for each changed keyframe.
+  /// Throws Error{bad_input} if the maps would need more memory than the budget allows.
   void follow(const Deformation& deformation, bool linear_blend,
               std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
@@ -35,34 +36,34 @@ class Motion {
   size_t unknown(const Deformation& deformation,
                  const std::shared_ptr<PreparedMap>& prepared) const;
 
-  /// Whether there are maps at keys. If so, there is a map at any time.
+  /// Whether any key has a map. If so, there is a map at any time.
   bool plays() const { return !keys_.empty(); }
   const std::optional<Error>& error() const { return error_; }
 
-  /// The map at the last key before a time or, if `later`, at the first key after it. Null if there
-  /// is no such key.
+  /// The map at the last key before a time. If `later`, the map at the first key after it. Null if
+  /// there is no such key.
   const VectorXc* neighboring_key(double time, bool later) const;
-  /// The key pose that is displayed at a time: at a key, while a key is held, before the first key
-  /// and after the last one. Null while the pose changes between two keys.
+  /// The key pose that is displayed at a time. There is one at a key, while a key is held, between
+  /// two keys if nothing moves, before the first key and after the last key. Otherwise null.
   const Pose* pose_at(double time);
   /// The average rotation of the picture at a time, in radians, including whole turns.
   double rotation_at(double time) const;
-  /// Whether a time is between the first key and the last.
+  /// Whether a time lies between the first key and the last key, inclusive.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
   }
 
-  /// The interval from one key that plays to the next.
+  /// The interval between two successive keys that play.
   struct KeyInterval {
     double from = 0, to = 0;
-    bool held = false;  ///< nothing moves until its end
+    bool held = false;  ///< the first key's pose is displayed until the interval ends
   };
   std::vector<KeyInterval> key_intervals() const;
 
-  /// f at the mesh's vertices. It is constant before the first key and after the last one.
+  /// f at the mesh's vertices at a time. Constant before the first key and after the last key.
   VectorXc map_at(double time);
-  /// The deformation with its handles as they are in `map`, which must be map_at(time). Between two
-  /// keyframes the handles follow the picture around them.
+  /// The deformation with its handles in their positions at a time. `map` must be map_at(time).
+  /// Between two keyframes, the handles follow the picture around them.
   Deformation deformation_at(const Deformation& deformation, double time, const VectorXc& map);
 
  private:
@@ -72,7 +73,7 @@ class Motion {
     int turns = 0;
     Pose pose;
     VectorXc f;           ///< at the mesh's vertices
-    int whole_turns = 0;  ///< whole turns of its shape
+    int whole_turns = 0;  ///< whole turns of the key's shape
     double turned = 0;    ///< average rotation in radians
   };
   /// The rates of change of all quantities at the two keys of an interval.
@@ -80,8 +81,8 @@ class Motion {
     size_t from = 0;
     VectorXc at_from, at_to;
   };
-  /// The position of a time: at key `from` or, for u > 0, at the fraction u of the way to the next
-  /// key.
+  /// A time relative to the keys. If u = 0, it is at key `from` or displays that key. If u > 0, it
+  /// is at the fraction u of the interval from that key to the next.
   struct TimePosition {
     size_t from = 0;
     double u = 0;
@@ -103,14 +104,14 @@ class Motion {
   bool linear_blend_ = false;
   std::optional<Error> error_;
   std::map<std::pair<double, double>, Location> locations_;
-  // A shape takes eight times the memory of its map, so only those near the requested time are
-  // kept.
+  // A shape needs eight times as much memory as its map. Therefore only the shapes near the
+  // requested time are kept.
   std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   std::optional<Slopes> slopes_;
 };
 
-/// Sets the whole turns of the keys that `before` does not have, and of the keys after them, so
-/// that the picture rotates as it did in `motion`, the motion of `before`.
+/// Preserves the rotation of the picture after keys were added to `before`. Sets the whole turns of
+/// each new key, and of the key after it. `motion` must be the motion of `before`.
 void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion);
 
 }  // namespace holomorph

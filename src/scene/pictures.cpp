@@ -1,4 +1,4 @@
-// The modification time of a file shows whether it has changed.
+// Changes of a file are detected by its modification time.
 #include "scene/pictures.h"
 
 #include "scene/formats/ora_image.h"
@@ -11,8 +11,7 @@ const PictureFiles::File& PictureFiles::read(const std::string& name) {
   if (found != files_.end()) return found->second;
   File file;
   std::error_code ignored;
-  file.changed =
-      fs::last_write_time(name, ignored);  // before reading, so that a later change is noticed
+  file.changed = fs::last_write_time(name, ignored);  // before reading, to detect later changes
   file.bytes = read_file(name);
   file.sha256 = sha256_hex(file.bytes);
   return files_.emplace(name, std::move(file)).first->second;

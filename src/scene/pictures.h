@@ -1,5 +1,5 @@
-// The decoded pictures of a scene's layers. A scene only names its pictures; the pixels are kept
-// here.
+// The decoded pictures of a scene's layers. A scene contains only references to its pictures. The
+// pixels are stored here.
 #pragma once
 
 #include <map>
@@ -12,21 +12,21 @@
 
 namespace holomorph {
 
-/// A picture, and the file that it was read from.
+/// A picture and properties of its file.
 struct Picture {
   std::shared_ptr<const Image> image;
-  std::string sha256;                            ///< of the file
+  std::string sha256;                            ///< of the file's bytes
   std::filesystem::file_time_type changed = {};  ///< the file's modification time
 };
 
-/// Reads the pictures that references name. A file that several references share is read once.
+/// Reads the pictures that references name. A file named by several references is read once.
 class PictureFiles {
  public:
-  /// `open` is the number of pixels that are already open.
+  /// `open` is the number of pixels in pictures that are already open.
   explicit PictureFiles(double open = 0) : pixels_(open) {}
   /// Reads the picture that a reference names. Throws Error.
   Picture picture(const ImageReference& reference);
-  /// The SHA-256 of a file's bytes, which are not decoded. Throws Error.
+  /// The SHA-256 of a file's bytes. Does not decode the picture. Throws Error.
   const std::string& sha256(const std::string& file) { return read(file).sha256; }
 
  private:
@@ -43,13 +43,13 @@ class PictureFiles {
 inline Picture read_picture(const ImageReference& reference, double open = 0) {
   return PictureFiles(open).picture(reference);
 }
-/// A reference to a picture: its file, whose path becomes absolute, and its layer in the file if it
-/// is one.
+/// A reference to the picture in a file, or to one layer (`entry`) of an OpenRaster file. The
+/// reference has the file's absolute path.
 ImageReference reference_in(const Path& file, const std::string& entry = "");
-/// The reference with the size and SHA-256 of the picture that was read.
+/// The reference with the size and SHA-256 of this picture.
 ImageReference described(ImageReference reference, const Picture& picture);
 
-/// Pictures by reference: the absolute path of the file, and the layer in it.
+/// A collection of pictures, looked up by the file's absolute path and the layer in the file.
 class Pictures {
  public:
   /// The picture of a layer; null if it has none, or if it was not read.
@@ -57,11 +57,11 @@ class Pictures {
   std::shared_ptr<const Image> shared(const Layer& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
-  /// Marks a file that a scene names but that must not be accessed before the user agrees.
+  /// Marks a file named by a scene as not to be accessed until the user agrees.
   void withhold(const std::string& file) { withheld_.insert(file); }
   const std::set<std::string>& withheld() const { return withheld_; }
   void release() { withheld_.clear(); }
-  /// Adds the pictures of another collection, and its withheld files.
+  /// Adds the pictures and the withheld files of another collection.
   void add(const Pictures& others);
   /// The number of pixels of all pictures together.
   double pixels() const;

@@ -1,4 +1,4 @@
-// Damaged preferences are not an error: whatever cannot be read keeps its default.
+// Damaged preferences are not an error. A setting that cannot be read has its default value.
 #include "scene/preferences.h"
 
 #include <pwd.h>
@@ -42,7 +42,7 @@ Path preferences_path() {
   return in_folder("XDG_CONFIG_HOME", ".config", "preferences.json");
 }
 
-/// A member of the expected type, or else a default.
+/// The value of a member if it has the expected type, or else a default.
 template <class T>
 T member(const nlohmann::json& json, const char* key, T otherwise) {
   try {
@@ -100,7 +100,7 @@ Preferences load_preferences() {
   try {
     return preferences_of_json(read_file(preferences_path()));
   } catch (const Error&) {
-    return {};  // there are none yet
+    return {};  // nothing was saved yet
   }
 }
 
@@ -135,7 +135,7 @@ KeyNames keys_of_json(const std::string& text, const std::string& name) {
     const auto json = nlohmann::json::parse(text);
     if (json.value("format", "") == "holomorph-keys") return json.at("keys").get<KeyNames>();
   } catch (const nlohmann::json::exception&) {
-    // The same message as below: it is not such a file.
+    // The error below also covers this case.
   }
   throw Error(ErrorKind::bad_input,
               name + ": not a file of keys; choose a file written by 'Keys and mouse > Export'");

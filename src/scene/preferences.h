@@ -1,4 +1,4 @@
-// What the program remembers between sessions, and the locations of its own files.
+// Preferences that are saved between sessions, and the locations of the program's own files.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// The names of keys, by the ids of the actions that they trigger.
+/// Maps the id of an action to the names of the keys that trigger it.
 using KeyNames = std::map<std::string, std::vector<std::string>>;
 
 enum class Theme { dark, light, contrast };
@@ -17,25 +17,26 @@ enum class Theme { dark, light, contrast };
 struct Preferences {
   Theme theme = Theme::dark;
   double ui_scale = 0;         ///< 0: the scale of the display
-  bool native_dialogs = true;  ///< if the desktop has any
+  bool native_dialogs = true;  ///< use the desktop's file dialogs, if available
   bool hints = true;           ///< show the first steps
-  KeyNames keys;               ///< only those that differ from the program's defaults
+  KeyNames keys;               ///< only actions whose keys differ from the defaults
   std::vector<Path> recent;
   std::vector<Path> trusted = {};  ///< folders whose files any scene may use
   bool operator==(const Preferences&) const = default;
 };
 
-/// Reads $XDG_CONFIG_HOME/holomorph/preferences.json. A missing or damaged file gives the defaults.
+/// Reads $XDG_CONFIG_HOME/holomorph/preferences.json. Returns the defaults if the file is missing
+/// or damaged.
 Preferences load_preferences();
-/// The same for a text. The result is valid for any text.
+/// Reads preferences from a text. The result is valid for any text.
 Preferences preferences_of_json(const std::string& text);
-/// Throws Error{failed} if they cannot be written.
+/// Writes the preferences. Throws Error{failed} if this is not possible.
 void save_preferences(const Preferences& preferences);
 /// Moves a path to the front of the recent files, of which at most ten are kept.
 void remember(Preferences& preferences, const Path& path);
 
-/// Converts keys to JSON text, for exchange, and back. keys_of_json throws Error{bad_input} that
-/// says what is wrong.
+/// Converts key assignments to JSON text for export, and back for import. keys_of_json throws
+/// Error{bad_input} if the text is not a file of keys. `name` is used in the message.
 std::string json_of_keys(const KeyNames& keys);
 KeyNames keys_of_json(const std::string& text, const std::string& name);
 

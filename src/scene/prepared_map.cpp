@@ -1,5 +1,4 @@
-// The mesh and the precomputation of the method are reused from the last preparation where
-// possible.
+// Where possible, the mesh and the method's precomputation are reused from the last preparation.
 #include "scene/prepared_map.h"
 
 #include <algorithm>
@@ -12,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-/// The number of control points; those of curves count more because they take much longer to
-/// compute.
+/// The number of control points. Control points of curves count twice, because their coordinates
+/// take much longer to compute.
 double cost_of(const Cage& cage) {
   double cost = 0;
   for (Index i = 0; i < cage.size(); ++i) cost += cage.degree(i) > 1 ? 2.0 * cage.degree(i) : 1.0;

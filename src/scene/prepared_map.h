@@ -1,4 +1,4 @@
-// What is precomputed for the rest state of a deformation: a domain mesh and a deformer on it.
+// The precomputation for a deformation's rest state: a domain mesh and a deformer on it.
 #pragma once
 
 #include <atomic>
@@ -16,10 +16,10 @@ struct PreparedMap {
   std::string method;
   std::shared_ptr<const Mesh> mesh;
   std::unique_ptr<Deformer> deformer;
-  std::vector<std::optional<Location>> pins;  ///< of the rest pins; none outside the mesh
-  double milliseconds = 0;                    ///< time taken by the preparation
-  /// Interpolation between maps on the mesh. Null until it is first needed, or computed in idle
-  /// time.
+  std::vector<std::optional<Location>>
+      pins;                 ///< of the pins at rest; none for pins outside the mesh
+  double milliseconds = 0;  ///< time taken by the preparation
+  /// Interpolation between maps on the mesh. Null until it is needed or is computed in idle time.
   std::atomic<std::shared_ptr<const Inbetween>> between = {};
 };
 
@@ -34,13 +34,13 @@ std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
 /// The depths of the pins, if the method uses pins.
 std::vector<Depth> depths_of(const Deformation& deformation);
-/// The mesh in drawing order, with its triangles from the lowest to the highest. It is the same
-/// mesh if all depths are equal.
+/// The mesh with its triangles in drawing order, from the lowest to the highest. Returns `mesh`
+/// itself if all depths are equal.
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const std::vector<Depth>& depths);
 
-/// Prepares synchronously on the calling thread. What `previous`, if given, has in common is
-/// reused: the mesh of the same cage and the precomputation of the same method. Throws Error.
+/// Prepares a map synchronously on the calling thread. If `previous` has the same cage, its mesh is
+/// reused. If it has the same method, its precomputation is reused where possible. Throws Error.
 std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precision precision,
                                           const MeshOptions& options,
                                           const PreparedMap* previous = nullptr);

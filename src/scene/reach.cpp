@@ -1,5 +1,5 @@
-// Paths are checked by their names first. Only a path whose name is in reach is then accessed,
-// because it may be a link.
+// A path is first checked by its name alone. If the name is in reach, the path may still be a link,
+// so its target is then checked too.
 #include "scene/reach.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ bool lies_in(const Path& file, const Path& folder) {
   return !way.empty() && *way.begin() != "..";
 }
 
-/// The path with all links followed, even if nothing is there. Empty if the links form a cycle or
+/// The path with all links resolved. The file need not exist. Empty if the links form a cycle or
 /// cannot be followed.
 Path real_path(Path path) {
   constexpr int kMostLinks = 40;
@@ -37,7 +37,7 @@ bool Reach::covers(const Path& file, const Path& scene_folder) const {
     return std::ranges::find(folders, each.parent_path()) != folders.end();
   };
   if (!lies_in(name, folder) && !is_known(name)) return false;
-  // It may still be a link.
+  // The path may still be a link.
   const Path real = real_path(name);
   if (real.empty()) return false;
   return lies_in(real, real_path(folder)) || std::ranges::any_of(folders, [&](const Path& each) {

@@ -1,4 +1,4 @@
-// Which files a scene may have the program read.
+// The set of files that the program may read for a scene.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace holomorph {
 
-/// An untrusted scene may name any file. By default it reaches only the files in its own folder.
-/// Links are followed: the file that they lead to counts.
+/// The files within reach of a scene. An untrusted scene may name any file, but by default only the
+/// files in its own folder and its subfolders are in reach. A link is in reach if its target is.
 struct Reach {
   bool everywhere = false;
-  std::vector<Path> folders = {};  ///< absolute; allows the files directly in these folders
+  std::vector<Path> folders = {};  ///< absolute paths; also allows the files directly in them
 
-  /// Whether a scene in a folder may read a file, given by its absolute path. Only the allowed
-  /// folders are accessed, so the answer reveals nothing about files elsewhere.
+  /// Whether a scene in a folder may read a file, given by its absolute path. The check accesses
+  /// only the allowed folders. The result therefore reveals nothing about files elsewhere.
   bool covers(const Path& file, const Path& scene_folder) const;
 };
 

@@ -1,4 +1,4 @@
-// The origin is stored in the autosave itself, which therefore needs no other file than its lock.
+// The origin is stored in the autosave itself. The only other file is the lock.
 #include "scene/recovery.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr int kDeepestExtra = 1000;  // deeper than any scene that can be read
 
 constexpr const char *kOrigin = "autosave_of", *kOriginHash = "autosave_of_sha256";
 
-/// A member of the object in a JSON text; "" if there is none.
+/// The text of a member of a JSON object; "" if there is no such member.
 std::string member_of(const Extra& extra, const char* key) {
   if (extra.empty()) return "";
   const JsonTree tree(extra, kDeepestExtra);
@@ -61,7 +61,7 @@ Origin origin_of(const Scene& scene) {
 
 namespace {
 
-/// "hero.json, 30 cage points, 4 pins, 5 minutes ago".
+/// Describes an autosave, such as "art/hero.json, 30 cage points, 4 pins, 5 minutes ago".
 Recovery recovery_of(const Path& autosave, fs::file_time_type time) {
   Recovery recovery{autosave, "a scene", {}};
   std::string& name = recovery.label;

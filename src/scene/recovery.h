@@ -1,4 +1,4 @@
-// Autosaves: what an interrupted session leaves behind.
+// Autosaves, and the recovery of scenes after an interrupted session.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace holomorph {
 
-/// The path of a document's autosave in a folder, and of the file that is locked while its program
-/// runs.
+/// The path of a document's autosave in a folder, and the path of the autosave's lock file. The
+/// program holds the lock while it uses the autosave.
 Path autosave_path(const Path& folder, const std::string& id);
 Path lock_path(const Path& autosave);
 
-/// The file that an autosave's scene was opened from, and the hash of its content at that time. An
-/// autosave keeps both among the scene's unknown keys.
+/// The file of an autosaved document, and the hash of the file's last known content. An autosave
+/// stores both among the scene's unknown keys.
 struct Origin {
   Path file;  ///< empty if the scene was never saved
   std::string sha256;
@@ -27,7 +27,7 @@ Origin origin_of(const Scene& scene);
 struct Recovery {
   Path path;
   std::string label;
-  Path origin = {};  ///< the scene's own file; empty if it was never saved
+  Path origin = {};  ///< the scene's own file; empty if the scene was never saved
 };
 /// The autosaves that can be recovered, newest first.
 std::vector<Recovery> recoverable(const Path& folder);

@@ -10,8 +10,8 @@
 namespace holomorph {
 namespace {
 
-/// The mean of |f_zz|^2 L^2, from differences of f_z along mesh edges, weighted by the areas of
-/// triangles.
+/// The mean of |f_zz|^2 L^2, weighted by the areas of the triangles. f_zz is estimated from
+/// differences of f_z along mesh edges.
 double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map, double length) {
   double energy = 0, total = 0;
   for (const auto& [i, j, k] : mesh.triangles) {

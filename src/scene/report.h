@@ -1,4 +1,4 @@
-// A report on a scene's map in numbers.
+// A numerical report on a scene's map.
 #pragma once
 
 #include "core/maps/distortion.h"
@@ -6,7 +6,7 @@
 
 namespace holomorph {
 
-/// What `holomorph info` prints.
+/// The data that `holomorph info` prints.
 struct SceneReport {
   std::optional<int> frame;    ///< number of the animation frame
   std::optional<double> time;  ///< in seconds
@@ -18,11 +18,11 @@ struct SceneReport {
   double smoothness_energy = 0;             ///< mean |f_zz|^2 L^2 over triangles, dimensionless
   double pin_rms = 0;  ///< root mean square distance of pins from their targets, pixels
   MapReport map;
-  bool folds_visibly = false;  ///< as the editor decides it: specks do not count
+  bool folds_visibly = false;  ///< by the editor's criterion, which ignores specks
 };
 
-/// Measures a frame of a scene's map at the mesh's vertices or, between keyframes, in its
-/// triangles.
+/// Measures a frame of a scene's map at the mesh's vertices. Between keyframes, measures it in the
+/// mesh's triangles.
 SceneReport report_of(TimedMap& timed, const TimedFrame& frame);
 
 /// A report as readable text.

@@ -1,5 +1,5 @@
-// The content of a scene file: layers and what they share. Scene is a plain value; layers.h has the
-// operations on the stack of layers.
+// The content of a scene file: the layers and their common settings. Scene is a plain value.
+// Operations on the stack of layers are in layers.h.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace holomorph {
 
-/// The picture that a scene deforms, and the properties of its file. The path is relative to the
-/// scene's folder in a file, and absolute in a loaded scene.
+/// A reference to the picture of a layer, with properties of its file. The path is relative to the
+/// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};  ///< the layer of an OpenRaster file, by its file in the archive
+  std::string entry = {};  ///< for a layer of an OpenRaster file: its file in the archive
   int width = 0, height = 0;
   std::string sha256;
   Extra extra;
@@ -29,11 +29,12 @@ struct Layer {
   Deformation deformation = {};
   Extra extra = {};
 
-  /// Ids are not compared.
+  /// Compares everything except ids.
   bool operator==(const Layer& other) const;
 };
 
-/// A layer that copies of a scene share until one of them changes it. Every drag copies scenes.
+/// An immutable layer that copies of a scene share. Scenes are copied often, for example in every
+/// drag.
 class SharedLayer {
  public:
   SharedLayer() : SharedLayer(Layer{}) {}
@@ -52,7 +53,7 @@ class SharedLayer {
 /// The settings that all keyframes share.
 struct AnimationSettings {
   double frames_per_second = 24;
-  bool linear_blend = false;  ///< in-betweens blend positions instead of shapes
+  bool linear_blend = false;  ///< in-betweens interpolate positions instead of shapes
   bool operator==(const AnimationSettings&) const = default;
 };
 /// The background behind the layers: nothing, a color, or the original pictures.
@@ -71,15 +72,15 @@ struct Scene {
   AnimationSettings animation = {};
   Extra animation_extra = {}, extra = {};
 
-  const Layer& layer() const { return *layers[edited]; }  ///< the edited one
+  const Layer& layer() const { return *layers[edited]; }  ///< the edited layer
   const Deformation& deformation() const { return layer().deformation; }
   bool operator==(const Scene&) const = default;
 };
 
-/// Replaces the edited layer, or its deformation.
+/// Replaces the edited layer, or the deformation of the edited layer.
 Scene with_layer(Scene scene, Layer layer);
 Scene with_deformation(Scene scene, Deformation deformation);
-/// A scene of one layer.
+/// A scene with a single layer.
 Scene scene_of(Layer layer);
 Scene scene_of(Deformation deformation);
 

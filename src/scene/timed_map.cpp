@@ -1,4 +1,4 @@
-// The deformer evaluates poses; maps between keyframes are known on the mesh only.
+// The deformer evaluates poses. Maps between keyframes are known only on the mesh.
 #include "scene/timed_map.h"
 
 #include <utility>

@@ -1,4 +1,5 @@
-// A deformation's map in full precision, in its own pose or at a time of its keyframes.
+// A deformation's map in full precision, in the deformation's own pose or at a time of its
+// animation.
 #pragma once
 
 #include "core/maps/distortion.h"
@@ -8,26 +9,27 @@
 
 namespace holomorph {
 
-/// The map at a moment. In the deformation's own pose, and in the pose of a keyframe, it is the map
-/// of the method. Between keyframes it is linear in each triangle, without any guarantee.
+/// The map at a moment. In the deformation's own pose and at keyframes, the method computes the map
+/// with its guarantees. Between keyframes, the map is linear in each triangle and has no
+/// guarantees.
 struct TimedFrame {
-  Deformation deformation;   ///< with its handles at that moment
+  Deformation deformation;   ///< with the handles' positions at that moment
   std::optional<Pose> pose;  ///< none between keyframes
   VectorXc between;          ///< f at the mesh's vertices, between keyframes only
 };
 
-/// The map of a deformation at many moments, which share one preparation.
+/// The map of a deformation, prepared once and evaluated at many moments.
 class TimedMap {
  public:
-  /// Throws Error as prepared_map() does.
+  /// Throws the errors of prepared_map().
   explicit TimedMap(const Deformation& deformation, bool linear_blend = false);
   /// The map of the edited layer.
   explicit TimedMap(const Scene& scene)
       : TimedMap(scene.deformation(), scene.animation.linear_blend) {}
 
-  /// The frame at a time; without a time, or without keyframes, the deformation's own pose. Throws
-  /// Error if none of the keyframes plays or one of them has no map. Cost: the maps of all
-  /// keyframes on the first call, then a sparse solve.
+  /// The frame at a time. Without a time or without keyframes, the frame in the deformation's own
+  /// pose. Throws Error if none of the keyframes plays, or if a keyframe that plays has no map.
+  /// Cost: the maps of all keyframes on the first call, and a sparse solve on each later call.
   TimedFrame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }
@@ -35,12 +37,12 @@ class TimedMap {
 
   /// The map at the mesh's vertices, with derivatives.
   SampledMap on_mesh(const TimedFrame& frame) const;
-  /// The map at any points, with derivatives. It is NaN where the method's map is NaN, and
-  /// meaningless outside the cage. The precomputation for the points is kept for the next frame
+  /// The map at any points, with derivatives. Values are NaN where the method's map is NaN, and
+  /// meaningless outside the cage. The precomputation for the points is reused by the next call
   /// with the same points.
   SampledMap at(const TimedFrame& frame, const Points& points);
 
-  /// The inverse of a frame's map, together with the map.
+  /// A frame's map and its inverse.
   struct Inverse {
     std::unique_ptr<PointMap> map;
     InverseMap inverse;
@@ -48,7 +50,7 @@ class TimedMap {
     Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
         : map(std::move(of)), inverse(rest, mesh, as_span(f), *map) {}
   };
-  /// Null if the method knows its map only at samples. The TimedMap must outlive the result.
+  /// Null if the method evaluates its map only at samples. The TimedMap must outlive the result.
   std::unique_ptr<Inverse> inverse(const TimedFrame& frame) const;
 
  private:

@@ -36,7 +36,7 @@ struct Descriptor {
   ~Descriptor() { ::close(fd); }
 };
 
-/// Flushes a directory's entries, so that a rename in it survives a power failure.
+/// Flushes a directory's entries to disk. A rename in the directory then survives a power failure.
 void sync_directory(const Path& directory) {
   const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;
@@ -55,7 +55,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// The target of a path through links. Throws Error if the links form a cycle.
+/// The path that results from following links. Throws Error if the links form a cycle.
 Path target_of(Path path) {
   constexpr int kMostLinks = 40;
   std::error_code error;
@@ -73,8 +73,8 @@ Path folder_of(const Path& path) {
   return path.has_parent_path() ? path.parent_path() : Path(".");
 }
 
-/// The permissions of new files. umask() can only be queried by setting it, which would affect
-/// files that other threads are creating.
+/// The permissions of new files. Does not call umask(), which can be queried only by setting it.
+/// That would affect files that other threads are creating.
 mode_t default_file_mode() {
   static const mode_t mask = [] {
     std::ifstream status("/proc/self/status");
@@ -85,14 +85,14 @@ mode_t default_file_mode() {
   return 0666 & ~mask;
 }
 
-/// The permissions of the file that is replaced, or those of new files.
+/// The permissions of the existing file at `path`, or the permissions of new files.
 mode_t mode_for(const Path& path) {
   struct stat before {};
   return ::stat(path.c_str(), &before) == 0 ? before.st_mode & 07777 : default_file_mode();
 }
 
 constexpr std::string_view kTemporary = ".holomorph-";
-constexpr size_t kRandom = 8;  ///< hexadecimal digits after it
+constexpr size_t kRandom = 8;  ///< hexadecimal digits after the prefix
 
 bool is_temporary(const std::string& name) {
   return name.starts_with(kTemporary) && name.size() == kTemporary.size() + kRandom &&
@@ -106,8 +106,8 @@ Path temporary_path(const Path& folder) {
   return folder / name;
 }
 
-/// Removes what a NewFile or a NewFolder left behind, unless it is in use or something else has
-/// that name.
+/// Removes a file or folder left behind by a NewFile or a NewFolder. Does nothing if it is in use
+/// or something else has the name.
 void remove_leftover(int folder, const char* name) {
   const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return;
@@ -117,7 +117,7 @@ void remove_leftover(int folder, const char* name) {
   if (::fstat(fd, &opened) != 0 || opened.st_uid != ::geteuid() ||
       ::flock(fd, LOCK_EX | LOCK_NB) != 0)
     return;
-  // Something else may have taken the name since it was opened.
+  // Something else may have taken the name since the file was opened.
   if (::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino ||
       named.st_dev != opened.st_dev)
     return;
@@ -132,14 +132,15 @@ void remove_leftover(int folder, const char* name) {
     if (ours) ::unlinkat(fd, entry->d_name, 0);
   }
   ::closedir(entries);
-  ::unlinkat(folder, name, AT_REMOVEDIR);  // succeeds only if it is empty
+  ::unlinkat(folder, name, AT_REMOVEDIR);  // succeeds only if the folder is empty
 }
 
-/// Removes what killed programs have left in a folder. Whatever is locked is in use.
+/// Removes temporary files that killed programs have left in a folder. Locked files are in use.
 void clean(const Path& folder) {
   using Clock = std::chrono::steady_clock;
   static std::mutex mutex;
-  static std::map<Path, Clock::time_point> cleaned;  // not again for each frame of a film
+  static std::map<Path, Clock::time_point>
+      cleaned;  // avoids repeating this for each frame of a film
   {
     const std::lock_guard lock(mutex);
     const auto [last, first] = cleaned.try_emplace(folder, Clock::now());
@@ -158,11 +159,11 @@ void clean(const Path& folder) {
   }
 }
 
-/// Locks a file or folder that was just created. Returns false if another process has removed it
-/// before.
+/// Locks a file or folder that was just created. Returns false if another process has already
+/// removed it.
 bool lock_created(int descriptor) {
   while (::flock(descriptor, LOCK_EX) != 0)
-    if (errno != EINTR) break;  // without locks, no process removes anything
+    if (errno != EINTR) break;  // if locks fail, no process removes anything
   struct stat found {};
   return ::fstat(descriptor, &found) == 0 && found.st_nlink > 0;
 }
@@ -239,12 +240,12 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   if (fd < 0) throw refuse(unreadable(path, errno));
   const Descriptor closed{fd};
   if (waits) return read_descriptor(fd, path, limit);
-  // The name may refer to another file since it was checked.
+  // The name may refer to another file than the one that was checked.
   if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
     throw refuse("this is not a regular file");
   if (static_cast<size_t>(found.st_size) > limit)
     throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
-  // Reads no more than its size, because some system files have no end.
+  // Read no more than the size of the file, because some system files have no end.
   std::string bytes(static_cast<size_t>(found.st_size), '\0');
   size_t done = 0;
   while (done < bytes.size()) {
@@ -303,7 +304,7 @@ void check_not_read_only(const Path& path) {
 
 NewFile::NewFile(const Path& wanted, Readers readers)
     : path_(target_of(wanted)), readers_(readers) {
-  if (is_stream(path_)) {  // it cannot be replaced
+  if (is_stream(path_)) {  // a stream cannot be replaced
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(path_, "cannot be opened for writing");
     return;
@@ -388,7 +389,7 @@ void move_file(const Path& finished, const Path& wanted) {
 FileLock::FileLock(const Path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
   if (descriptor_ < 0) fail(path, "cannot be created");
-  for (int attempt = 0; attempt < 50; ++attempt) {  // another process may be probing it
+  for (int attempt = 0; attempt < 50; ++attempt) {  // another process may be probing the lock
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     if (errno != EWOULDBLOCK && errno != EINTR) break;
     ::usleep(1000);
@@ -405,7 +406,8 @@ FileLock::~FileLock() {
 bool FileLock::is_held(const Path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // probes share the lock
+  const bool held =
+      ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;  // several probes can share the lock
   ::close(descriptor);
   return held;
 }

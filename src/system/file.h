@@ -1,4 +1,4 @@
-// Operations on whole files, which are read in one piece and replaced atomically.
+// Operations on whole files. Files are read in one piece and replaced atomically.
 #pragma once
 
 #include <filesystem>
@@ -11,42 +11,43 @@ namespace holomorph {
 
 using Path = std::filesystem::path;
 
-/// The absolute path without dots; the path itself if the working folder no longer exists.
+/// The absolute path without "." and ".."; the path itself if the working folder no longer exists.
 Path absolute_path(const Path& path);
 
-/// Whether there is a file or folder with this name; false for names that cannot be looked up.
+/// Whether a file or folder with this name exists. False if the name cannot be looked up.
 bool path_exists(const Path& path);
-/// Whether there is a regular file with this name.
+/// Whether a regular file with this name exists.
 bool is_file(const Path& path);
 
 /// The bytes of a regular file. Throws Error{bad_input} if it is missing, a directory, unreadable
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
-/// The same, and also reads a pipe or a device up to its end. It may wait, so use it for files that
-/// the user names, not for those that a file names.
+/// Like read_file(), but also reads a pipe or a device up to its end. The call may wait. Use it
+/// only for files that the user names, not for files that another file names.
 std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
 
-/// All bytes of standard input, at most `limit`. Throws Error{bad_input} if there are more.
+/// All bytes of standard input. Throws Error{bad_input} if there are more than `limit`.
 std::string read_standard_input(size_t limit = size_t{1} << 30);
 
-/// A file that is being written. It is written under a short temporary name next to its
-/// destination, and appears there as a whole when it is put in place, or never. What a killed
-/// program leaves behind is removed by the next NewFile or NewFolder in that folder. A pipe or a
-/// device is written directly.
+/// A file that is being written. The data are written to a temporary file with a short name next to
+/// the destination. put_in_place() replaces the destination atomically. Temporary files of killed
+/// programs are removed by a later NewFile or NewFolder in the same folder. A pipe or a device is
+/// written directly.
 class NewFile {
  public:
-  /// Who may read the file. Usual: the same users as the file that it replaces, or those that the
-  /// umask allows. Owner: only its owner.
+  /// The permissions of the file. Usual: those of the file that it replaces, or for a new file
+  /// those that the umask allows. Owner: only the owner may read the file.
   enum class Readers { usual, owner };
 
-  /// Throws Error{failed} if nothing can be written there. A link keeps its target.
+  /// Throws Error{failed} if the destination cannot be written. If `path` is a link, its target is
+  /// replaced.
   explicit NewFile(const Path& path, Readers readers = Readers::usual);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// Both throw Error{failed}.
+  /// Both functions throw Error{failed}.
   void write(std::string_view bytes);
   void put_in_place();
   /// The open file, for other programs to write to.
@@ -58,7 +59,8 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// A temporary folder for files that belong together. Whatever is not moved out of it is removed.
+/// A temporary folder for files that belong together. The destructor removes the folder with all
+/// files that remain in it.
 class NewFolder {
  public:
   /// Creates the folder next to a file. Throws Error{failed}.
@@ -73,27 +75,28 @@ class NewFolder {
   int descriptor_ = -1;
 };
 
-/// Replaces the file's content, flushed to disk, or throws Error{failed} and leaves the file as it
-/// was. Unless SIGPIPE is ignored, writing to a pipe without a reader ends the program.
+/// Replaces the file's content and flushes it to disk. On failure, throws Error{failed} and leaves
+/// the file unchanged. Unless SIGPIPE is ignored, writing to a pipe without a reader ends the
+/// program.
 void write_file(const Path& path, const std::string& bytes,
                 NewFile::Readers readers = NewFile::Readers::usual);
-/// Replaces a file's content in the same way by a finished file, ideally in the same file system.
-/// The finished file is gone afterwards.
+/// Replaces a file in the same way with a finished file, which is moved. This is fastest within one
+/// file system.
 void move_file(const Path& finished, const Path& path);
-/// Whether a path names something that is written into instead of being replaced: a pipe or a
-/// device. Throws Error for a folder.
+/// Whether a path names a pipe or a device, which is written directly instead of being replaced.
+/// Throws Error for a folder.
 bool is_stream(const Path& path);
-/// Throws Error{failed} if not all of it can be written to standard output.
+/// Writes to standard output. Throws Error{failed} if not all bytes can be written.
 void write_standard_output(const std::string& bytes);
 
-/// Whether there is such a file and this user may not write it, or its permissions let nobody write
+/// Whether a file exists and either this user may not write it or its permissions let nobody write
 /// it.
 bool is_read_only(const Path& path);
 /// Throws Error{failed} if the file is read-only.
 void check_not_read_only(const Path& path);
 
-/// A mark that a running program owns something. It is held until the object is destroyed or the
-/// program ends, however it ends.
+/// A lock that shows that a running program owns something. It is released when the object is
+/// destroyed or the program ends, even if the program is killed.
 class FileLock {
  public:
   /// Creates the file if necessary and locks it. Throws Error{failed} if that is not possible.
@@ -109,16 +112,17 @@ class FileLock {
   int descriptor_;
 };
 
-/// The error with the file's name in front, unless its message already starts with it.
+/// The error with the file's name in front of the message, unless the message already starts with
+/// the name.
 Error about(const Path& file, const Error& error);
 
-/// A text that may come from a file, with a question mark for each character that would control a
+/// A text made safe for display. A question mark replaces each character that would control a
 /// terminal or change the text direction.
 std::string printable(const std::string& text);
 
 /// The text with ASCII letters in lower case, for extensions and searches.
 std::string lower_case(std::string text);
-/// Whether a text contains all of these words, in lower or upper case.
+/// Whether a text contains all of these words, ignoring case.
 bool has_words(const std::string& text, const std::string& words);
 
 /// The SHA-256 of bytes as 64 lower-case hexadecimal digits.

@@ -1,4 +1,4 @@
-// Work on its own thread that reports its progress and can be canceled.
+// Runs work on its own thread. The work reports its progress and can be canceled.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace holomorph {
 
 class Job {
  public:
-  /// The progress that the work reports, and its request to stop.
+  /// Passes progress from the work to the owner of the job, and cancellation to the work.
   class Progress {
    public:
     /// Reports that `done` of `all` steps are done. Returns whether to continue.
@@ -32,19 +32,19 @@ class Job {
   };
   using Work = std::function<void(Progress&)>;
 
-  /// Starts the work. `wake` is called on the job's thread when it has ended.
+  /// Starts the work. `wake` is called on the job's thread when the work has ended.
   Job(std::string title, Work work, std::function<void()> wake = {});
-  ~Job();  ///< cancels and waits
+  ~Job();  ///< cancels the work and waits for its end
 
   const std::string& title() const { return title_; }
   int done() const { return progress_.done_; }
-  int all() const { return progress_.all_; }  ///< 0 while it is unknown
+  int all() const { return progress_.all_; }  ///< 0 while the number of steps is unknown
   void cancel() { progress_.cancelled_ = true; }
   bool cancelled() const { return progress_.cancelled_; }
   bool ended() const { return ended_; }
   /// Waits for at most this long. Returns whether the job has ended.
   bool ended_within(double milliseconds) const;
-  /// What went wrong in a job that has ended.
+  /// The error that ended the job, if any.
   std::optional<Error> error() const;
 
  private:

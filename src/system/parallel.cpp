@@ -1,4 +1,4 @@
-// The next number is taken by whichever thread is free.
+// Each free thread takes the next number.
 #include "system/parallel.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void parallel_for(int count, const std::function<void(int)>& body,
     try {
       for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(work, false);
     } catch (const std::system_error&) {
-      // The threads that could be started, this one at least, do all of it.
+      // The threads that have been started, or this thread alone, do all the work.
     }
     work(true);
   }

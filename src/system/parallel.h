@@ -1,13 +1,14 @@
-// Loops on all processor cores.
+// Runs loops on all processor cores.
 #pragma once
 
 #include <functional>
 
 namespace holomorph {
 
-/// Calls `body` once for each number below `count`, on this thread and others: as many as there are
-/// cores, or `threads`. `progress` is called on this thread with how many have been started. What
-/// any of them throws ends the loop and is thrown here.
+/// Calls `body` once for each number from 0 to count - 1, on this thread and others. Uses `threads`
+/// threads in total, or one per core if `threads` is 0. `progress` is called on this thread with
+/// the number of calls that have been started. An exception in any call ends the loop and is
+/// rethrown.
 void parallel_for(int count, const std::function<void(int)>& body,
                   const std::function<void(int)>& progress = {}, int threads = 0);
 

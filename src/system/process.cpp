@@ -35,7 +35,7 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
     ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
   else
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // No later action may close this descriptor, so it comes last and has its own number.
+  // This action comes last, because no later action may overwrite the descriptor.
   if (passed >= 0) ::posix_spawn_file_actions_adddup2(&actions, passed, kPassedDescriptor);
   Child child;
   const int wrong =
@@ -79,7 +79,7 @@ std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
                                    MSG_NOSIGNAL | MSG_DONTWAIT);
       sent = count > 0                           ? sent + static_cast<size_t>(count)
              : errno == EAGAIN || errno == EINTR ? sent
-                                                 : input.size();  // it no longer reads
+                                                 : input.size();  // the program no longer reads
     }
     if (wait.revents & (POLLIN | POLLHUP)) {
       std::array<char, 65536> part;
@@ -96,7 +96,7 @@ std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
     good = good && keep_running() && finished.output.size() <= limit;
   }
   ::close(child->socket);
-  // The program may have closed its output and still run, or refuse to end.
+  // The program may still run after closing its output, or may not respond to SIGTERM.
   for (int waited = 0; !ended; waited += 10) {
     const pid_t found = ::waitpid(child->pid, &status, WNOHANG);
     ended = found == child->pid || (found < 0 && errno != EINTR);

@@ -1,4 +1,4 @@
-// Text and NumPy writers. Numbers in text have 17 significant digits, so that nothing is lost.
+// Text and NumPy writers. Numbers in text have 17 significant digits, which preserves them exactly.
 #include "scene/formats/export.h"
 
 #include <cstring>

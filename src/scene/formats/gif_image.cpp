@@ -1,4 +1,4 @@
-// Reads GIF files with giflib: the first picture of the file, on its canvas.
+// Reads GIF files with giflib. The result is the first picture of the file, placed on the canvas.
 #include <gif_lib.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ class GifReader {
   Image read(PixelBudget& pixels) {
     pixels.take(static_cast<unsigned>(file_->SWidth), static_cast<unsigned>(file_->SHeight), name_);
     find_picture();
-    PixelBudget frame;  // the part outside the canvas is decoded too
+    PixelBudget frame;  // parts outside the canvas are decoded too
     frame.take(static_cast<size_t>(file_->Image.Width), static_cast<size_t>(file_->Image.Height),
                name_);
     Image image(file_->SWidth, file_->SHeight);
@@ -49,7 +49,7 @@ class GifReader {
     const ColorMapObject* colors = at.ColorMap ? at.ColorMap : file_->SColorMap;
     if (!colors || at.Width < 1 || at.Height < 1) fail();
     std::vector<GifPixelType> line(static_cast<size_t>(at.Width));
-    // Interlaced files have every eighth row first, then the rows between them, and so on.
+    // Interlaced files store every eighth row first, then the rows halfway between, and so on.
     const std::vector<std::pair<int, int>> passes =
         at.Interlace ? std::vector<std::pair<int, int>>{{0, 8}, {4, 8}, {2, 4}, {1, 2}}
                      : std::vector<std::pair<int, int>>{{0, 1}};

@@ -32,20 +32,20 @@ struct Image {
 /// The number of pixels that the pictures of a scene may still decode.
 class PixelBudget {
  public:
-  /// The budget with this many pixels already taken.
+  /// A budget with `taken` pixels already in use.
   explicit PixelBudget(double taken = 0) : taken_(taken) {}
-  /// Takes a picture's pixels from the budget; call it before decoding. Throws Error{bad_input} for
-  /// more pixels than are left, and for more than 16384 per side. `copies` is the memory that
-  /// decoding takes, in copies of the picture.
+  /// Takes a picture's pixels from the budget. Call it before decoding. Throws Error{bad_input} for
+  /// more pixels than are left, and for more than 16384 pixels per side. `copies` is the number of
+  /// copies of the picture that decoding holds in memory.
   void take(size_t width, size_t height, const std::string& name, double copies = 1);
 
  private:
   double taken_;
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, GIF, BMP, TGA and PSD, upright and in sRGB. `name` is
-/// used in messages. Throws Error{bad_input} if the bytes are not a picture, or if the picture is
-/// damaged, truncated or too large.
+/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, GIF, BMP, TGA and PSD. The result is upright and in
+/// sRGB. `name` is used in messages. Throws Error{bad_input} if the bytes are not a picture, or if
+/// the picture is damaged, truncated or too large.
 Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;
@@ -63,10 +63,10 @@ struct PictureFormat {
   std::string label, extension;
   std::string (*encode)(const Image& image);
 };
-/// PNG; JPEG, which has no transparency and shows white there; WebP, lossless for all visible
-/// pixels.
+/// PNG, JPEG and WebP. JPEG has no transparency; transparent areas become white. WebP is lossless
+/// for all visible pixels.
 const std::vector<PictureFormat>& picture_formats();
-/// A file's extension as the formats spell it: lower case, .jpg for .jpeg.
+/// A file's extension in normal form: lower case, and .jpg instead of .jpeg.
 std::string format_extension(const Path& file);
 /// The format for a file's extension, or PNG for a file without one. Throws Error{bad_input} for
 /// other extensions.

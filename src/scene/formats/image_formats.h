@@ -1,4 +1,4 @@
-// The picture formats. Each wraps its library in functions.
+// The functions that read and write each picture format.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace holomorph {
 
-// Decoders of still pictures, upright and in sRGB. `name` is used in messages. All throw
-// Error{bad_input} if the data are damaged, truncated, or more than the budget has left.
+// Decoders of still pictures. The results are upright and in sRGB. `name` is used in messages. All
+// throw Error{bad_input} if the data are damaged or truncated, or exceed the budget.
 bool is_png(const std::string& bytes);
 Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_jpeg(const std::string& bytes);
@@ -22,7 +22,7 @@ Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget&
 /// OpenRaster: the merged picture of all layers that the file contains.
 bool is_ora(const std::string& bytes);
 Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels);
-/// BMP, TGA and PSD; none for other files.
+/// BMP, TGA and PSD. None if the file has another format.
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels);
 
@@ -30,10 +30,10 @@ std::optional<Image> decode_plain(const std::string& bytes, const std::string& n
 /// Error{failed}.
 std::string encode_webp(const Image& image);
 
-/// The orientation in which the camera was held, 1 to 8 as in Exif, from a JPEG file or from a
-/// block that starts with "Exif". 1 if there is none.
+/// The Exif orientation, 1 to 8, that a JPEG file or a block starting with "Exif" states. 1 if it
+/// states none.
 int orientation_of_exif(const std::string& data);
-/// The picture of this Exif orientation, rotated and mirrored so that it is upright.
+/// Rotates and mirrors a picture with this Exif orientation to make it upright.
 Image upright(Image image, int orientation);
 
 }  // namespace holomorph

@@ -15,10 +15,10 @@
 namespace holomorph {
 namespace {
 
-constexpr int kMostScans = 100;  // each covers the whole picture, however few bytes it has
+constexpr int kMostScans = 100;  // a scan covers the whole picture, even if it has few bytes
 
-/// libjpeg leaves its functions by longjmp. The functions that it can leave therefore have no local
-/// objects with destructors; everything else is a member.
+/// libjpeg reports errors by longjmp. Functions that a longjmp can leave therefore have no local
+/// objects with destructors. Such objects are members instead.
 class JpegReader {
  public:
   JpegReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
@@ -38,7 +38,7 @@ class JpegReader {
 
   Image read(PixelBudget& pixels) {
     run(&JpegReader::read_header);
-    // A picture that is built up in passes is held in memory twice.
+    // For a picture with several scans, libjpeg needs the memory of a second copy.
     const double copies = jpeg_has_multiple_scans(&jpeg_) ? 2 : 1;
     pixels.take(jpeg_.image_width, jpeg_.image_height, name_, copies);
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
@@ -75,7 +75,7 @@ class JpegReader {
     std::longjmp(back_, 1);
   }
 
-  /// After these warnings libjpeg would continue with invented pixels, so they are errors.
+  /// After these warnings, libjpeg would continue with made-up pixels. They are treated as errors.
   void warn(int level) {
     if (level >= 0) return;
     const int code = errors_.msg_code;

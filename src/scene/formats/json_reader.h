@@ -1,4 +1,4 @@
-// JSON values that know their position in the document, so that errors can report it.
+// Reads JSON values. Each value knows its position in the document, for use in error messages.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ namespace holomorph {
 
 using Json = nlohmann::ordered_json;
 
-/// A JSON value and its position, with the errors that refer to it.
+/// A JSON value and its position. Errors state the position.
 class Reader {
  public:
   using Kind = JsonTree::Kind;
@@ -83,12 +83,12 @@ class Reader {
     if (value_.kind() != Kind::boolean) fail("expected true or false, found " + kind());
     return value_.truth();
   }
-  /// A parameter: a number, or a boolean as 0 or 1.
+  /// The value of a parameter: a number, or 0 or 1 for a boolean.
   double value() const {
     return value_.kind() == Kind::boolean ? (value_.truth() ? 1.0 : 0.0) : number();
   }
 
-  /// The unknown keys with their values, as JSON text; empty if there are none.
+  /// The members whose keys are in neither list, as JSON text; empty if there are none.
   Extra others(std::initializer_list<const char*> known,
                std::initializer_list<const char*> known_too = {}) const {
     const auto is_in = [](std::initializer_list<const char*> list, std::string_view key) {
@@ -118,12 +118,12 @@ class Reader {
       if (value_.key(i) == key) return i;
     return size();
   }
-  /// Each key once, in order of first occurrence, with the index of its last occurrence.
+  /// Each distinct key, in order of first occurrence, with the index of its last occurrence.
   std::vector<std::pair<std::string_view, size_t>> last_of_each() const {
     std::vector<std::uint32_t> sorted(size());
     std::iota(sorted.begin(), sorted.end(), 0u);
     std::ranges::sort(sorted, {}, [&](std::uint32_t i) { return std::pair(value_.key(i), i); });
-    std::vector<std::uint32_t> last(size());  // at first occurrences; kNone at the others
+    std::vector<std::uint32_t> last(size());  // kNone except at first occurrences
     constexpr std::uint32_t kNone = 0xffffffff;
     for (size_t i = 0; i < sorted.size();) {
       size_t end = i + 1;

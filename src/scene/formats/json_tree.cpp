@@ -1,5 +1,5 @@
-// nlohmann-json parses the text twice: once to count, and once to fill arrays that then have
-// exactly the right size.
+// nlohmann-json parses the text twice. The first pass counts the values. The second pass fills
+// arrays of exactly the right size.
 #include "scene/formats/json_tree.h"
 
 #include <bit>
@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// The number of items of each list and object, in the order in which they begin.
+/// Counts the items of each list and object, in the order in which the lists and objects begin.
 struct JsonTree::Count : nlohmann::json_sax<nlohmann::json> {
   explicit Count(int deepest) : deepest_(deepest) {}
 

@@ -1,4 +1,4 @@
-// A JSON document in little memory: twelve bytes per value, plus the strings.
+// A compact JSON document that needs twelve bytes per value, plus the strings.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace holomorph {
 
-/// A JSON document. Numbers are kept exactly as far as 64 bits allow. If a key occurs several times
-/// in an object, the last member counts. Cost: linear time, and at most six times the size of the
-/// text in memory.
+/// A JSON document. Integers that fit in 64 bits are exact. If a key occurs several times in an
+/// object, its last occurrence is used. Cost: linear time, and memory of at most six times the size
+/// of the text.
 class JsonTree {
  public:
-  /// Throws Error{bad_input} if the text is not JSON, saying where, or if brackets are nested more
-  /// than `deepest` deep.
+  /// Throws Error{bad_input} with the position of the error if the text is not JSON, or if brackets
+  /// are nested more than `deepest` levels deep.
   JsonTree(const std::string& text, int deepest);
   JsonTree(const JsonTree&) = delete;
   JsonTree& operator=(const JsonTree&) = delete;
@@ -31,10 +31,10 @@ class JsonTree {
     std::string_view text() const;
     /// The number of items of a list, or of members of an object.
     size_t size() const;
-    Value item(size_t i) const;  ///< of a list
+    Value item(size_t i) const;  ///< the item of a list at an index
     std::string_view key(size_t i) const;
-    Value member(size_t i) const;  ///< of an object
-    /// Appends the value as JSON text, without blanks.
+    Value member(size_t i) const;  ///< the value of an object's member at an index
+    /// Appends the value to a string as JSON text without blanks.
     void write(std::string& out) const;
 
    private:
@@ -49,8 +49,8 @@ class JsonTree {
   struct Count;
   struct Fill;
   /// Kind and count share a word. The count is the length of a string, or the number of items or
-  /// members. The other 64 bits are the bits of a number, the start of a string, or the index of
-  /// the first child. They are stored in two halves so that no space is lost to alignment.
+  /// members. The other 64 bits contain a number, the start of a string, or the index of the first
+  /// child. They are stored in two halves to avoid padding.
   struct Node {
     std::uint32_t kind : 3, count : 29;
     std::uint32_t low, high;
@@ -58,7 +58,7 @@ class JsonTree {
     std::uint64_t bits() const { return static_cast<std::uint64_t>(high) << 32 | low; }
   };
 
-  std::vector<Node> nodes_;  ///< children of one parent are contiguous, each key before its value
+  std::vector<Node> nodes_;  ///< siblings are contiguous; each key precedes its value
   std::string texts_;
 };
 

@@ -1,5 +1,5 @@
-// OpenRaster is a ZIP archive with a description of the stack and a PNG file for each layer. What a
-// file states about itself is not trusted: sizes are checked before memory is allocated.
+// An OpenRaster file is a ZIP archive. It contains a description of the layers and a PNG file for
+// each layer. Sizes stated in the file are checked before memory is allocated.
 #include "scene/formats/ora_image.h"
 
 #include <zip.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
 constexpr zip_uint64_t kLargestDescription = 4u << 20;
 constexpr int kDeepest = 50;        ///< levels of groups
-constexpr int kFarthest = 1 << 20;  ///< of a layer from the corner of the canvas
+constexpr int kFarthest = 1 << 20;  ///< offset of a layer from the canvas's corner
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw Error(ErrorKind::bad_input, name + ": the OpenRaster file is damaged: " + what);
@@ -65,7 +65,7 @@ class Archive {
 
 struct Placed {
   OraLayer layer;
-  int x = 0, y = 0;  ///< of its upper left corner on the canvas
+  int x = 0, y = 0;  ///< the layer's upper left corner on the canvas
   double opacity = 1;
 };
 struct Stack {
@@ -117,7 +117,7 @@ Stack stack_of(const Archive& archive, const std::string& name) {
 }  // namespace
 
 bool is_ora(const std::string& bytes) {
-  // The first entry is the type of the file, stored without compression.
+  // The first entry of the archive is the file's MIME type, stored without compression.
   return bytes.starts_with("PK\x03\x04") &&
          bytes.substr(0, 100).find("mimetypeimage/openraster") != std::string::npos;
 }
@@ -140,7 +140,7 @@ Image decode_ora_layer(const std::string& bytes, const std::string& entry, const
   const auto placed = std::ranges::find_if(
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
   if (placed == stack.layers.end()) fail(name, "its layer " + entry + " no longer exists");
-  PixelBudget alone;  // the part outside the canvas is not kept
+  PixelBudget alone;  // separate, because parts outside the canvas are not kept
   const Image picture = archive.picture(entry, alone);
   pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   Image canvas(stack.width, stack.height);

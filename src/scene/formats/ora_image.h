@@ -1,4 +1,4 @@
-// OpenRaster files, which Krita, GIMP and MyPaint write: pictures with layers.
+// OpenRaster files: pictures with layers, written by Krita, GIMP and MyPaint.
 #pragma once
 
 #include "scene/formats/image.h"
@@ -7,15 +7,15 @@ namespace holomorph {
 
 /// A layer of an OpenRaster file, without its pixels.
 struct OraLayer {
-  std::string name, entry;  ///< the user's name for it, and its file in the archive
+  std::string name, entry;  ///< the layer's name, and its file in the archive
   bool visible = true;
-  bool blended = false;  ///< with a blending mode other than the normal one
+  bool blended = false;  ///< has a blending mode other than normal
 };
 
-/// The layers from bottom to top, without their groups. Throws Error{bad_input}.
+/// The layers from bottom to top, as a flat list without groups. Throws Error{bad_input}.
 std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name);
-/// One layer on the whole canvas, with its opacity applied to the pixels. Blending modes are
-/// ignored. Throws Error{bad_input}.
+/// Decodes one layer as a picture of the canvas's size. The layer's opacity is applied to the
+/// pixels. Blending modes are ignored. Throws Error{bad_input}.
 Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
                        PixelBudget& pixels);
 

@@ -1,4 +1,5 @@
-// SVG paths and pictures become cages first, because cages can already be read, traced and checked.
+// SVG paths and pictures are first converted to cages, to reuse the code that reads, traces and
+// checks cages.
 #include "scene/formats/outline_import.h"
 
 #include "core/outline/outline_match.h"
@@ -34,7 +35,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       const Image image = decode_image(bytes, name);
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
     }
-    // A surface recognizes its boundary by the number of its points.
+    // The number of points identifies a surface's boundary, so it is not resampled.
     if (kind != ".obj" && static_cast<Index>(outline.size()) > kMost)
       outline = at_equal_lengths(Polyline(outline, true), kMost);
     check_outline(outline);

@@ -1,4 +1,5 @@
-// Outlines from files: the path of an SVG, the opaque part of a picture, the boundary of a surface.
+// Imports outlines from files: the path in an SVG file, the contour of a picture's content, or the
+// boundary of a surface.
 #pragma once
 
 #include "core/mesh/mesh.h"
@@ -7,16 +8,16 @@
 
 namespace holomorph {
 
-/// The closed curve in a file, suitable for Deformation::outline. From an SVG file it is the path
-/// that cage_of_svg reads, in plane coordinates for a picture of this height. From a picture it is
-/// the outline of the largest connected part that is not transparent, moved and scaled so that its
-/// bounding box has the center and the diagonal of `onto`. From a surface (.obj) it is the boundary
-/// of its flattening, placed in the same way. Throws Error{bad_input} if the file cannot be read or
-/// has no valid outline.
+/// The closed curve in a file, suitable for Deformation::outline. From an SVG file, it is the path
+/// that cage_of_svg reads, in plane coordinates for a picture of this height. From a picture, it is
+/// the outline of the largest connected part that is not transparent. From a surface (.obj), it is
+/// the boundary of the flattened surface. Outlines of pictures and surfaces are moved and scaled to
+/// give their bounding boxes the same center and diagonal as `onto`. Throws Error{bad_input} if the
+/// file cannot be read or has no valid outline.
 Points outline_of_file(const Path& path, double height, const Box& onto,
                        Flattening how = Flattening::lscm);
 
-/// A reference, by absolute path, to a file that is a surface (.obj); none for other files.
+/// A reference with the file's absolute path if the file is a surface (.obj). None for other files.
 std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how);
 
 }  // namespace holomorph

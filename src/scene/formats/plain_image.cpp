@@ -1,5 +1,5 @@
-// Reads BMP, TGA and PSD files with stb_image, which takes missing bytes as zeros and trusts what a
-// file states. This file therefore checks first that all pixels are there.
+// Reads BMP, TGA and PSD files with stb_image. stb_image reads missing bytes as zeros and does not
+// check sizes stated in a file. Therefore the code here first checks that all pixels are present.
 #include "core/error.h"
 #include "scene/formats/image_formats.h"
 
@@ -22,7 +22,7 @@
 namespace holomorph {
 namespace {
 
-/// The numbers in a file. Reading past its end is an error.
+/// Reads numbers from the bytes of a file. Reading past the end is an error.
 class Bytes {
  public:
   Bytes(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -41,7 +41,7 @@ class Bytes {
     for (size_t k = 0; k < count; ++k) value = value << 8 | at(place + k);
     return value;
   }
-  /// Throws Error unless `count` bytes are there.
+  /// Throws Error unless there are `count` bytes at `place`.
   void need(size_t place, size_t count) const {
     if (place > bytes_.size() || count > bytes_.size() - place)
       throw Error(ErrorKind::bad_input,
@@ -80,7 +80,7 @@ void check_bmp(const Bytes& file, const Size& size) {
   const size_t bits = file.little(header == 12 ? 24 : 28, 2), pixels = file.little(10, 4);
   if (bits > 32) file.damaged("its pixels have an unknown format");
   const size_t row = (size.width * bits + 31) / 32 * 4;
-  // The last row may lack its padding.
+  // The padding of the last row may be missing.
   file.need(pixels, row * (size.height - 1) + (size.width * bits + 7) / 8);
 }
 
@@ -133,7 +133,8 @@ void check_psd(const Bytes& file, const Size& size) {
     }
 }
 
-/// TGA files have no signature. A file counts as one if all of its header is plausible.
+/// Whether a file is a TGA file. The format has no signature, so this checks that all fields of the
+/// header are plausible.
 bool is_tga(const std::string& bytes) {
   if (bytes.size() < 18) return false;
   const auto at = [&](size_t i) { return static_cast<unsigned char>(bytes[i]); };
@@ -145,13 +146,13 @@ bool is_tga(const std::string& bytes) {
 
 Image decode(const std::string& bytes, const std::string& name, const Size& size,
              PixelBudget& pixels, void (*check)(const Bytes&, const Size&)) {
-  constexpr size_t kLargestFile = 1u << 30;  // stb_image takes sizes as int
+  constexpr size_t kLargestFile = 1u << 30;  // stb_image stores sizes as int
   const Bytes file(bytes, name);
   if (size.width == 0 || size.height == 0 || bytes.size() > kLargestFile)
     file.damaged("its size is invalid");
   pixels.take(size.width, size.height, name);
   check(file, size);
-  static std::mutex mutex;  // stb_image stores its error message in one global place
+  static std::mutex mutex;  // stb_image stores its error message in a global variable
   const std::lock_guard lock(mutex);
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> found(

@@ -1,4 +1,5 @@
-// Reads PNG files with libpng, from memory: any depth, reduced to 8 bits, in sRGB and upright.
+// Reads PNG files from memory with libpng. Any bit depth is converted to 8 bits. The result is
+// upright and in sRGB.
 #include <png.h>
 
 #include <csetjmp>
@@ -11,8 +12,8 @@
 namespace holomorph {
 namespace {
 
-/// libpng leaves its functions by longjmp. The functions that it can leave therefore have no local
-/// objects with destructors; everything else is a member.
+/// libpng reports errors by longjmp. Functions that a longjmp can leave therefore have no local
+/// objects with destructors. Such objects are members instead.
 class PngReader {
  public:
   PngReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
@@ -81,7 +82,7 @@ class PngReader {
     read_colors();
   }
 
-  /// libpng allocates rows here, after their size has been checked.
+  /// libpng allocates its row buffers here, after the size of the rows has been checked.
   void prepare() {
     png_set_expand(png_);
     png_set_scale_16(png_);

@@ -1,4 +1,4 @@
-// The pose of a keyframe has the same sections as a deformation, each with only what moves.
+// The pose of a keyframe has the same sections as a deformation, but only the values that can move.
 #include "scene/formats/pose_json.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ PosePin read_pose_pin(const Reader& reader) {
   return pin;
 }
 
-/// The items of a list that must not be too long.
+/// Reads the items of a list. Throws Error if the list is too long.
 template <class Read>
 auto read_list(const Reader& list, size_t most, Read read) {
   list.array();
@@ -61,8 +61,8 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
   return pose;
 }
 
-/// An empty list is written if the deformation has such handles; without it they would be read as
-/// at rest.
+/// The pose as JSON. If the deformation has handles of a kind but the pose has none, writes an
+/// empty list. Without the list, the reader would put these handles at rest.
 Json pose_json(const Pose& pose, const Deformation& deformation) {
   Json json = Json::object();
   json["cage"] = loop_json(pose.cage);
@@ -208,7 +208,7 @@ Json animation_json(const AnimationSettings& settings) {
 
 namespace {
 
-/// Members are appended without a lookup, so that this takes linear time.
+/// Appends members without a lookup. This makes the conversion linear in time.
 Json to_json(const JsonTree::Value& value) {
   Json json;
   if (value.kind() == JsonTree::Kind::object) {

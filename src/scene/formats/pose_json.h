@@ -1,4 +1,4 @@
-// The parts of poses as JSON: curves, cages, corners, keyframes.
+// Reads and writes the parts of poses as JSON: curves, cages, corners, keyframes.
 #pragma once
 
 #include "scene/formats/json_reader.h"
@@ -8,10 +8,10 @@ namespace holomorph {
 Cage read_loop(const Reader& list);
 /// Reads points and passes them to `check`, which throws Error if they are invalid.
 Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>));
-/// Reads the next corner of the deformation. Corners are sorted by vertex.
+/// Reads the next corner of a deformation. The corners in a file are sorted by vertex.
 Corner read_corner(const Reader& reader, const Deformation& deformation);
-/// Reads the next keyframe of a deformation that is otherwise complete. Keyframes are sorted by
-/// time. Missing parts of the pose are at rest.
+/// Reads the next keyframe of a deformation. All other parts of the deformation must have been
+/// read. The keyframes in a file are sorted by time. Missing parts of the pose are at rest.
 Keyframe read_keyframe(const Reader& reader, const Deformation& deformation);
 AnimationSettings read_animation(const Reader& reader);
 

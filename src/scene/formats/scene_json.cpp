@@ -1,4 +1,4 @@
-// The reader carries the file's name and the JSON pointer, so that every error can state its
+// The reader carries the file's name and the JSON pointer. Therefore every error can state its
 // position.
 #include "scene/formats/scene_json.h"
 
@@ -25,7 +25,7 @@ void read_cage(const Reader& reader, Deformation& deformation) {
     reader["pose"].fail("there are " + std::to_string(deformation.pose.size()) +
                         " posed segments and " + std::to_string(deformation.rest.size()) +
                         " at rest; they must agree");
-  if (!deformation.has_cage()) return;  // not drawn yet
+  if (!deformation.has_cage()) return;  // no cage drawn yet
   try {
     check_rest_cage(deformation.rest);
   } catch (const Error& error) {
@@ -79,7 +79,7 @@ SurfaceReference read_surface(const Reader& reader) {
   return surface;
 }
 
-/// "original", or a color as "#rrggbb".
+/// Reads a background: "original", or a color as "#rrggbb".
 Background read_background(const Reader& reader) {
   const std::string text = reader.text();
   if (text == "original") return {Background::Fill::original};
@@ -161,8 +161,8 @@ Json parameters_json(const Method& method, const Parameters& parameters) {
   return values;
 }
 
-/// Writes lists of numbers on one line and indents everything else, for short files that read well
-/// in a diff.
+/// Writes lists of numbers on one line and indents everything else. This keeps files short and
+/// diffs readable.
 void write_value(const Json& value, int depth, std::string& out) {
   const std::string indent(2 * (depth + 1), ' ');
   const auto flat = [](const Json& list) {
@@ -193,7 +193,7 @@ void write_value(const Json& value, int depth, std::string& out) {
   }
 }
 
-/// [x, y, radius, level].
+/// Reads a brush dab, written as [x, y, radius, level].
 BrushDab read_dab(const Reader& reader) {
   if (reader.array().size() != 4) reader.fail("expected [x, y, radius, level]");
   const double x = reader[size_t{0}].within(-kMaxCoordinate, kMaxCoordinate),
@@ -203,7 +203,7 @@ BrushDab read_dab(const Reader& reader) {
           reader[3].within(-kMaxDabLevel, kMaxDabLevel)};
 }
 
-/// Reads what belongs to one layer, in both layouts of the file.
+/// Reads the deformation of one layer, in both layouts of the file.
 Deformation read_deformation(const Reader& reader) {
   Deformation deformation;
   read_cage(reader["cage"], deformation);
@@ -246,7 +246,7 @@ Deformation read_deformation(const Reader& reader) {
   return deformation;
 }
 
-/// Reads what all layers share.
+/// Reads the settings that all layers share.
 void read_shared(const Reader& reader, Scene& scene) {
   if (reader.has("animation")) {
     scene.animation = read_animation(reader["animation"]);

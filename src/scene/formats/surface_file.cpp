@@ -1,4 +1,4 @@
-// OBJ is a small format that is read line by line.
+// OBJ files are read line by line.
 #include "scene/formats/surface_file.h"
 
 #include <algorithm>
@@ -81,7 +81,8 @@ class ObjReader {
     return value;
   }
 
-  /// The index for a number that counts from 1, or from the end if it is negative.
+  /// Converts an OBJ index to an index from 0. OBJ indices count from 1, and negative ones count
+  /// from the end.
   int index(std::string_view text, size_t count) const {
     long value = 0;
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -110,7 +111,7 @@ class ObjReader {
       corners_.push_back({face[0], face[k], face[k + 1]});
   }
 
-  /// The surface with the vertices that faces use, in the order of the file.
+  /// The surface with only the vertices used by faces, in the order of the file.
   SurfaceFile result() const {
     std::vector<int> number(points_.size(), -1), texture(points_.size(), -1);
     bool consistent = true;
@@ -161,7 +162,7 @@ std::string texture_of_materials(const std::string& text) {
         !std::isspace(static_cast<unsigned char>(name[kKey.size()])))
       continue;
     name = trimmed(name.substr(kKey.size()));
-    // An option is a word that starts with a minus sign, together with the values after it.
+    // An option is a word that starts with a minus sign, followed by its values.
     while (name.starts_with("-")) {
       std::istringstream words(name);
       std::string option, next, rest;

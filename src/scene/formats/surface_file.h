@@ -1,4 +1,4 @@
-// Surface files: reads Wavefront OBJ, writes OBJ with a material and a texture.
+// Surface files: reads Wavefront OBJ, and writes OBJ with a material and a texture.
 #pragma once
 
 #include <string>
@@ -14,17 +14,18 @@ struct SurfaceFile {
   std::string materials = {};  ///< the file that mtllib names; empty if there is none
 };
 
-/// Reads v, vt, f and mtllib lines and ignores all others. Polygons become fans of triangles;
-/// vertices without a face are left out. Throws Error naming the file and the line of damaged data,
-/// and for more than a million vertices.
+/// Reads v, vt, f and mtllib lines and ignores all others. Polygons are split into fans of
+/// triangles. Vertices without a face are left out. Throws Error for damaged data, with the file
+/// and the line, and for more than a million vertices.
 SurfaceFile surface_of_obj(const std::string& text, const std::string& name);
 
 /// The name of the first picture (map_Kd) in a material library; "" if there is none.
 std::string texture_of_materials(const std::string& text);
 
-/// The OBJ text of a surface with these texture coordinates and the material in this file.
+/// The OBJ text of a surface with these texture coordinates. It refers to the material in this
+/// file.
 std::string obj_of(const Surface& surface, const Points& texture, const std::string& material_file);
-/// A material library with one material, which shows a texture file unchanged.
+/// A material library with one material that displays a texture file unchanged.
 std::string material_of(const std::string& texture_file);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// pugixml parses the file; PathReader parses the path data, which have their own small syntax.
+// pugixml parses the file. PathReader parses the path data, which have a syntax of their own.
 #include "scene/formats/svg_path.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace holomorph {
 namespace {
 
-/// Reads path data command by command and keeps the loop as lists of control points.
+/// Reads path data command by command and collects the control points of each segment.
 class PathReader {
  public:
   /// Lines of length zero are dropped unless `keeps_points`.
@@ -61,7 +61,7 @@ class PathReader {
     return x;
   }
 
-  /// A point; relative to the current one for lower-case commands.
+  /// Reads a point. Lower-case commands give points relative to the current point.
   Complex point(bool relative) {
     const double x = number(), y = number();
     return (relative ? here_ : Complex(0)) + Complex(x, y);
@@ -164,7 +164,8 @@ void check_levels(pugi::xml_document& document, const std::string& name) {
   check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
 }
 
-/// The paths of a document in their order, without those that only serve other elements.
+/// The paths of a document in document order, without paths that are only definitions for other
+/// elements.
 std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
                                              "marker", "pattern",  "symbol"};
@@ -202,7 +203,7 @@ bool is_transformed(const pugi::xml_node& node) {
   return false;
 }
 
-/// Moves handles that coincide with their points a little along the curve.
+/// Moves tangent handles that coincide with their points a little along the curve.
 void separate_handles(Cage& cage) {
   constexpr double kPull = 1e-3;
   for (Index e = 0; e < cage.size(); ++e) {
@@ -267,15 +268,15 @@ std::string point(Complex z, double height) {
   return number(z.real()) + " " + number(height - z.imag());
 }
 
-/// The cubic with the ends and end tangents of a curve.
+/// The cubic with the same end points and end tangents as a curve.
 Points cubic_of(const Points& c) {
   const double n = static_cast<double>(c.size()) - 1, arm = n / 3;
   return {c.front(), c.front() + arm * (c[1] - c.front()),
           c.back() + arm * (c[c.size() - 2] - c.back()), c.back()};
 }
 
-/// A bound on the distance of a curve from its cubic: their difference lies within its control
-/// points.
+/// A bound on the distance between a curve and its cubic. Their difference is a Bezier curve, which
+/// lies in the convex hull of its control points.
 double distance_from_cubic(const Points& c) {
   const Points cubic = elevated(cubic_of(c), static_cast<int>(c.size()) - 1);
   double off = 0;
@@ -283,7 +284,7 @@ double distance_from_cubic(const Points& c) {
   return off;
 }
 
-/// The curve split into `count` pieces of equal length in the parameter.
+/// The curve split into `count` pieces with parameter intervals of equal length.
 std::vector<Points> pieces_of(Points c, int count) {
   std::vector<Points> pieces;
   for (; count > 1; --count) {
@@ -295,7 +296,7 @@ std::vector<Points> pieces_of(Points c, int count) {
   return pieces;
 }
 
-/// The number of cubics that follow a curve to kOffCubic of its size; one up to degree 3.
+/// The number of cubics that approximate a curve to kOffCubic of its size. It is 1 up to degree 3.
 int cubic_count(const Points& c) {
   constexpr double kOffCubic = 1e-4;
   const double allowed = kOffCubic * box_of(c).diagonal();
@@ -335,7 +336,7 @@ std::string svg_of(const Deformation& deformation, const std::optional<ImageRefe
                     "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +
                     " " + number(height - box.top) + " " + number(box.width()) + " " +
                     number(box.height()) + "\">\n";
-  std::vector<int> counts;  // the same for both, so that their segments still correspond
+  std::vector<int> counts;  // the same for both cages, to keep segments in correspondence
   for (Index i = 0; i < deformation.rest.size(); ++i)
     counts.push_back(std::max(cubic_count(deformation.rest.controls(i)),
                               cubic_count(deformation.pose.controls(i))));

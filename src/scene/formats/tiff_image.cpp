@@ -1,5 +1,5 @@
-// Reads TIFF files with libtiff, from memory. What a file states about itself is not trusted:
-// libtiff checks it, and its messages become errors.
+// Reads TIFF files from memory with libtiff. libtiff checks the values stated in a file, and its
+// messages are reported as errors.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ toff_t size_of(thandle_t handle) {
   return static_cast<Stream*>(handle)->bytes.size();
 }
 
-/// libtiff packs a pixel into a number, with colors multiplied by alpha. This undoes both.
+/// Unpacks the pixels. libtiff packs each pixel into one number with premultiplied alpha.
 void make_straight(Image& image) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     uint32_t pixel = 0;
@@ -74,7 +74,7 @@ bool is_tiff(const std::string& bytes) {
 }
 
 Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
-  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // of a strip or a tile
+  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // bytes of a strip or a tile
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                              TIFFOpenOptionsFree);
   const auto quiet = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
@@ -104,7 +104,7 @@ Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget
   void* profile = nullptr;
   if (TIFFGetField(file.get(), TIFFTAG_ICCPROFILE, &size, &profile))
     to_srgb(image, std::string(static_cast<const char*>(profile), size));
-  // libtiff has already mirrored the picture; swapping rows and columns is left to do.
+  // libtiff has already mirrored the picture. Rows and columns may still have to be swapped.
   uint16_t orientation = 1;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_ORIENTATION, &orientation);
   const bool over = orientation == ORIENTATION_LEFTTOP || orientation == ORIENTATION_RIGHTBOT,

@@ -1,4 +1,4 @@
-// Colors are converted by Little CMS.
+// Converts colors with Little CMS.
 #include "scene/formats/to_srgb.h"
 
 #include <lcms2.h>
@@ -53,7 +53,7 @@ void convert(Image& image, const Conversion& conversion) {
                    static_cast<cmsUInt32Number>(image.width));
 }
 
-/// The same for a gray profile; all three channels hold the gray value.
+/// The same for a gray profile. All three channels of the image contain the gray value.
 void convert_gray(Image& image, const Conversion& conversion) {
   std::uint8_t grays[256];
   std::uint8_t colors[256 * 4];
@@ -85,7 +85,7 @@ void to_srgb(Image& image, const Chromaticities& p, double gamma) {
   cmsCIExyY white{p.white[0], p.white[1], 1};
   cmsCIExyYTRIPLE primaries{
       {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
-  // sRGB files state 1 / 2.2.
+  // sRGB files state the gamma 1 / 2.2.
   constexpr double kLikeSrgb = 0.005;
   const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb
@@ -105,7 +105,7 @@ CmykToSrgb::CmykToSrgb(const std::string& bytes) {
   const Profile profile = opened(bytes);
   if (!profile || cmsGetColorSpace(profile.get()) != cmsSigCmykData) return;
   const Profile srgb(cmsCreate_sRGBProfile());
-  // The output has four bytes per color. lcms does not write the fourth one; row() does.
+  // The output has four bytes per pixel. lcms does not write the fourth byte; row() sets it.
   Conversion found(cmsCreateTransform(profile.get(), TYPE_CMYK_8_REV, srgb.get(), TYPE_RGBA_8,
                                       INTENT_RELATIVE_COLORIMETRIC,
                                       cmsFLAGS_BLACKPOINTCOMPENSATION));

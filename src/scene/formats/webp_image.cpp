@@ -18,7 +18,7 @@ bool is_webp(const std::string& bytes) {
 
 namespace {
 
-/// A chunk other than the pixels, such as Exif data or a color profile; empty if there is none.
+/// A chunk with metadata, such as Exif data or a color profile; empty if there is none.
 std::string chunk_of(const std::string& bytes, const char* kind) {
   const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
   const std::unique_ptr<WebPMux, void (*)(WebPMux*)> mux(WebPMuxCreate(&file, 0), WebPMuxDelete);
