@@ -1,4 +1,5 @@
-// A picture counts where the cage does not take all of its corners along.
+// A picture counts as content if some of its corners are outside the cage and therefore stay at
+// rest.
 #include "edit/content.h"
 
 #include "core/geometry/polyline.h"
@@ -11,14 +12,14 @@ std::optional<Cage> solved_cage(const Workspace& workspace) {
   if (!map.has_map() || !map.posed()) return {};
   const std::optional<Deformation>& posed = map.timed() ? map.timed() : map.posed();
   if (map.timed() && key_at(*posed, workspace.shown.timeline.time) == posed->keyframes.size())
-    return {};  // between keyframes there is none
+    return {};  // no single cage gives the map between keyframes
   return map.prepared()->deformer->solved_cage(pose_of(*posed));
 }
 
 namespace {
 
-/// The rectangle of a layer's picture if some of its corners are outside the cage and stay where
-/// they are; else empty.
+/// The rectangle of a layer's picture if some of its corners are outside the cage, where they do
+/// not move; else empty.
 Box resting_box(const Cage& cage, const Image* image) {
   if (!image) return {};
   constexpr double kOnEdge = 1e-6;  // px

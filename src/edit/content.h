@@ -5,7 +5,8 @@
 
 namespace holomorph {
 
-/// The posed cage that gives the displayed map without pins, if the method can compute one.
+/// The posed cage that reproduces the displayed map without any pins; none if the method cannot
+/// compute one.
 std::optional<Cage> solved_cage(const Workspace& workspace);
 
 /// The bounding box of everything on display: pictures, cage, outline and strokes.

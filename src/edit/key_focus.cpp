@@ -1,4 +1,4 @@
-// The tests are in stacking order, from the topmost part to the canvas.
+// The parts are tested in stacking order, from the topmost one down to the canvas.
 #include "edit/key_focus.h"
 
 namespace holomorph {

@@ -1,4 +1,4 @@
-// Decides for the whole window which part of it gets a key press.
+// Decides which part of the window receives a key press.
 #pragma once
 
 #include "edit/actions/actions.h"
@@ -12,14 +12,14 @@ struct WindowFocus {
   bool palette = false;        ///< the command palette is open
   bool dialog = false;         ///< a dialog or the keys window is open
   bool menu = false;           ///< a menu is open
-  bool menu_was_open = false;  ///< in the last frame: this key press may have closed it
+  bool menu_was_open = false;  ///< in the last frame; this key press may have closed it
   bool panel = false;          ///< a panel has the keyboard focus
 };
 
 enum class KeyFocus { assignment, field, palette, dialog, menu, panel, canvas };
 
-/// The first part, in the order of KeyFocus, that is active; otherwise the canvas. Fields, the
-/// palette, dialogs and menus handle their keys themselves.
+/// The part that receives the key press: the first active one in the order of KeyFocus, else the
+/// canvas. Fields, the palette, dialogs and menus handle their keys themselves.
 KeyFocus key_focus(const WindowFocus& window);
 
 /// Whether arrow keys, Tab and Enter move through the items of a dialog, a menu or a panel. The
@@ -27,7 +27,7 @@ KeyFocus key_focus(const WindowFocus& window);
 bool navigates_items(const WindowFocus& window);
 
 /// Whether a key runs its action while a panel has the keyboard focus. Keys that move through the
-/// panel or type into it do not, except those that move the focus.
+/// panel or type into it do not, unless they move the focus elsewhere.
 bool acts_from_panel(const Shortcut& key, const Action& action);
 
 }  // namespace holomorph

@@ -10,7 +10,7 @@
 
 namespace holomorph {
 
-/// A short message, with the point of the plane that it is about, if any.
+/// A short message. It may refer to a point of the plane.
 struct Toast {
   std::string text;
   bool problem = false;

@@ -1,4 +1,4 @@
-// Points lie on top of strokes, pins on top of points.
+// Pins are on top of points, and points are on top of strokes.
 #include "edit/picking.h"
 
 #include <algorithm>

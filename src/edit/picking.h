@@ -5,23 +5,24 @@
 
 namespace holomorph {
 
-/// The rest position of the point of the displayed picture at z; none outside the picture or before
-/// there is a map.
+/// The rest position of the picture point that is displayed at z; none if z is outside the picture
+/// or no map is available yet.
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
 
-/// The image of a rest point under the map; the point itself outside the mesh or before there is a
-/// map.
+/// The image of a rest point under the map. Returns the point itself if it is outside the mesh or
+/// no map is available yet.
 Complex posed_at(const LiveMap& map, Complex rest);
 
 /// The nearest handle of the current mode within picking distance. Points have priority over
 /// strokes.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);
 
-/// The nearest point on the current mode's cage within picking distance and not at a vertex: where
-/// a click can insert a vertex.
+/// The nearest point of the current mode's cage, where a click can insert a vertex. None if it is
+/// beyond picking distance or at a vertex.
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px);
 
-/// Inserts a vertex there in one step and selects it. Returns false if the step is refused.
+/// Inserts a vertex at a point of the cage in one step and selects it. Returns false if the step is
+/// refused.
 bool insert_at(Workspace& workspace, const CageHit& hit);
 
 }  // namespace holomorph

@@ -1,4 +1,5 @@
-// A document has its own pose and keyframes. An edit at a time changes one or the other.
+// A document has a pose of its own and keyframes. An edit while a time is displayed changes one or
+// the other.
 #include "edit/shown.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// What the canvas shows of the edited layer, how that differs from the document, and what an edit
-// starts from.
+// The edited layer as the canvas shows it, which may differ from the document. Edits start from it.
 #pragma once
 
 #include <optional>
@@ -10,12 +9,12 @@
 
 namespace holomorph {
 
-/// What an edited deformation was derived from: the displayed one, which may be posed by keyframes,
-/// or the document's own. In the second case the result is committed unchanged.
+/// What an edit starts from: the displayed deformation, which keyframes may pose, or the document's
+/// own. An edit of the document's own deformation is committed unchanged.
 enum class EditBase { shown, document };
 
-/// The displayed deformation: the document's own, the document's with its handles at a time of the
-/// keyframes, or the preview of a drag.
+/// The displayed deformation. It is the document's own, the same with its handles posed by the
+/// keyframes at some time, or the preview of a drag.
 class Shown {
  public:
   explicit Shown(const Document& document) : document_(&document) {}
@@ -29,11 +28,11 @@ class Shown {
   /// The document's own deformation.
   const Deformation& own() const { return document_->scene().deformation(); }
 
-  /// The time whose map is displayed; none if the map is that of a deformation's own pose.
+  /// The time whose map is displayed; none if the map shows a deformation's own pose.
   std::optional<double> time() const {
     return preview || own().keyframes.empty() ? std::nullopt : time_of_layers();
   }
-  /// The displayed time for all layers. Layers without keyframes have their own pose at any time.
+  /// The time displayed for all layers. Layers without keyframes keep their own pose at any time.
   std::optional<double> time_of_layers() const {
     return timeline.active && has_keyframes(document_->scene()) ? std::optional(timeline.time)
                                                                 : std::nullopt;
@@ -43,15 +42,16 @@ class Shown {
     return {time_of_layers(), document_->scene().animation.linear_blend};
   }
 
-  /// Whether base() has the pose on display. False while the map of another time is being prepared.
+  /// Whether base() has the displayed pose. False while the map at another time is being prepared.
   bool knows_pose() const { return !time() || timed_ || playing_keys(own()).empty(); }
-  /// Whether keyframes play, none of them has the document's own pose, and there is a step to undo.
+  /// Whether going to a time leaves a pose that has no keyframe: keyframes play, none of them has
+  /// the document's own pose, and there is a step to undo.
   bool leaves_a_pose() const;
 
-  /// Goes to a time and displays it.
+  /// Displays the scene at a time.
   void go_to_time(double seconds);
-  /// Sets the deformation with its handles as they are in the map of the displayed time; none if
-  /// that is not known yet.
+  /// Sets the deformation whose handles are posed as in the map at the displayed time; none if
+  /// these positions are not known yet.
   void set_timed(std::optional<Deformation> timed) { timed_ = std::move(timed); }
   /// Sets the handles at the displayed time from a pose that fits the document's structure.
   void set_timed_pose(const Pose& pose) { timed_ = posed_as(own(), pose); }
@@ -70,13 +70,13 @@ class Shown {
   /// - An edit of the structure makes the displayed pose the document's own pose.
   /// - Any other edit keeps the document's own pose.
   Entry entry_of(Deformation edited, EditBase base) const;
-  /// Updates the display after an entry is in the document. `same_layer`: whether the document
-  /// still has the same edited layer.
+  /// Updates the display after an entry has been made in the document. `same_layer`: whether the
+  /// document still has the same edited layer.
   void follow(const Entry& entry, bool same_layer);
 
  private:
   const Document* document_;
-  std::optional<Deformation> timed_;  ///< the document's, with its handles at the current time
+  std::optional<Deformation> timed_;  ///< own(), with its handles posed at the current time
 };
 
 }  // namespace holomorph

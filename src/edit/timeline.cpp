@@ -1,4 +1,4 @@
-// Times are in seconds. Steps and snapping go by frames.
+// Times are in seconds. Steps and snapping use whole frames.
 #include "edit/timeline.h"
 
 #include <cmath>

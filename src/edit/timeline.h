@@ -16,7 +16,7 @@ struct Timeline {
   bool auto_key = false;                ///< edits of the pose set keyframes
   bool onion = false;                   ///< onion skin: show the keyframes before and after `time`
   bool visible = false;                 ///< the panel is open
-  std::optional<double> clock_ms = {};  ///< the clock when `time` was advanced last
+  std::optional<double> clock_ms = {};  ///< the clock when `time` last advanced
 
   /// Goes to a time, clamped to 0 ... kMaxTime, and displays it.
   void go_to(double seconds) {
@@ -27,7 +27,7 @@ struct Timeline {
   }
 };
 
-/// Advances the time by the clock while the timeline plays. After the last keyframe it loops or
+/// Advances the time with the clock while the timeline plays. After the last keyframe it loops or
 /// stops. Returns whether the time advanced.
 bool advance(Timeline& timeline, const Scene& scene, double now_ms);
 
@@ -36,8 +36,8 @@ int frame_at(const Scene& scene, double time);
 /// The time of a frame in seconds, clamped to 0 ... kMaxTime.
 double time_of_frame(const Scene& scene, int frame);
 
-/// The time of the next keyframe after a time, or of the previous one before it; none if there is
-/// no such keyframe.
+/// The time of the first keyframe after `time`, or of the last one before it; none if there is no
+/// such keyframe.
 std::optional<double> next_key(const Deformation& deformation, double time, bool forwards);
 
 }  // namespace holomorph

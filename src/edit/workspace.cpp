@@ -1,4 +1,4 @@
-// All edits pass one check (`accepts`), so that no invalid cage ever enters the history.
+// All edits pass one check (`accepts`), which keeps invalid cages out of the history.
 #include "edit/workspace.h"
 
 #include <algorithm>
@@ -91,8 +91,8 @@ bool Workspace::require_open_layer() {
   return !layer.locked && layer.visible;
 }
 
-/// Whether a scene changes the contents of the edited layer while that is locked or hidden both
-/// before and after.
+/// Whether a scene changes the contents of the edited layer although that layer is locked or
+/// hidden, both before and after the change.
 bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Layer& before = document.scene().layer();
   if (!before.locked && before.visible) return false;
@@ -100,7 +100,7 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
   if (number == scene.layers.size()) return false;
   const Layer& after = *scene.layers[number];
   if (after.locked != before.locked || after.visible != before.visible) return false;
-  // A missing picture may be found: that is not a change.
+  // Finding a missing picture does not count as a change.
   const bool is_missing = before.image && !document.image(),
              other_image = !is_missing && after.image != before.image;
   return other_image || after.deformation != before.deformation;
@@ -127,7 +127,7 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   return true;
 }
 
-/// Resets state that belongs to the edited layer only.
+/// Resets the state that belongs to the edited layer only.
 void Workspace::leave_layer() {
   shown.preview.reset();
   shown.set_timed({});
@@ -144,15 +144,15 @@ void Workspace::choose_layer(size_t number) {
   chosen.edited = number;
   leave_layer();
   const History& history = document.history();
-  // Several changes of the edited layer in a row are one step.
+  // Choosing several layers in a row is one step.
   const bool merges = history.can_undo() && history.entries()[history.index()].label == kLabel &&
                       !history.can_redo();
   if (merges) document.undo();
   commit_layers(kLabel, std::move(chosen));
 }
 
-/// The deformation with its pose stored as the keyframe at the current time, and with the
-/// document's own pose.
+/// Stores the deformation's pose as the keyframe at the current time, and then gives the
+/// deformation the document's own pose.
 Deformation Workspace::keyed(Deformation deformation) {
   const Deformation& before = shown.own();
   const double time = shown.timeline.time;
@@ -220,7 +220,7 @@ bool Workspace::update_map(EvalOptions options) {
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
   if (shown.preview) shown.timeline.playing = false;
   if (shown.timeline.onion && map().has_map()) map().follow_keys();
-  if (shown.preview) return changed;  // a preview already contains the handles at the time
+  if (shown.preview) return changed;  // a preview already has the handles at the displayed time
   // While another method is being prepared, the handles keep their positions at this time.
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());
@@ -260,7 +260,7 @@ void Workspace::go_to(size_t entry) {
   shown.set_timed({});
   Timeline& timeline = shown.timeline;
   timeline.playing = false;
-  // Display the time of the step that was undone or redone last.
+  // Display the time at which the last undone or redone step was made.
   const std::optional<double> at =
       document.history().entries()[entry < from ? entry + 1 : entry].at;
   const Deformation &was = before.deformation(), &is = shown.own();
@@ -268,7 +268,7 @@ void Workspace::go_to(size_t entry) {
              poses = !other_layer && whole_pose_of(was) != whole_pose_of(is);
   if (at) timeline.time = *at;
   if (at || poses) timeline.active = at && (entry < from || !poses);
-  // In another structure, the same numbers refer to other handles.
+  // If the number of handles of a kind differs, the same index may refer to another handle.
   const bool other_cage = was.rest.size() != is.rest.size(),
              other_pins = was.pins.size() != is.pins.size(),
              other_strokes = was.strokes.size() != is.strokes.size();

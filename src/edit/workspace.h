@@ -1,4 +1,4 @@
-// Everything that tools and actions work on. The window draws it.
+// The data that tools and actions work on and that the window draws.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace holomorph {
 
-/// A request from an action to the window, which is the only part that can show dialogs.
+/// A request from an action to the window. Only the window can show dialogs.
 enum class Request {
   none,
   new_scene,
@@ -47,13 +47,14 @@ enum class Request {
   compare
 };
 
-/// Playback of the iterations of a method that reports energies.
+/// Playback of the iterations of a method that reports an energy for each.
 struct Playback {
   std::optional<int> iteration = {};  ///< the iteration on display; none: the last one
   bool playing = false;
   std::optional<double> due_ms = {};  ///< when the next iteration is due
 };
-/// Steps to the next iteration when it is due. Returns whether it did so or the playback ended.
+/// Steps to the next iteration when it is due. Returns whether it took a step or ended the
+/// playback.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
 enum class ToolId { select, pen, pin, stroke, outline, angle, brush };
@@ -64,7 +65,7 @@ struct DisplayOptions {
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
   bool hide_overlays = false, show_original = false;  ///< while a key is held
-  std::optional<double> split = {};  ///< fraction of the canvas on the left that shows the original
+  std::optional<double> split = {};  ///< left fraction of the canvas that shows the original
   double handle_px = 10;             ///< picking distance in window px, scaled with the display
 };
 
@@ -101,7 +102,7 @@ struct Workspace {
   Playback playback;
   std::optional<Pose> copied;  ///< by Copy pose
   Request request = Request::none;
-  /// Runs long work on another thread, and `then` on this one. Set by the window.
+  /// Runs long work on another thread, then calls `then` on this thread. Set by the window.
   std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>
       run_in_background;
 
@@ -119,14 +120,14 @@ struct Workspace {
     return display.show_surface && document.scene().deformation().surface.has_value();
   }
 
-  /// Adds an undo step. Refuses a scene that cannot be saved and opened again, or whose rest cage
-  /// is invalid, with a toast that shows where. Shown::entry_of says how an edit changes poses and
-  /// keyframes. Returns whether the step was added.
+  /// Adds an undo step. Refuses a scene that cannot be saved and opened again or that has an
+  /// invalid rest cage; a toast then shows where the problem is. Shown::entry_of says how an edit
+  /// changes poses and keyframes. Returns whether the step was added.
   bool commit(const std::string& label, Deformation deformation, EditBase base = EditBase::shown);
-  /// Replaces the result of the last undo step; refuses what commit refuses.
+  /// Replaces the result of the last undo step. Refuses the same scenes as commit.
   bool amend(Deformation deformation, EditBase base = EditBase::shown);
-  /// Merges small edits into one step: amends the last step if that has the same label and the
-  /// selection has not changed since; else commits.
+  /// Merges small edits into one step: amends the last step if it has the same label and the
+  /// selection has not changed since, else adds a step.
   void commit_or_amend(const std::string& label, Deformation deformation,
                        EditBase base = EditBase::shown);
   /// Adds an undo step that changes layers, or settings that all layers share.
@@ -142,22 +143,24 @@ struct Workspace {
   bool require_pose();
   /// Makes another layer the edited one.
   void choose_layer(size_t number);
-  /// Goes to another entry of the history. Deselects the handles of a structure (cage, pins or
-  /// strokes) whose number of elements differs there.
+  /// Goes to another entry of the history. If the number of cage vertices, pins or strokes differs
+  /// there, deselects all handles of that kind.
   void go_to(size_t entry);
-  /// Goes to a time and displays it. If that leaves a pose that has no keyframe, a toast says so.
+  /// Displays the scene at a time. If no keyframe has the pose that was displayed before, a toast
+  /// says so.
   void go_to_time(double seconds);
   /// Stores the displayed pose as the keyframe at the current time.
   void set_key();
-  /// The images of points at rest in each keyframe; empty before the keyframes' maps are known.
+  /// The images of rest points under the map of each keyframe; empty while these maps are unknown.
   std::vector<Points> keyframe_images(std::span<const Complex> rest);
-  /// The maps at the keyframes before and after the current time. Empty when the onion skin is off,
-  /// while the timeline plays, at rest and before there is a map.
+  /// The maps at the keyframes before and after the current time. Empty if the onion skin is off,
+  /// the timeline plays, the picture is shown at rest or no map is available yet.
   std::vector<OnionSkin> onion_skins() const;
-  /// Does long work, then calls `then`: in the background where the window has
-  /// set run_in_background, else immediately. Without it, errors in the work are thrown.
+  /// Does long work, then calls `then`. Runs in the background if the window has set
+  /// run_in_background; otherwise runs immediately and throws the errors of the work.
   void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
-  /// Goes to a fold of the picture: to the worst one first, then to the others in turn.
+  /// Centers the canvas on a fold of the picture: first on the worst one, then on the others in
+  /// turn.
   void show_next_fold();
   /// Deletes handles in one step and clears the selection. If fewer than three cage points would
   /// remain, deletes nothing and says so in a toast.
@@ -177,7 +180,7 @@ struct Workspace {
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);
 
-  std::optional<Selection> mergeable_selection_;  ///< selection of the step that may be amended
+  std::optional<Selection> mergeable_selection_;  ///< at the step that may be amended
   Points folds_;                                  ///< the folds that show_next_fold visits
   size_t fold_ = 0;
 };

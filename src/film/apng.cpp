@@ -1,5 +1,5 @@
-// Animated PNG. Each frame is encoded as a PNG, and its image data becomes one frame of the film.
-// The few chunks around the frames are written here, because no packaged library writes them.
+// Writes animated PNG. Each frame is encoded as a PNG, whose image data becomes one frame of the
+// film. The few chunks around the frames are written here, because no packaged library writes them.
 #include <zlib.h>
 
 #include "film/film_writer.h"
@@ -57,8 +57,8 @@ class ApngWriter final : public FilmWriter {
       if (type == "IDAT") data += png.substr(at + 8, length);
       at += length + 12;
     }
-    // Number, size, offset, duration, disposal 1 (clear afterwards), blending 0 (replace). Rates
-    // like 24 and 23.976 make the duration exactly 250 over an integer.
+    // Number, size, offset, duration, disposal 1 (clear afterwards), blending 0 (replace). The
+    // duration is a fraction with numerator 250, which is exact for rates like 24 and 23.976.
     const std::uint32_t first = sequence_++;
     body_ += chunk(
         "fcTL",

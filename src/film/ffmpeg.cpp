@@ -1,6 +1,6 @@
-// Films encoded by the program ffmpeg. It reads raw frames from a socket, so that its death is an
-// error here and not a signal. It writes to a file that is already open, so that no file name can
-// redirect it.
+// Films encoded by the program ffmpeg. It reads raw frames from a socket: if it dies, the next
+// write returns an error instead of raising a signal. It writes to a file that is already open,
+// because a file name could redirect its output.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -118,7 +118,7 @@ class FfmpegWriter final : public FilmWriter {
   }
 
   Path out_;
-  std::optional<NewFolder> folder_;  ///< only for a pipe, because the encoder seeks in its file
+  std::optional<NewFolder> folder_;  ///< only for pipes, because ffmpeg must seek in its output
   NewFile film_;
   bool opaque_;
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< ffmpeg's messages; has no name

@@ -1,4 +1,4 @@
-// All frames have the same rectangle, so that the picture does not jump.
+// All frames cover the same rectangle; otherwise the picture would jump.
 #include "film/film.h"
 
 #include "core/error.h"

@@ -22,11 +22,11 @@ struct WrittenFilm {
 };
 
 /// Draws frames of a scene, as picture_of does, and writes them to a file whose extension selects
-/// the format. Without `region` or `crop`, each frame has the rectangle that the whole motion
-/// covers, so that parts of a film fit together. Calls `progress` with the number of finished
-/// frames and of all frames; if that returns false, nothing is written and the result is none.
-/// Throws Error if the scene has no keyframes, or if a frame cannot be drawn or written. Cost: one
-/// picture per frame, on all cores.
+/// the format. Without `region` or `crop`, each frame covers the region of the whole motion, so
+/// separately exported parts of a film fit together. Calls `progress` with the number of finished
+/// frames and the number of all frames. If it returns false, nothing is written and the result is
+/// none. Throws Error if the scene has no keyframes, or if a frame cannot be drawn or written.
+/// Cost: one picture per frame, on all cores.
 std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
                                       const FilmOptions& options,
                                       const std::function<bool(int done, int all)>& progress,

@@ -1,4 +1,4 @@
-// The table of formats, and numbered PNG files, the one format that needs no encoder.
+// The table of formats, and numbered PNG files, the only format that needs no film encoder.
 #include "film/film_writer.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace holomorph {
 namespace {
 
-/// Collects the frames in a temporary folder. Files with the frames' names are replaced only when
-/// all frames are written.
+/// Collects the frames in a temporary folder. Existing files with the names of frames are replaced
+/// only after all frames have been written.
 class PngFrames final : public FilmWriter {
  public:
   explicit PngFrames(const Path& out) : out_(out), staging_(out) {}

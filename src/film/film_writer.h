@@ -1,4 +1,4 @@
-// Film formats. Frames are added one by one, and the file appears when the last one is written.
+// Film formats. Frames are added one by one, and the file appears when the film is finished.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class FilmWriter {
   virtual ~FilmWriter() = default;
   /// Appends a frame, which must have the film's size. Throws Error.
   virtual void add(const Image& frame) = 0;
-  /// Completes the file. Throws Error if that fails, and leaves no file then.
+  /// Completes the file. If that fails, leaves no file and throws Error.
   virtual void finish() = 0;
 };
 
@@ -32,7 +32,8 @@ struct FilmFormat {
 
 /// All formats, the default one first: animated WebP, GIF, APNG, numbered PNG files, MP4 and WebM.
 const std::vector<FilmFormat>& film_formats();
-/// The format of a path's extension. Throws Error with the known extensions if there is none.
+/// The format that a path's extension selects. If there is none, throws Error with a list of the
+/// known extensions.
 const FilmFormat& film_format_of(const Path& path);
 
 /// The name of a frame's file: walk-0007.png for walk.png and 7.
@@ -46,10 +47,10 @@ std::unique_ptr<FilmWriter> gif_writer(const Path& out, const FilmShape& shape);
 std::unique_ptr<FilmWriter> apng_writer(const Path& out, const FilmShape& shape);
 /// One file per frame, named by `numbered`.
 std::unique_ptr<FilmWriter> png_frames_writer(const Path& out, const FilmShape& shape);
-/// Passes raw frames to the program ffmpeg; transparency becomes white. Throws Error if ffmpeg is
-/// not installed.
+/// Encodes H.264 with the program ffmpeg. Transparent pixels are composited onto white. Throws
+/// Error if ffmpeg is not installed.
 std::unique_ptr<FilmWriter> mp4_writer(const Path& out, const FilmShape& shape);
-/// Like mp4_writer, but VP9 and with transparency.
+/// Like mp4_writer, but encodes VP9 and keeps transparency.
 std::unique_ptr<FilmWriter> webm_writer(const Path& out, const FilmShape& shape);
 
 }  // namespace holomorph

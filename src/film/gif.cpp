@@ -1,5 +1,5 @@
-// GIF by giflib, with colors chosen by libimagequant. Durations are hundredths of a second, rounded
-// so that the whole film has the right length.
+// Writes GIF with giflib; libimagequant chooses the colors. Frame durations are in hundredths of a
+// second and are rounded to keep the length of the whole film right.
 #include <gif_lib.h>
 #include <libimagequant.h>
 
@@ -24,7 +24,7 @@ struct Quantized {
   int transparent = 0;  ///< index of the transparent color
 };
 
-/// 255 colors and one for transparent pixels: those that are more than half transparent.
+/// 255 colors, and one for pixels that are more than half transparent.
 Quantized quantized(const Image& frame) {
   Image solid = frame;
   for (size_t i = 0; i < solid.pixels.size(); i += 4) {

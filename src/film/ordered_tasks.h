@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Runs tasks in parallel, one per processor core, and passes on their results in the order in
-/// which the tasks were added. add() or finish() rethrows what a task throws.
+/// Runs tasks in parallel, at most one per processor core, and delivers their results in the order
+/// in which the tasks were added. If a task throws, add() or finish() rethrows the exception.
 template <class Result>
 class OrderedTasks {
  public:

@@ -1,4 +1,4 @@
-// Animated WebP by libwebp: lossless where that is smaller, lossy otherwise.
+// Writes animated WebP with libwebp. Each frame is lossless if that is smaller, otherwise lossy.
 #include <webp/encode.h>
 #include <webp/mux.h>
 

@@ -1,4 +1,4 @@
-// Two sweeps pass the nearest covered pixel from neighbor to neighbor (Danielsson 1980).
+// Two sweeps propagate the nearest covered pixel from neighbor to neighbor (Danielsson 1980).
 #include "raster/bleed.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// Integer arithmetic throughout, so that opaque pixels and pixels of a single picture stay exact.
+// Uses only integer arithmetic, which keeps opaque pixels and pixels of a single picture exact.
 #include "raster/compose.h"
 
 #include <cstring>

@@ -1,6 +1,7 @@
-// Scan conversion by exact crossings of edges with pixel rows. Both triangles at an edge compute
-// the same crossing, so neighbors neither overlap nor leave a gap. A pixel that a silhouette
-// crosses has 4 x 4 coverage samples, but its color is always taken at its center.
+// Scan-converts triangles by computing where their edges cross pixel rows. Both triangles at an
+// edge compute exactly the same crossing, so neighbors neither overlap nor leave a gap. A pixel
+// that a silhouette crosses has 4 x 4 coverage samples, but its color is always taken at its
+// center.
 #include "raster/drawing.h"
 
 #include "raster/sampler.h"
@@ -11,10 +12,10 @@ namespace {
 
 constexpr int kSub = 4;      ///< coverage samples per pixel in each direction
 constexpr int kBand = 16;    ///< rows that one task draws
-constexpr int kMaxTaps = 8;  ///< most color samples per pixel in each direction when shrinking
+constexpr int kMaxTaps = 8;  ///< limit of color samples per pixel in each direction
 
 /// An output triangle and the affine map from output pixels to its source coordinates (u, v): a
-/// position in the source picture, or for heat maps the heat value in u.
+/// position in the source picture or, for heat maps, the heat value in u.
 struct Piece {
   double x[3], y[3];  ///< output pixels, y down
   double u0, ux, uy, v0, vx, vy;
@@ -23,8 +24,8 @@ struct Piece {
   bool outside;  ///< shows the undeformed picture, and is drawn only outside the rest cage
 };
 
-/// The x at which the edge from (ax, ay) to (bx, by) crosses height y. Exactly the same value if
-/// the endpoints are exchanged.
+/// The x at which the edge from (ax, ay) to (bx, by) crosses height y. Exchanging the endpoints
+/// gives exactly the same value.
 double crossing(double ax, double ay, double bx, double by, double y) {
   if (by < ay || (by == ay && bx < ax)) std::swap(ax, bx), std::swap(ay, by);
   return ax + (bx - ax) * ((y - ay) / (by - ay));
@@ -91,7 +92,7 @@ class Drawing {
 
  private:
   struct Band {
-    std::vector<int> pieces, silhouette, cage;  ///< indices of those that touch the band
+    std::vector<int> pieces, silhouette, cage;  ///< indices of the ones that touch the band
   };
   using Edge = std::array<double, 4>;
 
@@ -177,8 +178,8 @@ class Drawing {
           static_cast<int>(i), &Band::cage);
   }
 
-  /// The data of a band's pixels besides the output: whether they are inside the rest cage, and
-  /// the coverage samples of the pixels that a silhouette crosses.
+  /// The data of a band's pixels in addition to their colors: whether they are inside the rest
+  /// cage, and the coverage samples of pixels that a silhouette crosses.
   struct Canvas {
     int first_row, rows, width;
     std::vector<std::uint8_t> in_cage;  ///< per pixel: whether its center is in the cage

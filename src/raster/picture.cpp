@@ -1,4 +1,4 @@
-// Exports use the same mesh and precision as the screen, so both show the same picture.
+// Exports use the same mesh and precision as the canvas, so both show the same picture.
 #include "raster/picture.h"
 
 #include "core/error.h"
@@ -52,8 +52,8 @@ class PictureMaker::LayerMaker {
     return rasterized(job_of(options, top));
   }
 
-  /// Extends `box` by all positions of the mesh during the motion. Returns false if `keep_going`
-  /// does.
+  /// Extends `box` to contain all positions of the mesh during the motion. Returns false if
+  /// `keep_going` returns false.
   bool include_motion(Box& box, const std::function<bool()>& keep_going) {
     if (!deformation_.has_cage()) return true;
     const auto map = [&](double time) { return map_at(time, false).f; };
@@ -88,8 +88,8 @@ class PictureMaker::LayerMaker {
   static constexpr int kMaxHalvings = 10;
   static constexpr double kMaxPieces = 2000;
 
-  /// Extends `box` by the motion from one time to another. Halves the interval until the path of
-  /// each vertex hardly bends, so that its ends and its middle bound it.
+  /// Extends `box` to contain the motion from one time to another. Halves the interval until the
+  /// path of each vertex hardly bends and is bounded by its ends and middle, up to a margin.
   bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
                        Box& box, const std::function<bool()>& keep_going, int halves) {
     const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // plane units
@@ -199,7 +199,7 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
   for (const auto& layer : layers_)
     if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, keep_going))
       return {};
-  // The rounding of single-precision operators must not add a row of pixels.
+  // Rounding errors of single-precision operators must not add a row of pixels.
   constexpr double kRounding = 1e-3;
   return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,
              box.top - kRounding};

@@ -10,7 +10,7 @@
 namespace holomorph {
 
 struct PictureOptions {
-  View view = View::image;  ///< other views show only the edited layer, without a background
+  View view = View::image;  ///< all other views show only the edited layer, without a background
   double scale = 1;         ///< output pixels per image pixel
   bool crop = false;        ///< crop to the lowest picture's rectangle; else nothing is cut off
   bool automatic_range = false;
@@ -20,12 +20,12 @@ struct PictureOptions {
 
 /// Draws the posed scene: its visible layers over its background. `source` is the edited layer's
 /// picture, or null if it has none; `other_pictures` holds the pictures of the other layers. Throws
-/// Error if the scene has neither a picture nor a cage or no layer is visible, and if rasterized
+/// Error if the scene has neither a picture nor a cage, if no layer is visible, or if rasterized
 /// throws.
 RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options = {},
                         const Pictures& other_pictures = {});
 
-/// Draws pictures of one scene at many times, and prepares its layers only once.
+/// Draws pictures of one scene at many times but prepares its layers only once.
 class PictureMaker {
  public:
   /// Arguments as in picture_of; all of them must outlive this object. Throws Error.
@@ -33,9 +33,10 @@ class PictureMaker {
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
-  /// The part of the plane that the whole motion covers, including the pictures' own rectangles. It
-  /// does not depend on which frames are drawn. Calls `keep_going` from time to time and returns
-  /// none if that returns false. Cost: one map per keyframe and about ten between two keyframes.
+  /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
+  /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
+  /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
+  /// each two keyframes.
   std::optional<Box> motion_region(const std::function<bool()>& keep_going = [] { return true; });
   /// The rectangle of the lowest visible picture, to which `crop` crops; empty if there is none.
   Box rectangle() const;

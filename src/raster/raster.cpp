@@ -12,10 +12,10 @@ namespace {
 
 /// A rectangle of whole output pixels.
 struct PixelRect {
-  int left, top, width, height;  ///< top counts down from the source's top
+  int left, top, width, height;  ///< top is measured downward from the source's top
 };
 
-/// Removes transparent rows and columns at the borders, but none inside `least`, the source's
+/// Removes transparent rows and columns at the borders, but keeps all of `least`, the source's
 /// rectangle.
 void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   const auto row_empty = [&](int r) {
@@ -49,8 +49,8 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   image = std::move(cut);
 }
 
-/// The bounding box of the source rectangle's image under the map, from the mesh vertices inside
-/// the rectangle and the points where mesh edges leave it.
+/// The bounding box of the source rectangle's image under the map, computed from the mesh vertices
+/// inside the rectangle and the points where mesh edges cross its border.
 Box image_of_rectangle(const RasterJob& job) {
   const double w = job.source->width, h = job.source->height;
   const auto depth = [&](Complex z) {
@@ -112,7 +112,7 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.mesh && !job.region && !(job.crop && job.source)) {
     const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
-    constexpr double kRounding = 1e-3;  // for operators in single precision
+    constexpr double kRounding = 1e-3;  // tolerance for single-precision operators
     if (!box.empty()) {
       left = std::min(left, std::floor(box.left * scale + kRounding));
       right = std::max(right, std::ceil(box.right * scale - kRounding));

@@ -1,4 +1,4 @@
-// The only source of exported pixels: warps a picture by a mesh, on all processor cores.
+// Warps a picture by a mesh, on all processor cores. All exported pixels come from here.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct RasterJob {
   int threads = 0;             ///< 0: one per processor core
 };
 
-/// A picture and where its lower left corner lies in the plane.
+/// A picture and the position of its lower left corner in the plane.
 struct RasterResult {
   Image image;
   Complex corner;

@@ -1,4 +1,4 @@
-// Samples colors between pixels: bilinear in premultiplied color, exact at pixel centers.
+// Samples colors between pixels: bilinearly in premultiplied color, and exactly at pixel centers.
 //
 // The four channels of a color are one vector, in straight (not premultiplied) alpha unless a name
 // says otherwise.
@@ -105,7 +105,7 @@ class Sampler {
     if (c < 0 || r < 0 || c >= image_.width || r >= image_.height) return Float4{};
     return load(image_.at(c, r));
   }
-  static constexpr double kOnTexel = 1e-3;  ///< this close to a texel's center, the texel is copied
+  static constexpr double kOnTexel = 1e-3;  ///< a texel whose center is this close is copied
   const Image& image_;
 };
 

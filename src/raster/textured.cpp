@@ -1,4 +1,4 @@
-// The posed picture is the texture itself, so no pixel is sampled twice.
+// The posed picture itself becomes the texture, so no pixel is resampled a second time.
 #include "raster/textured.h"
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 namespace holomorph {
 namespace {
 
-/// Which pixels the posed map covers completely: those where a drawn checker is opaque.
+/// Which pixels the posed map covers completely: the pixels that are opaque when the map is drawn
+/// as a checker.
 std::vector<bool> covered(RasterJob job) {
   job.view = View::checker;
   const Image checker = rasterized(job).image;

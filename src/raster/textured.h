@@ -14,9 +14,9 @@ struct TexturedSurface {
   Points coordinates;  ///< texture coordinates of the surface's vertices: 0 to 1, v up
 };
 
-/// The texture is the posed picture inside the cage, cut to the surface's surroundings, with its
-/// colors extended to the surface's edge and a little beyond. `scale` is in texture pixels per
-/// plane unit. Throws Error if the scene has no picture or no cage, and if rasterized throws.
+/// The texture is the posed picture inside the cage, cropped to the surface and a narrow margin.
+/// Its colors are extended to the surface's edge and a little beyond. `scale` is in texture pixels
+/// per plane unit. Throws Error if the scene has no picture or no cage, or if rasterized throws.
 TexturedSurface textured(const FlattenedSurface& surface, const Deformation& deformation,
                          const Image* source, double scale = 1);
 

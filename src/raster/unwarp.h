@@ -19,18 +19,18 @@ struct StMap {
 
 /// The ST-map of a scene in its pose, or at a time of its keyframes in seconds. The picture's size
 /// is in pixels; `scale` is in ST-map pixels per picture pixel. Each position is computed from the
-/// map itself and rounded to single precision. Calls `progress` on this thread with the number of
-/// finished rows and of all rows, and passes on what it throws. Throws Error if there is no cage or
-/// no picture, or the method has no inverse. Cost: 20 us per pixel on one core with 10 straight
-/// edges, 45 us with 20 curved edges.
+/// map itself and rounded to single precision. Calls `progress` on the calling thread with the
+/// number of rows that have been started and the number of all rows. An exception from `progress`
+/// ends the computation and is rethrown. Throws Error if the cage or the picture is missing, or if
+/// the method has no inverse. Cost: 20 us per pixel on one core with 10 straight edges, 45 us with
+/// 20 curved edges.
 StMap st_map_of(
     const Scene& scene, int picture_width, int picture_height, double scale = 1,
     std::optional<double> time = {},
     const std::function<void(int done, int all)>& progress = [](int, int) {});
 
-/// Takes `picture` as a picture of the posed scene and maps it back to rest: the rest point z shows
-/// the picture at f(z). Nothing is drawn outside the cage. Throws Error if there is no cage or no
-/// picture.
+/// Maps a picture of the posed scene back to rest: the result shows at z what `picture` shows at
+/// f(z). Nothing is drawn outside the cage. Throws Error if the cage or the picture is missing.
 Image unwarped(const Scene& scene, const Image* picture, double scale = 1,
                std::optional<double> time = {});
 

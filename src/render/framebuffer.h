@@ -1,4 +1,4 @@
-// An OpenGL render target that is then used as a texture.
+// An OpenGL render target that can be used as a texture afterwards.
 #pragma once
 
 namespace holomorph {

@@ -23,7 +23,8 @@ class Program {
   unsigned id_ = 0;
 };
 
-/// The two programs, made from the files of shaders/: a map of the plane, and a surface in space.
+/// The two programs, built from the files in shaders/. One draws a map of the plane, the other a
+/// surface in space.
 Program warp_program();
 Program surface_program();
 

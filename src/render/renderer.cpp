@@ -1,5 +1,5 @@
-// OpenGL state is always set where it is used, because the user interface draws in the same
-// context.
+// OpenGL state is always set right before it is used, because the user interface draws in the same
+// context and changes it.
 #include "render/renderer.h"
 
 #include "core/error.h"
@@ -34,7 +34,7 @@ int mode_of(Placement placement) {
   return placement == Placement::at_rest ? 0 : placement == Placement::positions ? 1 : 2;
 }
 
-/// With the numbers of the fragment shader.
+/// The numbers match the fragment shader.
 enum class Coloring { picture, heat, checker, flat, ghost };
 
 void clear_canvas(const RenderFrame& frame) {
@@ -235,21 +235,22 @@ int Renderer::set_picture(int width, int height, const std::uint8_t* pixels) {
   return levels->factor;
 }
 
-// Uploads no pixels: allocating the texture takes long enough for one frame.
+// Uploads no pixels yet, because allocating the texture already takes enough time for one frame.
 void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   Objects& gl = *gl_;
   gl.levels = std::move(levels);
   gl.width = gl.levels ? gl.levels->width : 0;
   gl.height = gl.levels ? gl.levels->height : 0;
   if (!gl.levels) return;
-  // Creates another texture, because the levels of the previous one have other sizes.
+  // Create a new texture, because the levels of the old one have other sizes.
   glDeleteTextures(1, &gl.picture);
   glGenTextures(1, &gl.picture);
   glActiveTexture(GL_TEXTURE0 + kPicture);
   glBindTexture(GL_TEXTURE_2D, gl.picture);
   gl.level = static_cast<int>(gl.levels->levels.size());
   gl.row = 0;
-  // If the storage of all levels is allocated together, the driver need not move them later.
+  // If the storage of all levels is allocated together, the driver does not have to move them
+  // later.
   gl.stored = epoxy_has_gl_extension("GL_ARB_texture_storage");
   if (gl.stored)
     glTexStorage2D(GL_TEXTURE_2D, gl.level, GL_RGBA8, gl.levels->levels[0].width,

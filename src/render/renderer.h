@@ -12,13 +12,13 @@
 
 namespace holomorph {
 
-/// The driver of the current context, and whether it renders on the CPU. With such a driver,
-/// multisampling and anisotropic filtering are not worth their cost, and computing the vertex
-/// positions on the CPU is faster than in a shader.
+/// The driver of the current context, and whether it renders on the CPU. On a software driver,
+/// multisampling and anisotropic filtering are not worth their cost, and vertex positions are
+/// computed faster without a shader.
 std::string driver_name();
 bool is_software_driver();
 
-/// How the vertex positions are found.
+/// Where the vertex positions come from.
 enum class Placement { at_rest, positions, by_operator };
 
 /// A tinted, half-transparent copy of the picture behind the drawn one.
@@ -27,8 +27,8 @@ struct Ghost {
   Color tint;
 };
 
-/// What is drawn of the picture: its image under the map, the undeformed original, or only the
-/// backdrop behind it.
+/// What to draw: the image of the picture under the map, the undeformed original, or only the
+/// backdrop.
 enum class Content { map, original, nothing };
 
 /// The contents and settings of one frame of the canvas. In window pixels, x points right, y down.
@@ -51,7 +51,7 @@ struct RenderFrame {
 };
 
 /// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and
-/// destruction. Throws Error{failed} if the context does not support what is needed.
+/// destruction. The constructor throws Error{failed} if the context lacks a required feature.
 class Renderer {
  public:
   Renderer();
@@ -60,10 +60,10 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Sets the picture: straight-alpha RGBA, rows from the top; 0 x 0 removes it. Returns the factor
-  /// by which it was reduced for this driver, 1 if it was not.
+  /// by which the picture was reduced for this driver, or 1 if it was not reduced.
   int set_picture(int width, int height, const std::uint8_t* pixels);
-  /// Sets the picture in steps, so that no frame has to wait. The first call of upload_more shows
-  /// it coarsely, and further calls add detail. Null removes the picture.
+  /// Starts setting the picture in steps, which avoids delaying a frame. After the first call of
+  /// upload_more, the picture is coarse; further calls add detail. Null removes the picture.
   void begin_picture(std::shared_ptr<const TextureLevels> levels);
   /// Uploads about this many bytes. Returns whether any are left.
   bool upload_more(size_t bytes);

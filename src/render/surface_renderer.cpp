@@ -1,4 +1,4 @@
-// One vertex array. The light moves with the camera.
+// Uses one vertex array. The fragment shader's light moves with the camera.
 #include "render/surface_renderer.h"
 
 #include <Eigen/Geometry>

@@ -13,7 +13,7 @@ struct SurfaceFrame {
   Eigen::Matrix4d to_view;    ///< rigid motion into view space; the camera looks along -z
   Eigen::Matrix4d to_clip;    ///< from view space to clip space
   unsigned texture = 0;       ///< OpenGL texture with mipmaps, premultiplied; 0: only clay
-  Color background, clay;     ///< behind the surface; where the texture is transparent
+  Color background, clay;     ///< behind the surface; on it where the texture is transparent
 };
 
 /// Owns the OpenGL objects of one surface. Needs a current OpenGL context.
@@ -27,7 +27,8 @@ class SurfaceRenderer {
   void set_surface(const Surface& surface);
   /// Sets the texture coordinates of the vertices: 0 to 1 in both directions, v up.
   void set_coordinates(const Points& coordinates);
-  /// Clears the bound framebuffer and draws both sides of the surface, lit from the camera's side.
+  /// Clears the bound framebuffer and draws both sides of the surface, with a light that moves with
+  /// the camera.
   void draw(const SurfaceFrame& frame);
 
  private:

@@ -1,4 +1,4 @@
-// One linearly filtered texture, and reading pixels back.
+// A linearly filtered texture, and a function that reads pixels back.
 #include "render/texture.h"
 
 #include <cstring>

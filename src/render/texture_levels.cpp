@@ -1,5 +1,5 @@
-// Smaller levels average premultiplied colors, so that transparent pixels do not bleed into their
-// neighbors.
+// Smaller levels average premultiplied colors, which keeps the colors of transparent pixels from
+// bleeding into their neighbors.
 #include "render/texture_levels.h"
 
 #include <algorithm>

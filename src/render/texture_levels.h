@@ -1,4 +1,4 @@
-// A picture in the form that textures need: premultiplied, with all mipmap levels.
+// A picture prepared for use as a texture: premultiplied, with all mipmap levels.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ struct TextureLevel {
 
 struct TextureLevels {
   int width = 0, height = 0;  ///< the picture's own size
-  int factor = 1;             ///< by which the picture was reduced
+  int factor = 1;             ///< the factor by which the picture was reduced
   std::vector<TextureLevel>
       levels;  ///< largest first, each half the size of the previous one, down to 1 x 1
 };
 
-/// The levels of a picture in straight-alpha RGBA, rows from the top, which must not be empty. No
+/// The levels of a picture, which must not be empty: straight-alpha RGBA, rows from the top. No
 /// level has more than `largest` pixels on a side. Needs no OpenGL and may run on any thread. Calls
 /// `keep_going` from time to time; the result is incomplete if that returns false. Cost: linear,
 /// about 10 ns per pixel.

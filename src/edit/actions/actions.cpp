@@ -1,5 +1,5 @@
-// The rows come from one file per menu. Each row says what the action is called, when it is enabled
-// and what it does.
+// Collects the rows from one file per menu. Each row gives an action's name, when it is enabled and
+// what it does.
 #include "edit/actions/actions.h"
 
 #include <algorithm>
@@ -76,7 +76,8 @@ std::vector<std::string> ActionTable::use_keys(const KeyNames& changes) {
         unknown.push_back(name);
     known.push_back({id, std::move(keys)});
   }
-  // The user's choice wins: a changed key is removed from the action that has it by default.
+  // The user's choice takes precedence: a key that the user assigns is removed from the action that
+  // has it by default.
   for (const auto& [id, keys] : known)
     if (named(id).keys != keys) set_keys(id, keys);
   return unknown;

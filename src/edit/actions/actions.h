@@ -11,17 +11,17 @@ struct Workspace;
 /// A row of the table. Rows name the fields that they set; the others keep their defaults.
 struct Action {
   std::string id, label;
-  const char* hint = "";  ///< for the tooltip; empty where the label says everything
+  const char* hint = "";  ///< for the tooltip; empty if the label says everything
   const char* icon = "";  ///< a glyph of the icon font; empty: none
   const char* menu = "";  ///< the menu that lists the action; empty: none
   std::vector<Shortcut> keys = {};
   bool (*enabled)(const Workspace&) = nullptr;  ///< required; `always` if there is no condition
   void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
-  bool (*checked)(const Workspace&) = nullptr;  ///< for actions that can be on or off, else null
-  bool during_gesture = false;                  ///< its keys also act during a tool's gesture
+  bool (*checked)(const Workspace&) = nullptr;  ///< for actions that are on or off, else null
+  bool during_gesture = false;                  ///< its keys also work during a tool's gesture
 };
 
-/// The rows in menu order with their current keys: the built-in keys and the user's changes. Value
+/// The rows in menu order with their current keys: the built-in keys with the user's changes. Value
 /// type, owned by a workspace.
 class ActionTable {
  public:
@@ -38,17 +38,17 @@ class ActionTable {
   /// The name of an action in a message: its first key, or its label in quotes if it has no key.
   std::string key_of(const std::string& id) const;
 
-  /// Resets all keys to the built-in ones and applies these changes. Skips names that are not the
-  /// id of an action or not a key, and returns them.
+  /// Resets all keys to the built-in ones and applies these changes. Skips and returns names that
+  /// are not a known action or key.
   std::vector<std::string> use_keys(const KeyNames& changes);
   /// The keys of the actions whose keys differ from the built-in ones.
   KeyNames changed_keys() const;
   /// The keys of all actions.
   KeyNames all_keys() const;
-  /// Sets the keys of an action and removes these keys from all other actions. Returns the labels
-  /// of the actions that lost a key.
+  /// Sets the keys of an action and removes them from all other actions. Returns the labels of the
+  /// actions that lost a key.
   std::vector<std::string> set_keys(const std::string& id, const std::vector<Shortcut>& keys);
-  /// Resets the keys of an action to the built-in ones, as by set_keys.
+  /// Resets the keys of an action to the built-in ones. Calls set_keys and returns its result.
   std::vector<std::string> reset_keys(const std::string& id);
   bool has_own_keys(const Action& action) const { return action.keys != built_in(action.id); }
 

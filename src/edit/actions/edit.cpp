@@ -88,7 +88,7 @@ void redo(Workspace& w) {
   w.go_to(w.document.history().index() + 1);
 }
 
-/// Adds the nudges of one arrow key: by 1, with Shift by 10, with Ctrl by 0.1.
+/// Adds the nudges for one arrow key: by 1 pixel, with Shift by 10, with Ctrl by 0.1.
 template <int dx, int dy>
 void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
   const auto add = [&](const char* id, const char* by, Modifiers mods, void (*run)(Workspace&)) {

@@ -1,4 +1,4 @@
-// Menu File, and copy and paste of pictures. The window carries out all of these requests.
+// Menu File, and copying and pasting pictures. The window carries out all these requests.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 

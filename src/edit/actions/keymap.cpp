@@ -49,7 +49,7 @@ const std::vector<Gesture>& gestures() {
 
 namespace {
 
-/// The text as code, with bars escaped so that they do not end the cell.
+/// The text as Markdown code, with vertical bars escaped because they would end the cell.
 std::string table_cell(const std::string& text) {
   std::string cell = "`";
   for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);

@@ -5,11 +5,11 @@
 
 namespace holomorph {
 
-/// The keys of an action, such as "Ctrl+Shift+Z, Ctrl+Y". A sign that is bound both with and
-/// without Shift is listed once.
+/// The keys of an action, such as "Ctrl+Shift+Z, Ctrl+Y". A punctuation key that is bound both with
+/// and without Shift is listed once.
 std::string keys_text(const Action& action);
 
-/// A mouse gesture: what the user does, and its effect.
+/// A mouse gesture: what the user does, and what happens.
 struct Gesture {
   const char *what, *does;
 };

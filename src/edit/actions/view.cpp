@@ -22,8 +22,8 @@ void zoom_by(Workspace& w, double factor) {
                              factor);
 }
 
-/// The plane position at which a handle is drawn. The tool Angles draws corners where the map takes
-/// them, not at the points of the posed cage.
+/// The plane position at which a handle is drawn. The angle tool draws corners at their images
+/// under the map, not at the points of the posed cage.
 Complex displayed_position(const Workspace& w, const Handle& handle) {
   const bool corner = w.tools.active == ToolId::angle && w.mode == EditMode::pose &&
                       handle.kind == Handle::Kind::cage && handle.control == 0;

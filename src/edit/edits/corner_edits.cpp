@@ -13,8 +13,8 @@ auto found(const Deformation& deformation, Index vertex) {
   return std::ranges::find(deformation.corners, vertex, &Corner::vertex);
 }
 
-/// Switches to a method that sets angles, lists the corners, adds this one if it is not among them,
-/// and returns its pose.
+/// Switches to a method for corners if needed, fills the list of corners if it is empty, makes the
+/// vertex a corner, and returns the pose of that corner.
 PoseCorner& corner(Deformation& deformation, Index vertex) {
   if (!has_method_for(deformation, MethodUse::corners))
     deformation = with_method_for(std::move(deformation), MethodUse::corners);
@@ -47,7 +47,7 @@ Deformation with_corner(Deformation deformation, Index vertex) {
                n = deformation.corners.size();
   const Corner &before = deformation.corners[(at + n - 1) % n],
                &after = deformation.corners[at % n];
-  // Position of the vertex between its two corners, by the lengths of the edges at rest.
+  // The position of the vertex between the corners before and after it, by arc length at rest.
   const auto way = [&](Index from, Index to) {
     double length = 0;
     for (Index v = from; v != to; v = (v + 1) % deformation.rest.size())

@@ -1,20 +1,20 @@
-// Edits of corners, whose angles the method `angles` prescribes.
+// Edits of corners for the method `angles`, which prescribes their angles.
 #pragma once
 
 #include "edit/edits/edits.h"
 
 namespace holomorph {
 
-/// Whether a cage vertex is a corner. While the list of corners is empty, all vertices are.
+/// Whether a cage vertex is a corner. If the list of corners is empty, all vertices are corners.
 bool is_corner(const Deformation& deformation, Index vertex);
-/// The angles of a corner; the default at vertices that are not listed.
+/// The angles of a corner; the default angles for vertices that are not in the list.
 PoseCorner corner_at(const Deformation& deformation, Index vertex);
 
-/// How far a corner is opened, in radians: the sum of the turns of its two edges away from each
-/// other, or twice the angle given to corner_opened.
+/// How far a corner is opened, in radians: the angle by which its two edges have turned away from
+/// each other. corner_opened increases it by 2 `by`.
 double corner_opening(const Deformation& deformation, Index vertex);
 
-/// Makes a vertex a corner, with the turn that its edge has there.
+/// Makes a vertex a corner. Both of its edges get the rotation that the undivided edge has there.
 Deformation with_corner(Deformation deformation, Index vertex);
 /// Makes a corner a plain vertex. Throws Error if there are only three corners.
 Deformation without_corner(Deformation deformation, Index vertex);
@@ -27,12 +27,12 @@ Deformation corner_turned(Deformation deformation, Index vertex, double by);
 /// Opens a corner: turns each of its two edges away from the other by an angle in radians.
 Deformation corner_opened(Deformation deformation, Index vertex, double by);
 
-/// The corner at which the edge that contains this segment of the cage starts.
+/// The corner that starts the edge containing this segment of the cage.
 Index corner_before(const Deformation& deformation, Index segment);
 /// Sets the tension of the edge that starts at a corner, clamped to 0 ... 1.
 Deformation with_tension(Deformation deformation, Index corner, double tension);
 
-/// Renumbers the corners after a vertex was inserted in a segment, or erased.
+/// Renumbers the corners after a vertex has been inserted into a segment or erased.
 void follow_insertion(std::vector<Corner>& corners, Index segment);
 void follow_erasure(std::vector<Corner>& corners, Index vertex);
 

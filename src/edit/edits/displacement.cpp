@@ -6,7 +6,7 @@
 namespace holomorph {
 namespace {
 
-/// (1 - s^2)^2 for s < 1 and 0 from there on: 1 at 0, with zero slope at 0 and at 1.
+/// (1 - s^2)^2 for s < 1, and 0 for s >= 1. The value at 0 is 1, and the slope is zero at 0 and 1.
 double falloff(double share) {
   return share >= 1 ? 0 : (1 - share * share) * (1 - share * share);
 }

@@ -9,17 +9,17 @@ namespace holomorph {
 
 /// Which handles follow the dragged ones.
 struct DragOptions {
-  bool soft = false;       ///< nearby handles follow, less the farther away they are
+  bool soft = false;       ///< nearby handles follow, more weakly with distance
   double reach = 100;      ///< radius of the soft selection in plane units
-  bool symmetric = false;  ///< the counterpart on the other side at rest makes the mirrored move
+  bool symmetric = false;  ///< the counterpart across the mirror axis makes the mirrored move
 };
 inline constexpr double kMinReach = 1, kMaxReach = 1e5;
 
 using Displacements = std::map<Handle, Complex>;
 
 /// The displacement of each handle that moves when `dragged` moves by `by`. Vertices, pins and
-/// strokes can follow; tangents move only if they are dragged themselves. With symmetry, handles on
-/// the mirror axis stay on it.
+/// strokes can follow; a tangent has a displacement only if it is dragged itself. With symmetry,
+/// handles on the mirror axis stay on it.
 Displacements displacements(const Deformation& deformation, const Selection& dragged, Complex by,
                             EditMode mode, const DragOptions& drag_options);
 

@@ -1,5 +1,5 @@
-// Rest shape, pose and keyframes have the same structure; every structural edit changes all of
-// them.
+// The rest shape, the pose and the keyframes have the same structure, so structural edits change
+// all of them.
 #include "edit/edits/edits.h"
 
 #include <algorithm>
@@ -26,14 +26,14 @@ const Cage& cage_of(const Deformation& deformation, EditMode mode) {
 
 namespace {
 
-/// The points of a stroke; const if the deformation is const.
+/// The points of a stroke. The reference is const if the deformation is const.
 template <class AnyDeformation>
 auto& curve(AnyDeformation& deformation, Index stroke, EditMode mode) {
   auto& found = deformation.strokes[static_cast<size_t>(stroke)];
   return mode == EditMode::rest ? found.rest : found.pose;
 }
 
-/// The position of a pin or control point; const if the deformation is const.
+/// The position of a pin or control point. The reference is const if the deformation is const.
 template <class AnyDeformation>
 auto& point_of(AnyDeformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
@@ -127,7 +127,7 @@ Deformation inserted(Deformation deformation, Index segment, double t) {
 }
 
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
-  // In decreasing order, so that the remaining numbers stay valid.
+  // In decreasing order, which keeps the remaining numbers valid.
   Index vertices = 0;
   for (const Handle& handle : selection)
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;

@@ -20,8 +20,8 @@ struct Handle {
 };
 using Selection = std::set<Handle>;
 
-/// The word for these handles in labels of the history: "pin" or "stroke" if all are of that kind,
-/// else "point".
+/// The word for these handles in the labels of history entries: "pin" or "stroke" if all are of
+/// that kind, else "point".
 std::string kind_of(const Selection& handles);
 
 /// Whether a handle is a control point of the cage but not a vertex.
@@ -63,34 +63,35 @@ Deformation inserted(Deformation deformation, Index segment, double t);
 /// would remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
-/// Whether the deformation's method, or the method that it follows, is the usual one for a use.
+/// Whether the usual method for a use is the deformation's method, or the method that this one
+/// follows.
 bool has_method_for(const Deformation& deformation, MethodUse use);
 /// Switches to the usual method for a use.
 Deformation with_method_for(Deformation deformation, MethodUse use);
 
-/// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` has the
-/// image of `rest` in each keyframe; the pin goes there. Without it, the pin goes to `pose` in all
-/// keyframes.
+/// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` holds the
+/// image of `rest` in each keyframe, where the pin is then placed. If it is empty, the pin is at
+/// `pose` in all keyframes.
 Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
                      const std::vector<Points>& in_keyframes = {});
 
-/// Adds a stroke. Switches to the method `strokes` unless the current method is that one or follows
-/// it. `in_keyframes` has the image of `rest` in each keyframe; without it, the stroke has its pose
-/// in all keyframes.
+/// Adds a stroke. Switches to the method `strokes` unless the current method is `strokes` or
+/// follows it. `in_keyframes` holds the image of `rest` in each keyframe. If it is empty, the
+/// stroke has the curve `pose` in all keyframes.
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes = {});
 /// The points of a stroke.
 const Points& curve_of(const Deformation& deformation, Index stroke, EditMode mode);
-/// Replaces a stroke's curve by a drawn one, reversed if that brings its ends nearer to the old
-/// ones.
+/// Replaces a stroke's curve with a drawn one, which is reversed if that brings its ends closer to
+/// the old ends.
 Deformation redrawn(Deformation deformation, Index stroke, Points curve, EditMode mode);
-/// Moves one point of a curve. Points within arc length `reach` of it follow, less the farther away
-/// they are. For a closed curve, `reach` must be less than half of its length.
+/// Moves one point of a curve. Points within arc length `reach` of it follow, more weakly with
+/// distance. For a closed curve, `reach` must be less than half its length.
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
 /// Replaces a stroke's curve.
 Deformation with_curve(Deformation deformation, Index stroke, Points curve, EditMode mode);
-/// Sets the outline, and the surface whose boundary it is, if any. Switches to the usual method for
-/// outlines unless the current method is that one or follows it.
+/// Sets the outline, and the surface if the outline is the boundary of one. Switches to the usual
+/// method for outlines unless the current method is that method or follows it.
 Deformation with_outline(Deformation deformation, Points outline,
                          std::optional<SurfaceReference> surface = {});
 
@@ -104,16 +105,18 @@ Deformation scaled(Deformation deformation, Index pin, double factor);
 /// Resets the pose of the selected handles to rest, or the whole pose if nothing is selected.
 Deformation reset(Deformation deformation, const Selection& selection);
 
-/// Poses the cage as the pins do and switches to the method `cage`. The pins are kept. Throws Error
-/// if the pins do not act on the cage's own control points (parameter own_controls).
+/// Poses the cage so that it reproduces the effect of the pins, and switches to the method `cage`.
+/// The pins are kept. Throws Error unless the pins act on the cage's own control points (parameter
+/// own_controls).
 Deformation baked(Deformation deformation);
 
 /// Switches to the method `bounded`, which follows the current method.
 Deformation fold_free(Deformation deformation);
 
-/// Switches to another method and restores the parameters that it had when it was last used.
+/// Switches to another method and restores the parameters with which it was last used.
 Deformation with_method(Deformation deformation, const std::string& id);
-/// Applies a preset of the method. Parameters that only other presets set get their defaults.
+/// Applies a preset of the method. Parameters that only other presets set are reset to their
+/// defaults.
 Deformation with_preset(Deformation deformation, const Preset& preset);
 
 /// A point on a cage: the segment, its parameter t, and the distance to a given point.

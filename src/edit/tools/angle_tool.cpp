@@ -1,4 +1,4 @@
-// Key A. A ring turns corners of the posed cage, arms open and close them, and a drag of an edge
+// Key A. A ring turns corners of the posed cage, two arms open and close them, and dragging an edge
 // changes its tension.
 #include <algorithm>
 
@@ -109,7 +109,7 @@ class AngleTool final : public Tool {
     return text;
   }
 
-  /// The selected corners. Ring and arms act on all of them.
+  /// The selected corners. The ring and the arms act on all of them.
   static std::vector<Index> corners_of(const Workspace& workspace) {
     std::vector<Index> corners;
     for (const Handle& handle : workspace.selection)
@@ -191,8 +191,8 @@ class AngleTool final : public Tool {
       return with_tension(deformation_, corner, corner_at(deformation_, corner).tension + up);
     }
     const double by = turned(input);
-    // The inside is to the left of the edges of a counter-clockwise cage, so the edge that starts
-    // at the corner opens it by turning clockwise.
+    // The inside of a counter-clockwise cage is to the left of its edges. Turning the edge that
+    // starts at the corner clockwise therefore opens the corner.
     const bool opens_clockwise = (mark_->hovered == CornerMark::Region::after) ==
                                  (signed_area(outline_of(deformation_.rest)) > 0);
     Deformation deformation = deformation_;

@@ -1,5 +1,5 @@
-// Key B. Paints where the picture is stiff or soft. Dabs are stored at rest positions, those of the
-// points under the pointer. They take effect when the button is released.
+// Key B. Paints where the picture is stiff or soft. Dabs are stored at the rest positions of the
+// picture points under the pointer. They take effect when the button is released.
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,5 @@
-// The line is resampled at equal steps before smoothing, so that the result does not depend on the
-// speed of the hand.
+// The line is resampled at equal steps before it is smoothed, which makes the result independent of
+// the speed of the hand.
 #include "edit/tools/freehand.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A line drawn freehand with the button held down, and smoothed at the end.
+// A line that the user draws freehand with the button held down. It is smoothed at the end.
 #pragma once
 
 #include "edit/input.h"
@@ -20,8 +20,7 @@ class Freehand {
   /// Follows the pointer. Returns true when the button is released.
   bool follow(const Input& input);
   /// Ends the line and returns it, smoothed and resampled at equal steps of about `step_px`. Empty
-  /// if the line is shorter than `shortest_px`. With `closed`, the points are those of a closed
-  /// curve.
+  /// if the line is shorter than `shortest_px`. If `closed`, the points form a closed curve.
   Points finish(bool closed, double step_px, double shortest_px, const Viewport& view);
 
  private:

@@ -1,4 +1,4 @@
-// A press acts on the handle under the pointer. The ring gets it only where there is no handle.
+// A press acts on the handle under the pointer, or on the ring if no handle is there.
 #include "edit/tools/handle_tool.h"
 
 namespace holomorph {

@@ -20,15 +20,15 @@ class HandleTool : public Tool {
   bool follow(const Input& input, Workspace& workspace);
   /// Finds the handle under the pointer.
   void find(const Input& input, const Workspace& workspace);
-  /// Handles a press. On the ring it starts a rotation. On a handle it deletes the handle with Alt,
-  /// and otherwise selects it and starts a drag. Returns whether the press was on the ring or a
-  /// handle.
+  /// Handles a press. On the ring, it starts a rotation. On a handle, it deletes the handle if Alt
+  /// is held; otherwise it selects the handle and starts a drag. Returns whether the press was on
+  /// the ring or a handle.
   bool press(const Input& input, Workspace& workspace);
-  /// Starts the tool's own gesture on the selected handle under the pointer instead of a drag.
-  /// Returns false if there is none.
+  /// Starts the tool's own gesture, instead of a drag, on the selected handle under the pointer.
+  /// Returns false if the tool has no gesture for it.
   virtual bool start_gesture(const Input&, Workspace&) { return false; }
 
-  /// Whether the tool shows the ring of the selected pin. Tools that do call its `hover`.
+  /// Whether the tool shows the ring of the selected pin. Such a tool must call PinRing::hover.
   virtual bool has_ring() const { return false; }
 
   HandleDrag drag_;

@@ -54,7 +54,7 @@ void OrbitCamera::pan_px(Complex delta, double height) {
   const double per_px = 2 * distance * std::tan(kHalfAngle) / std::max(height, 1.0);
   target += turned(yaw, pitch).transpose() *
             Eigen::Vector3d(-per_px * delta.real(), per_px * delta.imag(), 0);
-  // Pan only as far as the surface stays between the clipping planes.
+  // Limit panning to keep the surface between the clipping planes.
   const Eigen::Vector3d off = target - middle;
   if (off.norm() > 2 * radius) target = middle + 2 * radius * off.normalized();
 }

@@ -1,5 +1,6 @@
-// Key U. Draws an outline, which the cage then takes as its shape: freehand, closed and smoothed
-// when the button is released, or point by point. A drag of the outline itself bends it.
+// Key U. Draws an outline, whose shape the cage then takes. The user draws it freehand, and it is
+// closed and smoothed when the button is released, or sets it point by point. Dragging the outline
+// bends it.
 #include <algorithm>
 
 #include "core/geometry/polyline.h"
@@ -88,8 +89,8 @@ class OutlineTool final : public Tool {
     return distance * workspace.display.viewport.zoom <= workspace.display.handle_px;
   }
 
-  /// Ends a freehand drawing. One that stays within the drag threshold is a click, which sets the
-  /// first point of a path.
+  /// Ends a freehand drawing. If the line stays within the drag threshold, it counts as a click,
+  /// which sets the first point of a path.
   void finish(const Input& input, Workspace& workspace) {
     const Complex first = drawing_.line().front();
     const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
@@ -109,7 +110,7 @@ class OutlineTool final : public Tool {
   }
 
   void close(Workspace& workspace) {
-    // A refused path stays, so that the user can take points back.
+    // Keep a refused path: the user can still remove points from it.
     if (set_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
   }
 

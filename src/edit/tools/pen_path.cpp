@@ -32,7 +32,7 @@ bool PenPath::follow(const Input& input, const Viewport& view, double handle_px)
   closes_ = nodes_.size() >= kFewestNodes && near(nodes_[0], handle_px);
   if (input.mods.shift) pointer_ = constrained(input.position);
   if (!input.pressed) return false;
-  // The second click of a double-click would repeat the last point. It closes the curve instead.
+  // The second click of a double-click would set the same point again. It closes the curve instead.
   const bool repeated = near(nodes_.back(), kDragThresholdPx);
   if (closes_ || (input.double_clicked && repeated && nodes_.size() >= kFewestNodes)) return true;
   if (!repeated) set_point(*pointer_);
@@ -75,8 +75,8 @@ Cage PenPath::cage() const {
   return cage;
 }
 
-/// The open curve so far as a polyline, with the last point's tangent while it is being dragged
-/// out.
+/// The open curve so far, as a polyline. Includes the tangent of the last point while that tangent
+/// is being dragged.
 Points PenPath::drawn() const {
   Points line;
   for (size_t i = 0; i + 1 < nodes_.size(); ++i) {
@@ -92,7 +92,7 @@ Points PenPath::drawn() const {
   return line;
 }
 
-/// z moved so that its direction from the last point is a multiple of 15 degrees.
+/// Moves z until its direction from the last point is a multiple of 15 degrees.
 Complex PenPath::constrained(Complex z) const {
   const Complex by = z - nodes_.back().at;
   return nodes_.back().at +

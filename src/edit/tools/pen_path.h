@@ -5,8 +5,8 @@
 
 namespace holomorph {
 
-/// A click sets a corner; a drag from there makes the point smooth. The tool that owns the path
-/// sets its first point.
+/// A click sets a corner; dragging before the button is released makes the point smooth. The tool
+/// that owns the path sets the first point.
 class PenPath {
  public:
   bool active() const { return !nodes_.empty(); }

@@ -89,7 +89,7 @@ class PenTool final : public HandleTool {
   }
 
   void close(Workspace& workspace) {
-    // A refused path stays, so that the user can take points back.
+    // Keep a refused path: the user can still remove points from it.
     if (!workspace.commit("Draw cage", with_cage(workspace.shown.own(), path_.cage()),
                           EditBase::document))
       return;

@@ -27,7 +27,8 @@ class PinTool final : public HandleTool {
       return;
     }
     const bool switches = !method_named(workspace.shown.deformation().method).uses_pins;
-    // At rest, the pose of the pin is the posed image of the point, so adding it moves nothing.
+    // At rest, the pin's pose is the image of the point under the map, so adding the pin moves
+    // nothing.
     const Complex pose = workspace.at_rest() ? posed_at(workspace.map(), *rest) : input.position;
     if (!workspace.commit("Add pin", with_pin(workspace.shown.deformation(), *rest, pose,
                                               workspace.keyframe_images({&*rest, 1}))))

@@ -1,5 +1,5 @@
-// The boundary of the mesh subdivides the cage, so images of segments are runs of boundary
-// vertices.
+// The boundary of the mesh subdivides the cage, so the image of a segment consists of consecutive
+// boundary vertices.
 #include "edit/tools/posed_corners.h"
 
 #include <algorithm>
@@ -38,7 +38,8 @@ Points posed_segment(const Workspace& workspace, Index segment) {
     return static_cast<size_t>(std::ranges::find(mesh.boundary, node) - mesh.boundary.begin());
   };
   const size_t from = boundary_index(segment), to = boundary_index((segment + 1) % pose.size());
-  // The boundary is counter-clockwise; the cage has the orientation in which it was drawn.
+  // The boundary is always counter-clockwise, but the cage has the orientation in which it was
+  // drawn.
   const size_t step = signed_area(outline_of(workspace.shown.deformation().rest)) > 0 ? 1 : n - 1;
   Points line{workspace.map().map().f[mesh.boundary[from]]};
   for (size_t at = from; at != to;) {

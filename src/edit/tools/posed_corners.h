@@ -1,4 +1,4 @@
-// The images of the cage's vertices and edges under the displayed map, and picking them.
+// The images of the cage's vertices and edges under the displayed map, and how to pick them.
 #pragma once
 
 #include "edit/workspace.h"
@@ -12,11 +12,11 @@ struct CornerMark {
   Index vertex = 0;
   Complex center = 0;
   double radius = 0;              ///< of the ring
-  Complex before = 0, after = 0;  ///< ends of the arms, along the edges that end and start here
+  Complex before = 0, after = 0;  ///< ends of the arms along the incoming and outgoing edge
   Region hovered = Region::none;
 };
 
-/// The image of a cage vertex under the displayed map; the posed vertex before there is a map.
+/// The image of a cage vertex under the displayed map; the posed vertex if no map is available yet.
 Complex posed_vertex(const Workspace& workspace, Index vertex);
 
 /// The controls of the corner at a cage vertex.

@@ -1,5 +1,5 @@
-// Takes a sample per drawn frame. The Ramer-Douglas-Peucker algorithm, with time as the parameter,
-// selects the samples that become keyframes.
+// Takes one sample per drawn frame. The Ramer-Douglas-Peucker algorithm, with time as the
+// parameter, selects the samples that become keyframes.
 #include "edit/tools/recording.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void blend(Points& a, const Points& b, double fraction) {
   for (size_t i = 0; i < a.size() && a.size() == b.size(); ++i) a[i] += fraction * (b[i] - a[i]);
 }
 
-/// The pose between two samples that are one drawn frame apart.
+/// Interpolates between the poses of two samples that are one drawn frame apart.
 Pose between(Pose a, const Pose& b, double fraction) {
   for (size_t e = 0; e < a.cage.segments.size(); ++e)
     blend(a.cage.segments[e], b.cage.segments[e], fraction);
@@ -177,7 +177,8 @@ void Recording::finish(Workspace& workspace) {
   for (const Keyframe& key : before.keyframes)
     if (key.time >= start_time_ && key.time <= end && fits(before, key.pose))
       set(key.time, whole_pose_of(dragged(posed_as(before, key.pose), sample_at(key.time).by)));
-  // Linear between the recorded keyframes; after the last one, the easing that was there before.
+  // The easing is linear between the recorded keyframes. After the last one, it stays what it was
+  // before.
   const auto behind = std::ranges::upper_bound(before.keyframes, end, {}, &Keyframe::time);
   const Ease last = behind == before.keyframes.begin() ? Ease::smooth : std::prev(behind)->ease;
   const double last_time = at_frame(end);
@@ -199,7 +200,7 @@ void Recording::finish(Workspace& workspace) {
 void Recording::cancel(Workspace& workspace) {
   samples_.clear();
   workspace.shown.preview.reset();
-  // If another document was opened, `recording` is off, and its time is kept.
+  // If another document was opened, `recording` is off and the time of that document is kept.
   if (std::exchange(workspace.shown.timeline.recording, false))
     workspace.shown.timeline.time = start_time_;
 }

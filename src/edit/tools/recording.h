@@ -8,17 +8,17 @@ namespace holomorph {
 class Recording {
  public:
   /// Starts at the workspace's current time. If keyframes play, everything except the dragged
-  /// handles continues to move with them; otherwise it keeps its displayed pose. Tangents of
-  /// segments whose degree changes with time are left out. Returns whether anything is left to
-  /// record; a toast says so if not.
+  /// handles keeps moving with them. Otherwise everything else keeps its displayed pose. Tangents
+  /// of segments whose degree changes with time are left out. If nothing is left to record, shows a
+  /// toast and returns false.
   bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
-  /// The deformation at the time that belongs to `now_ms`, with the dragged handles displaced by
-  /// `by` from their positions at the start. Sets the workspace's time.
+  /// The deformation at the time of recording that corresponds to `now_ms`, with the dragged
+  /// handles displaced by `by` from their positions at the start. Sets the workspace's time.
   Deformation follow(Workspace& workspace, Complex by, double now_ms);
-  /// Sets linear keyframes at frames in one step: few keyframes that keep all handles within three
-  /// window px of their paths. Existing keyframes keep what was not dragged. Those that do not play
-  /// are not changed.
+  /// Sets keyframes with linear easing at whole frames, in one step. It sets only the keyframes
+  /// needed to keep all handles within about three window px of their paths. In existing keyframes,
+  /// only the dragged handles move. Keyframes that do not play are not changed.
   void finish(Workspace& workspace);
   void cancel(Workspace& workspace);
 

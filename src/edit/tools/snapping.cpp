@@ -1,4 +1,5 @@
-// The two coordinates snap independently, so a handle can line up with two things.
+// The two coordinates snap independently: a handle can line up with one thing along x and another
+// along y.
 #include "edit/tools/snapping.h"
 
 namespace holomorph {

@@ -10,8 +10,8 @@ struct Guide {
   Complex from, to;
 };
 
-/// What a handle can line up with within `distance` along x or y: handles that are not dragged, its
-/// own rest position, and the edges and the center of the picture.
+/// A handle lines up with anything within `distance` of it along x or y: handles that are not
+/// dragged, its own rest position, and the edges and center of the picture.
 struct Snapping {
   double distance = 0;  ///< plane units
   std::optional<Box> picture;

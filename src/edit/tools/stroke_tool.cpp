@@ -1,4 +1,4 @@
-// Key S. Draws strokes on the picture. The picture follows when they are moved, bent or redrawn.
+// Key S. Draws strokes on the picture. The picture follows when strokes are moved, bent or redrawn.
 #include <algorithm>
 #include <utility>
 
@@ -122,7 +122,8 @@ class StrokeTool final : public HandleTool {
     if (switches) workspace.messages.say(switched_to(MethodUse::strokes));
   }
 
-  /// A drag at an end of a stroke, or anywhere on it with Ctrl, bends it instead of moving it.
+  /// Dragging an end of a stroke, or any point of it with Ctrl, bends the stroke instead of moving
+  /// it.
   bool start_gesture(const Input& input, Workspace& workspace) override {
     if (hover_->kind != Handle::Kind::stroke) return false;
     const Points& curve = curve_of(workspace.shown.deformation(), hover_->index, workspace.mode);

@@ -124,7 +124,7 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
 void PinRing::follow(const Input& input, Workspace& workspace) {
   const double before = start_deformation_.pins[*pin_].angle.value_or(0);
   double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
-  // Unwrapped from frame to frame, so that a drag can exceed half a turn.
+  // The angle is unwrapped from frame to frame because a drag can exceed half a turn.
   const double last =
       workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));

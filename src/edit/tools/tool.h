@@ -27,7 +27,7 @@ struct ToolOverlay {
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
   std::optional<BoxMark> box;        ///< around the selection
   std::vector<Guide> guides;         ///< guide lines of snapping
-  bool shows_dabs = false;           ///< draw the painted stiffness: `dabs`, or the deformation's
+  bool shows_dabs = false;  ///< draw the painted stiffness: `dabs` if set, else the deformation's
   std::optional<std::vector<BrushDab>> dabs;
   std::optional<Complex> brush;  ///< the position of the brush
 };
@@ -35,15 +35,15 @@ struct ToolOverlay {
 inline constexpr double kDragThresholdPx = 3;
 inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
 
-/// A tool determines what the pointer does on the canvas. Tools live as long as the editor; their
-/// only state is that of an unfinished gesture.
+/// A tool determines what the pointer does on the canvas. Tools live as long as the editor. The
+/// only state that they keep is an unfinished gesture.
 class Tool {
  public:
   virtual ~Tool() = default;
   virtual ToolId id() const = 0;
   virtual void input(const Input& input, Workspace& workspace) = 0;
-  /// Handles a key that the tool uses itself (Enter, Backspace, Escape). Returns false for all
-  /// other keys, which are left to the actions.
+  /// Handles a key that the tool itself uses (Enter, Backspace, Escape). Returns false for all
+  /// other keys, so that actions can use them.
   virtual bool key(Key key, Workspace& workspace) {
     return key == Key::escape && escape(workspace);
   }
@@ -56,10 +56,10 @@ class Tool {
   virtual void cancel(Workspace& workspace) = 0;
   /// Whether a gesture is unfinished.
   virtual bool busy() const = 0;
-  /// Handles the wheel at the pointer's position. Returns false to let it zoom.
+  /// Handles the wheel at the pointer's position. Returns false if the wheel should zoom.
   virtual bool scroll(const Input&, Workspace&) { return false; }
   virtual ToolOverlay overlay() const = 0;
-  /// The text of the status bar: what the pointer does at its position.
+  /// The text of the status bar: what the pointer does where it is now.
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
@@ -102,7 +102,7 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
-  /// The guide lines through whatever the pressed handle lines up with.
+  /// The guide lines from what the pressed handle lines up with.
   const std::vector<Guide>& guides() const { return guides_; }
   /// Follows the pointer and commits on release. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
@@ -126,24 +126,24 @@ class HandleDrag {
   bool active_ = false, moving_ = false, amends_ = false, with_ctrl_ = false;
 };
 
-/// Sets the outline in one step, plays the iterations of the method, and displays the surface whose
-/// boundary it is, if any. Refuses an invalid outline with a toast. Returns whether the outline was
-/// set.
+/// Sets the outline in one step and plays the iterations of the method. If the outline is the
+/// boundary of a surface, displays the surface too. Refuses an invalid outline with a toast.
+/// Returns whether the outline was set.
 bool set_outline(Workspace& workspace, const std::string& label, Points outline,
                  std::optional<SurfaceReference> surface = {});
 
 /// Makes the selected vertices smooth, or corners if all of them are smooth, in one step.
 void toggle_corners(Workspace& workspace);
 
-/// Deletes the handle under the pointer if Alt is held and it is a vertex, pin or stroke. Returns
-/// whether these conditions were met.
+/// Deletes the handle under the pointer if Alt is held and the handle is a vertex, pin or stroke.
+/// Returns whether both conditions hold.
 bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around a single selected pin. A drag of the ring rotates the picture around the pin;
 /// the wheel on the ring scales it.
 class PinRing {
  public:
-  /// Updates which pin has the ring and whether the pointer is on the ring.
+  /// Determines which pin has the ring and whether the pointer is on it.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return hovered_; }
   bool active() const { return active_; }

@@ -1,4 +1,4 @@
-// Grips lie slightly outside the handles, so that both can be picked.
+// Grips lie slightly outside the handles, so both can be picked.
 #include "edit/tools/transform_box.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A box around several selected handles, which moves, rotates and scales them.
+// A box around several selected handles that moves, rotates and scales them together.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct BoxMark {
 
 class TransformBox {
  public:
-  /// Updates the box, and what is under the pointer.
+  /// Updates the box and which of its grips is under the pointer.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return mark_ && mark_->hovered; }
   /// Whether the pointer is inside the box and not on a grip. A drag from there moves the handles.
@@ -51,9 +51,9 @@ class TransformBox {
   const std::optional<BoxMark>& mark() const { return mark_; }
   std::string hint() const;
   void start(const Input& input, const Workspace& workspace);
-  /// Follows the pointer and commits on release. With Shift, corners scale freely, the knob rotates
-  /// in steps of 15 degrees, and moves are along one axis. With Alt, scaling is about the center. A
-  /// click inside the box clears the selection.
+  /// Follows the pointer and commits on release. With Shift, corners scale both axes freely, the
+  /// knob rotates in steps of 15 degrees, and moves follow one axis. With Alt, scaling keeps the
+  /// center fixed. A click inside the box clears the selection.
   void follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 
@@ -61,7 +61,7 @@ class TransformBox {
   Affine map(const Input& input);
   BoxMark mark_of(const Workspace& workspace, const Affine& map) const;
 
-  Box content_, box_;  ///< bounding box of the handles, and the box with its margin; in the plane
+  Box content_, box_;  ///< bounding box of the handles, without and with the margin; in the plane
   double knob_ = 0;    ///< distance of the knob above the box
   std::optional<BoxMark> mark_;
   int grip_ = 0;
