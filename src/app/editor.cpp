@@ -1,4 +1,4 @@
-// One frame, from mouse input to pixels, in the order that src/README.md gives.
+// Runs each frame, from mouse input to pixels, in the order described in src/README.md.
 #include "app/editor.h"
 
 #include <imgui.h>
@@ -152,8 +152,8 @@ class Editor {
     if (std::exchange(fit_, false)) view.fit(content_box(workspace_));
   }
 
-  /// The extent of an opened scene's picture is known only once its map is ready. Fits the view to
-  /// all of it then, unless the user has already started to work.
+  /// Fits the view to the posed picture of a newly opened scene, unless the user has already
+  /// started to work. Waits for the map, which determines the picture's extent.
   void show_whole_map() {
     if (workspace_.document.history().can_undo()) opened_ = false;
     if (!opened_ || !workspace_.map().has_map() || workspace_.map().busy()) return;
@@ -168,19 +168,19 @@ class Editor {
   }
 
   void handle_events() {
-    // One question at a time: dropped files and a request to close wait meanwhile.
+    // While a dialog or question is open, dropped files and requests to close the window wait.
     if (!files_.asking()) {
       for (const Path& path : window_.take_drops()) files_.drop(path);
       if (window_.take_close()) workspace_.request = Request::quit;
     }
-    // A panel's preview ends when none of its items is being dragged any more.
+    // A panel's preview ends when the user no longer drags any of its items.
     const bool active = ImGui::IsAnyItemActive();
     if (workspace_.shown.preview && !current_tool().busy() && !active && !was_active_)
       workspace_.shown.preview.reset();
     was_active_ = active;
     panel_focus_.look();
     for (const auto& [key, repeats] : window_.take_keys()) {
-      const KeyFocus focus = key_focus(window_focus());                // a key may have changed it
+      const KeyFocus focus = key_focus(window_focus());  // the last key may have changed it
       if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key counts once
       if (focus == KeyFocus::panel) handle_panel_key(key);
       if (focus == KeyFocus::canvas) take_key(key);
@@ -224,7 +224,7 @@ class Editor {
   }
 
   void take_key(const Shortcut& key) {
-    if (key == Shortcut(Key::space)) return;  // a tap plays, a drag pans: see navigate
+    if (key == Shortcut(Key::space)) return;  // navigate() handles Space: a tap plays, a drag pans
     const bool escapes = key.key == static_cast<int>(Key::escape) && current_tool().busy();
     if ((key.mods == Modifiers{} || escapes) && key.key >= 256 &&
         current_tool().key(static_cast<Key>(key.key), workspace_))
@@ -401,7 +401,7 @@ class Editor {
       draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
       const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
       draw_missing_picture(workspace_, scale, offer);
-      // The offer of a cage takes the place of the first step.
+      // Hints are hidden while the offer of a cage is shown, because it takes the first step.
       if (preferences_.hints && offer == 0 && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();
@@ -446,7 +446,7 @@ class Editor {
   bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
        was_active_ = false, restyle_ = false, menu_was_open_ = false, goes_to_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
-  bool space_ = false, space_used_ = false;  ///< Space is held; releasing it does not play
+  bool space_ = false, space_used_ = false;  ///< Space is held; its release does not play
   ComparisonPanel comparison_;
   SurfacePane surface_pane_{[this] { window_.wake(); }};
   TimelinePanel timeline_;

@@ -6,7 +6,7 @@
 namespace holomorph {
 
 struct EditorOptions {
-  Path file;                   ///< a scene or picture to open; empty: the welcome page
+  Path file;                   ///< a scene or picture to open; if empty, shows the welcome page
   Path state_file;             ///< if set, the editor's state is written here whenever it changes
   bool allow_outside = false;  ///< scenes may show pictures from outside their folder
 };

@@ -161,7 +161,7 @@ void Files::show_withheld() {
   }));
 }
 
-/// Reads the scene again from its file, as a step that can be undone.
+/// Reloads the scene from its file. The user can undo this step.
 void Files::reload() {
   const auto opened = std::make_shared<std::optional<Document>>();
   const Path path = workspace_.document.path();
@@ -232,7 +232,7 @@ void Files::drop(const Path& path) {
     ask_where(path);
 }
 
-/// There are several uses for a dropped picture or scene: asks which one is wanted.
+/// Asks what to do with a dropped picture or scene.
 void Files::ask_where(const Path& path) {
   Question question{"Dropped file", short_name(path.filename()), {}};
   question.answers.push_back(

@@ -1,5 +1,5 @@
 // The document and its files: opening, saving, exporting, autosave and recovery, and the questions
-// that they ask the user.
+// for the user that these involve.
 #pragma once
 
 #include "app/dialogs/export_dialog.h"
@@ -11,35 +11,33 @@
 
 namespace holomorph {
 
-/// Owns the dialogs and questions about files, and keeps the list of recent files. Asks before
-/// unsaved work is lost.
+/// Owns the dialogs and questions about files, and keeps the list of recent files. Asks the user
+/// before it discards unsaved work.
 class Files {
  public:
-  /// `replaced` is called whenever the workspace gets another document; `wake` is called on
-  /// other threads when their work has ended. With `allow_outside`, scenes show pictures from any
-  /// folder.
+  /// Calls `replaced` whenever the workspace gets another document. Worker threads call `wake` when
+  /// they have finished. With `allow_outside`, scenes may show pictures from any folder.
   Files(Workspace& workspace, Preferences& preferences, std::function<void()> replaced,
         const std::function<void()>& wake, bool allow_outside);
 
-  /// Opens a scene or a picture: open() immediately, ask_open() after the user has decided about
-  /// unsaved work. Returns what is wrong, or "".
+  /// Both open a scene or a picture. open() does so immediately and returns an error message, or
+  /// "". ask_open() first asks what to do about unsaved work.
   std::string open(const Path& path);
   void ask_open(const Path& path);
-  /// Takes a dropped file. With a cage, surfaces and SVG paths become its outline. With a picture
-  /// but no cage, an SVG path becomes the cage and a surface is refused. Any other file is opened;
-  /// if a document is open, asks whether to add, replace or open.
+  /// Handles a dropped file. If there is a cage, a surface or SVG path becomes the outline. If
+  /// there is a picture but no cage, an SVG path becomes the cage and a surface is refused. Any
+  /// other file is opened. If another document is open, asks whether to add, replace or open.
   void drop(const Path& path);
-  /// Opens a copy of a scene, which has no file yet. Asks about unsaved work first.
+  /// Opens a scene as a new document without a file. Asks about unsaved work first.
   void ask_sample(const Path& scene);
-  /// Does what an action requests, if that is about files.
+  /// Handles an action's request if it concerns files.
   void answer(Request request);
   /// Recovers or deletes the autosave of an earlier session.
   void ask_recover(const Path& autosave);
   void discard(const Path& autosave);
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
-  /// Reads pictures and the scene again if another program has changed them. To be called
-  /// regularly.
+  /// Reloads pictures and the scene when another program has changed them. To be called regularly.
   void watch();
   /// Keeps the autosave up to date. To be called once per frame.
   void autosave();
@@ -51,12 +49,12 @@ class Files {
   }
   /// The title of the question that is open, or "".
   std::string question() const { return questions_.title(); }
-  /// Whether frames have to be drawn even without events, because a job is running.
+  /// Whether a job is running. Frames must then be drawn even without events.
   bool busy() const { return jobs_.running(); }
   Jobs& jobs() { return jobs_; }
   FileChooser& chooser() { return dialog_; }
   bool has_quit() const { return quit_; }
-  /// Whether the document is saved in its present state, or was exported.
+  /// Whether the document is saved with all its changes, or has been exported.
   bool has_kept() const {
     const Document& document = workspace_.document;
     return export_.has_exported() || (!document.path().empty() && !document.modified());
@@ -79,7 +77,8 @@ class Files {
   enum class Conflict { ask, overwrite };
   std::string save_to(const Path& path, const Then& then, Conflict conflict = Conflict::ask);
   void save(bool as, const Then& then = {});
-  /// A file name in the document's folder or, if it has none, in the folder of the last dialog.
+  /// The path of a file in the document's folder. A document without a file uses the folder of the
+  /// last dialog.
   Path in_document_folder(const std::string& name) const;
   Path folder() const { return in_document_folder("").parent_path(); }
   void ask_where(const Path& dropped);
@@ -99,9 +98,9 @@ class Files {
   Imports imports_;
   PictureWatch watch_;
   std::vector<Recovery> recoverable_;
-  /// Change times of the scene's file. `last_seen_change_` is the one found last: the file is read
-  /// when two consecutive checks find the same time, because until then it may still be written.
-  /// `handled_change_` is that of the version that has been dealt with.
+  /// Modification times of the scene's file: at the last check, and of the version that was handled
+  /// last. A changed file is handled once two consecutive checks find the same time. Before that,
+  /// the other program may still be writing it.
   std::optional<std::filesystem::file_time_type> last_seen_change_, handled_change_;
   bool quit_ = false, autosave_failed_ = false;
 };

@@ -98,8 +98,8 @@ void Imports::ask_find_picture() {
                     [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
-/// Also looks next to the chosen file for the other missing pictures, which may have been moved
-/// with it.
+/// Also looks for the other missing pictures in the chosen file's folder, because they may have
+/// been moved together.
 std::string Imports::find_picture(const Path& path, const std::string& asked) {
   const auto found = std::make_shared<std::map<size_t, std::pair<ImageReference, Picture>>>();
   const auto find = [found, path, asked, open = open_pixels(), scene = workspace_.document.scene(),

@@ -1,4 +1,4 @@
-// Imports into the open document: pictures as layers or in place of others, cages and outlines.
+// Imports into the open document: pictures (as new layers or replacements), cages and outlines.
 #pragma once
 
 #include "app/dialogs/file_chooser.h"
@@ -11,9 +11,9 @@ std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 
 class Imports {
  public:
-  /// `reach` says which files scenes may read. `remember` is called with files that became layers,
-  /// `chosen` with all files that the user chose and that could be read, and `first` if the
-  /// document was empty before.
+  /// `reach` returns which files scenes may read. `chosen` is called with every file that the user
+  /// chose and that could be read, and `remember` with every file that was added as a layer.
+  /// `first` is called after the first layer was added to an empty document.
   Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<Reach()> reach,
           std::function<void(const Path&)> remember, std::function<void(const Path&)> chosen,
           std::function<void()> first)
@@ -25,10 +25,10 @@ class Imports {
         chosen_(std::move(chosen)),
         first_(std::move(first)) {}
 
-  /// Does what an action requests, if that is an import.
+  /// Handles an action's request if it is an import.
   void answer(Request request);
 
-  /// Each returns what is wrong, or "".
+  /// Each function returns an error message, or "".
   std::string add_layer(const Path& path);
   std::string replace_picture(const Path& path);
   std::string svg(const Path& path, bool pose);

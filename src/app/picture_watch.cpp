@@ -1,4 +1,4 @@
-// A changed file is read when two looks in a row find the same change time.
+// A changed file is read once two consecutive checks find the same modification time.
 #include "app/picture_watch.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Watches for pictures that another program changes while they are open.
+// Reloads open pictures when another program changes their files.
 #pragma once
 
 #include <map>
@@ -7,14 +7,14 @@
 
 namespace holomorph {
 
-/// Reads changed pictures again on another thread, once their files are no longer being written.
-/// Pictures that could not be read are tried again when their files change. A picture whose new
-/// file cannot be read stays as it was until the file changes again.
+/// Reads changed pictures on another thread once their files are no longer being written. If a
+/// changed file cannot be read, the old picture is kept until the file changes again. Pictures that
+/// could not be read at all are also tried again when their files change.
 class PictureWatch {
  public:
   explicit PictureWatch(Workspace& workspace) : workspace_(workspace) {}
 
-  /// To be called regularly. Looks at the files, and takes over pictures that have been read.
+  /// To be called regularly. Checks the files, and puts pictures that were read into the document.
   void look();
   /// To be called when the workspace has another document.
   void forget();
@@ -27,8 +27,8 @@ class PictureWatch {
   void take_over();
 
   Workspace& workspace_;
-  Changed changing_;                   ///< found by the last look: may still be being written
-  std::map<std::string, Time> tried_;  ///< change times of the files that could not be read
+  Changed changing_;  ///< changed at the last check; other programs may still be writing them
+  std::map<std::string, Time> tried_;  ///< modification times of the files when last tried
   std::shared_ptr<std::vector<std::pair<ImageReference, Picture>>> read_;
   std::unique_ptr<Job> reading_;
 };

@@ -24,10 +24,10 @@ constexpr SampleRow kRows[] = {
     {"tiger", "Tiger", "A painted face on a mask in space. Drag the mask to turn it."},
     {"fern", "Fern", "Corners curl its tip around more than once. Press Space to unroll it."},
     {"sunflower", "Sunflower", "A cage, and pins that turn the leaves and the head."}};
-constexpr double kThumbnail = 320;  ///< pixels of the longer side
+constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 
-/// The folder of the samples: that of the installed program, or else that of the source tree it was
-/// built from.
+/// The folder with the samples. If the program is not installed, this is the folder in the source
+/// tree from which it was built.
 Path assets() {
   std::error_code error;
   const Path program = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -17,19 +17,19 @@ struct Sample {
   Path scene;
   std::string title, text;
   Texture thumbnail =
-      {};  ///< empty until it is drawn, or if the scene cannot be; opening it says why
+      {};  ///< empty until drawn, or if drawing failed; opening the scene then shows the error
 };
 
-/// The samples that are installed or in the source tree. Their poses are drawn one by one on
-/// another thread.
+/// The sample scenes of the installed program or of the source tree. Another thread draws their
+/// thumbnails one by one.
 class Samples {
  public:
-  /// `wake` is called on another thread when one has been drawn.
+  /// `wake` is called on another thread after each thumbnail.
   explicit Samples(std::function<void()> wake) : wake_(std::move(wake)) {}
-  /// The samples, with the thumbnails drawn so far. Starts drawing if there are more to draw. Needs
-  /// a current OpenGL context.
+  /// The samples, with the thumbnails drawn so far. Starts drawing the missing thumbnails. Needs a
+  /// current OpenGL context.
   const std::vector<Sample>& shown();
-  /// Stops after the thumbnail that is being drawn. shown() continues.
+  /// Stops drawing after the current thumbnail. The next call of shown() resumes it.
   void pause() {
     if (drawing_) drawing_->cancel();
   }
@@ -44,7 +44,7 @@ class Samples {
   std::function<void()> wake_;
   bool listed_ = false;
   std::vector<Sample> samples_;
-  std::vector<char> done_;  ///< for each: whether it has been drawn, or cannot be
+  std::vector<char> done_;  ///< for each sample: whether drawing it has succeeded or failed
   std::shared_ptr<DrawnThumbnails> drawn_;
   std::unique_ptr<Job> drawing_;
 };

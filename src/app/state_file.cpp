@@ -88,7 +88,7 @@ void StateFile::write(const Workspace& workspace, const PartsState& parts) {
   try {
     write_file(path_, last_);
   } catch (const Error&) {
-    // The script that reads the file will notice that it is missing.
+    // Ignored, because the script that reads the file will notice that it is missing.
   }
 }
 

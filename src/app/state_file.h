@@ -6,16 +6,16 @@
 
 namespace holomorph {
 
-/// State of the editor's parts that is not in the workspace.
+/// The part of the editor's state that is not in the workspace.
 struct PartsState {
   bool gesture = false;  ///< a tool is in use
   int compared_rows = 0;
   bool on_surface = false;       ///< the picture is on the surface in space
-  double yaw = 0, distance = 0;  ///< of the camera of the surface
+  double yaw = 0, distance = 0;  ///< of the surface's camera
   double slowest_ms = 0;         ///< longest frame so far, from its first event to its last pixel
-  bool settling = false;         ///< the next frame shows another part of the plane
-  bool pending = false;          ///< keys and clicks wait for the next frames
-  int taken = 0;                 ///< keys and buttons that have gone down or up
+  bool settling = false;         ///< the view will move in the next frame
+  bool pending = false;          ///< input events are queued for later frames
+  int taken = 0;                 ///< presses and releases of keys and buttons handled so far
   bool asking = false;           ///< a dialog takes the keys
   std::string question = {};     ///< title of the open question about files
   bool in_panel = false;         ///< a panel takes the keys
@@ -27,7 +27,7 @@ struct PartsState {
 class StateFile {
  public:
   explicit StateFile(Path path) : path_(std::move(path)) {}
-  /// Writes the state if it differs from what was written last. The plane point (x, y) is at window
+  /// Writes the state if it has changed since the last write. The plane point (x, y) is at window
   /// position  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y - center_y)
   /// zoom.
   void write(const Workspace& workspace, const PartsState& parts);

@@ -1,4 +1,4 @@
-// Quiet grays with one accent, so that the picture is the most colorful thing in the window.
+// Grays with one accent color. The picture should be the most colorful thing in the window.
 #include "app/theme.h"
 
 #include <filesystem>
@@ -45,7 +45,7 @@ void add_fonts(float size) {
 
 namespace {
 
-/// White on black, a border around every field, and one bright color for what is selected.
+/// Makes the interface white on black, with borders around fields and one bright selection color.
 void add_contrast(ImGuiStyle& style) {
   ImVec4* c = style.Colors;
   const unsigned accent = 0x00dcff;
@@ -102,7 +102,7 @@ void apply_theme(double scale, Theme theme) {
   c[ImGuiCol_FrameBgActive] = c[ImGuiCol_ButtonActive] = rgb(accent, 0.55f);
   c[ImGuiCol_CheckMark] = rgb(accent);
   c[ImGuiCol_PlotHistogram] = rgb(accent, 0.5f);  // progress
-  c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);    // the value shows through
+  c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);    // translucent, to keep the value readable
   c[ImGuiCol_SliderGrabActive] = rgb(accent, 0.75f);
   c[ImGuiCol_ModalWindowDimBg] = rgb(0x000000, 0.5f);
   c[ImGuiCol_Header] = rgb(accent, light ? 0.22f : 0.30f);
@@ -174,7 +174,7 @@ std::string fitted_text(const std::string& text, float width) {
     fitted.resize(end == std::string::npos ? 0 : end);
   }
   if (!fitted.empty() || text.empty()) return fitted;
-  // Not even the first clause fits: keep as many whole characters as do.
+  // Not even the first clause fits. Keep as many whole characters as fit.
   size_t kept = std::min(text.find_first_of(",;"), text.size());
   if (kept == 0) return "";
   do {

@@ -25,7 +25,7 @@ Window* self(GLFWwindow* window) {
   return static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-/// The key that the user's keyboard layout prints on a key.
+/// The key code of what the user's keyboard layout prints on a physical key.
 int printed_key(int key, int scancode) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -64,8 +64,8 @@ int printed_key(int key, int scancode) {
   }
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
     return static_cast<int>(Key::f1) + key - GLFW_KEY_F1;
-  // Keys of the number row are digits, whatever they print without Shift (French layouts). Keys
-  // that print letters of other alphabets keep GLFW's code.
+  // Keys of the number row count as digits, even in French layouts, which need Shift for digits.
+  // Keys that print letters of other alphabets keep GLFW's code.
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;
   const char* name = glfwGetKeyName(key, scancode);
   const bool ascii = name && name[0] > ' ' && name[0] < 127 && name[1] == 0;
@@ -118,7 +118,7 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
     self(w)->add({Type::character, 0, 0, static_cast<int>(code)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-    // The position at the press: glfwGetCursorPos would return the current one.
+    // Use the position at the press. glfwGetCursorPos would return the current position.
     const auto [x, y] = self(w)->pointer();
     self(w)->add({Type::button, x, y, button, 0, action});
   });
@@ -207,10 +207,10 @@ void Window::begin_frame(bool navigates) {
   if (!navigates) enter_activates_ = false;
   navigates = navigates && !held_before_navigation_;
   io.ConfigFlags = navigates ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
-  // Tab also moves between fields while the user types into one. Otherwise actions get it.
+  // ImGui gets Tab while the user types into a field or navigates. Otherwise actions get it.
   const bool tabs = (io.WantTextInput || navigates) && !io.KeyCtrl;
   io.KeyMap[ImGuiKey_Tab] = tabs ? GLFW_KEY_TAB : -1;
-  // By itself, ImGui activates buttons only with Space.
+  // ImGui itself activates buttons only with Space. This adds Enter.
   if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
   io.KeyAlt = io.KeyAlt || alt_;
   ImGui::NewFrame();
@@ -285,7 +285,7 @@ void Window::take_key(const Event& event) {
   if (event.action == GLFW_RELEASE) return;
   const int printed = printed_key(event.code, event.scancode);
   const bool ctrl = (event.mods & GLFW_MOD_CONTROL) != 0;
-  // Without Ctrl, + and ? arrive as characters, wherever the layout has them.
+  // Without Ctrl, + and ? are handled as characters, so it does not matter which keys print them.
   if (printed == 0 || (!ctrl && (printed == '+' || printed == '?'))) return;
   Shortcut shortcut;
   shortcut.key = printed;

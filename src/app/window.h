@@ -29,17 +29,16 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Waits until a frame has to be drawn: after an event, after wake(), or because some of the
-  /// frames that follow an event are still to be drawn. Waits at most `longest` seconds. Returns
-  /// whether to draw a frame.
+  /// Waits until a frame must be drawn, but at most `longest` seconds. Returns whether to draw one.
+  /// Events and wake() require frames, and several frames follow each event.
   bool wait(double longest);
   /// Makes wait() return. May be called from any thread.
   void wake();
-  /// Starts a frame of the user interface; draw with OpenGL until end_frame(). A frame sees at most
-  /// one change of the mouse buttons, at the position where it happened, however slow frames are.
-  /// If the frame `navigates`, the arrow keys, Tab, Space and Enter move through the items of the
-  /// dialog or panel that has ImGui's focus. If Enter or Space was held before, navigation starts
-  /// when it is released.
+  /// Starts a frame of the user interface. The caller then draws with OpenGL until end_frame().
+  /// Each frame handles at most one press or release of a mouse button, at the position where it
+  /// happened, even if frames are slow. With `navigates`, the arrow keys, Tab, Space and Enter
+  /// operate the dialog or panel that has ImGui's focus. If Enter or Space is already held,
+  /// navigation starts when it is released.
   void begin_frame(bool navigates);
   void end_frame();
 
@@ -52,16 +51,16 @@ class Window {
   std::vector<KeyPress> take_keys();
   /// Files dropped on the window since the last call.
   std::vector<Path> take_drops();
-  /// Whether the user has asked to close the window since the last call. The program decides; the
-  /// window stays open.
+  /// Whether the user has tried to close the window since the last call. The window stays open
+  /// until the program closes it.
   bool take_close();
-  /// Whether a key is held, identified by what the keyboard layout prints on it.
+  /// Whether a key is held. Keys are identified by the character that the keyboard layout prints.
   bool is_down(const Shortcut& key) const;
   /// Whether events are queued for later frames.
   bool has_events() const { return !events_.empty(); }
   /// Number of presses and releases of keys and mouse buttons handled so far.
   int taken() const { return taken_; }
-  /// From the next frame on, Alt counts as held if it is, or if `held` says so.
+  /// With `held`, Alt counts as held from the next frame on, even if the key is not pressed.
   void set_alt_override(bool held) { alt_ = held; }
   bool alt_override() const { return alt_; }
   void set_title(const std::string& title);
@@ -74,7 +73,7 @@ class Window {
  private:
   struct Event {
     enum class Type { move, button, key, character, scroll } kind;
-    double x = 0, y = 0;  ///< the pointer in window px, or scrolled lines
+    double x = 0, y = 0;  ///< pointer position in window px, or scrolled lines
     int code = 0, scancode = 0, action = 0, mods = 0;
   };
   void add(const Event& event);
@@ -90,18 +89,18 @@ class Window {
   double scale_ = 1, wanted_scale_ = 0;
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;
-  bool enter_activates_ = false;         ///< Enter is held, and was pressed outside a text field
-  bool held_before_navigation_ = false;  ///< Enter or Space has been held since before navigation
+  bool enter_activates_ = false;         ///< Enter is held and was pressed outside a text field
+  bool held_before_navigation_ = false;  ///< Enter or Space was already held when navigation began
   std::vector<KeyPress> keys_;
-  std::map<int, int> held_;  ///< from the GLFW code of each held key to what is printed on it
+  std::map<int, int> held_;  ///< GLFW code of each held key -> the character printed on it
   std::deque<Event> events_;
-  std::optional<std::pair<double, double>> pointer_;  ///< at the latest event, in window px
+  std::optional<std::pair<double, double>> pointer_;  ///< position at the latest event, window px
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};
   std::vector<Path> drops_;
 };
 
-/// Whether a display is set, without which no window can be opened.
+/// Whether a display is set. No window can be opened without one.
 bool has_display();
 
 }  // namespace holomorph

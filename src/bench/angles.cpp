@@ -13,7 +13,7 @@
 namespace holomorph::bench {
 namespace {
 
-/// 20 vertices, alternately far and near. All of them are corners, so there are 40 angles.
+/// A star with 20 vertices. All of them are corners, so there are 40 angles.
 Points star() {
   Points star;
   for (int i = 0; i < 20; ++i)

@@ -83,7 +83,7 @@ double coordinates_ns(Kernel kernel, int order, int runs) {
 double scalar_log_ns(int runs) {
   const Points cage = wavy(100, {500, 500}, 350);
   const Mesh mesh = domain_mesh(cage, {1500});
-  volatile double sum = 0;  // volatile, so that the compiler keeps the loop
+  volatile double sum = 0;  // volatile keeps the compiler from removing the loop
   const double ms = median_ms(runs, [&] {
     for (const Complex& z : mesh.vertices)
       for (size_t e = 0; e < cage.size(); ++e)
@@ -114,8 +114,8 @@ double curved_prepare_ms(int runs) {
 
 /// The composition through an intermediate polygon (Lin and Chen 2024, section 4.3): u2 after the
 /// inverse of u1, where u1 maps the polygon of the segments' endpoints to the curved rest cage.
-/// Measures how many percent of the domain's samples have no preimage under u1, and the time to
-/// find the preimages.
+/// Measures which percentage of the domain's samples has no preimage under u1, and the time to set
+/// up the composition and find the preimages.
 struct PolygonRoute {
   double missing_percent = 0, milliseconds = 0;
 };
@@ -136,7 +136,8 @@ PolygonRoute polygon_route() {
   return {100.0 * missing / static_cast<double>(domain.vertices.size()), now_ms() - start};
 }
 
-/// The time per point and edge for a straight cage whose pose has this degree.
+/// The time per point and edge to compute the coordinates of a straight cage whose pose has this
+/// degree.
 double raised_coordinates_ns(int degree, int runs) {
   const Cage straight = polygon_cage(wavy(100, {500, 500}, 350));
   Cage raised = straight;
@@ -151,7 +152,8 @@ double raised_coordinates_ns(int degree, int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
-/// 10000 preimages for a pose of 20 cubic segments, without setting up the inverse.
+/// The time to find 10000 preimages for a pose of 20 cubic segments, without setting up the
+/// inverse.
 double inverse_ms(int runs) {
   Deformation deformation;
   deformation.rest = polygon_cage(wavy(20, {500, 500}, 350));
@@ -188,7 +190,7 @@ Deformation pulled_bar() {
   return deformation;
 }
 
-/// What to report of a drag of 300 frames: the median or the longest time of a frame, or the number
+/// Figures for a drag of 300 frames: the median frame time, the longest frame time, and the number
 /// of frames that were not certified.
 enum class DragFigure { median, longest, unproved };
 
@@ -212,7 +214,7 @@ double bounded_drag(DragFigure figure) {
   return times[150];
 }
 
-/// The known maps, projected from a cold start, with proof: the median time of the slowest map.
+/// The median time to project and prove the slowest of the known maps, from a cold start.
 double bounded_solve_ms(known_maps::Fineness fineness, int runs) {
   double slowest = 0;
   for (const known_maps::KnownMap& known : known_maps::all()) {
@@ -377,7 +379,8 @@ const Entry kEntries[] = {
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
 };
 
-/// The same folded bar, projected by all published methods: the time, and properties of the map.
+/// Name prefix of the benchmarks that project the same folded bar with all published methods. They
+/// report the time and properties of the map.
 constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
 
 std::vector<Result> comparison(const std::function<void(const Result&)>& report) {

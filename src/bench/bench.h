@@ -9,13 +9,13 @@ namespace holomorph::bench {
 
 struct Result {
   std::string name, unit;
-  double median = 0, goal = 0;  ///< goal 0: none
+  double median = 0, goal = 0;  ///< a goal of 0 means no goal
   int runs = 0;
   std::string detail = {};  ///< further results, as text
 };
 
-/// Runs every benchmark whose name contains `filter`. Calls `report` with each result as soon as it
-/// is known.
+/// Runs every benchmark whose name contains `filter`. Calls `report` with each result as soon as
+/// the benchmark has finished.
 std::vector<Result> measured(const std::string& filter,
                              const std::function<void(const Result&)>& report);
 

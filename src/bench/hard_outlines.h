@@ -1,5 +1,5 @@
-// Shapes whose conformal maps onto each other suffer from crowding: thin shapes, and shapes with
-// limbs, notches and sharp corners.
+// Shapes that are hard to map conformally onto each other, because of crowding: thin shapes, and
+// shapes with limbs, notches and sharp corners.
 #pragma once
 
 #include <string>

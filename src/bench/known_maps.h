@@ -33,7 +33,7 @@ inline Points bar() {
   return {{0, -0.5}, {6, -0.5}, {6, 0.5}, {0, 0.5}};
 }
 
-/// The Wirtinger derivatives from the partial derivatives.
+/// Compute the Wirtinger derivatives from the partial derivatives.
 inline Complex fz_of(Complex fx, Complex fy) {
   return 0.5 * (fx - kI * fy);
 }
@@ -69,7 +69,7 @@ inline KnownMap folded() {
           [=](Complex z) { return fzbar_of(fx(z), kI); }};
 }
 
-/// A bar that is pinched as if its ends were turned: f_z vanishes at a point inside.
+/// A map of a bar whose derivative f_z has a zero at an interior point.
 inline KnownMap pinched() {
   return {"one zero in a bar", bar(), [](Complex z) { return (z - Complex(3.7, 0.05)) * 0.4; },
           [](Complex) { return Complex(0); }};
@@ -100,7 +100,7 @@ struct Projection {
   BoundedReference reference;
   Mesh mesh;
 
-  /// `inside`: nu also counts inside the domain.
+  /// With `inside`, the energy also measures nu at points inside the domain.
   Projection(const KnownMap& known, const Bounds& bounds, Norm norm, bool inside = true,
              Fineness fineness = {}) {
     const Cage cage = polygon_cage(known.domain);
@@ -112,7 +112,7 @@ struct Projection {
     for (size_t v = 0; v < mesh.vertices.size() && inside; ++v)
       if (!outer[v]) points.inner.push_back(mesh.vertices[v]);
     space = std::make_unique<BoundedSpace>(basis, points, BoundedSettings{bounds, norm, 1});
-    // The argument of f_z is that of the nearest holomorphic function.
+    // Take the argument of f_z from the nearest holomorphic function.
     const VectorXc fz = values(known.fz, basis->samples());
     const auto [unknowns, gamma] = HolomorphicFit(*basis, basis->samples())(fz);
     const VectorXc on_mesh = basis->whitened(basis->values(mesh.vertices)) * unknowns;
@@ -135,7 +135,7 @@ inline std::vector<KnownMap> all() {
   return {squared(), quadratic(), spiral(), folded(), pinched(), two_zeros()};
 }
 
-/// The worst violation of the bounds at these points; positive if a bound is violated.
+/// The largest violation of the bounds at these points. Positive if any bound is violated.
 inline double violation(const BoundaryBasis& basis, const LogMap& map, const Points& points,
                         const Bounds& bounds) {
   const MatrixXc c = basis.values(points);
@@ -150,7 +150,7 @@ inline double violation(const BoundaryBasis& basis, const LogMap& map, const Poi
   return worst;
 }
 
-/// A few boundary points of the domain between any two samples, and all vertices of a mesh.
+/// All vertices of a mesh, and ten points on each piece of the domain's boundary.
 inline Points dense_points(const BoundaryBasis& basis, const Mesh& mesh) {
   Points points = mesh.vertices;
   for (const BoundaryPiece& piece : basis.pieces())

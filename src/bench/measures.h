@@ -8,34 +8,35 @@ namespace holomorph::bench {
 /// The median time of `work` in milliseconds, after one warm-up run.
 double median_ms(int runs, const std::function<void()>& work);
 
-/// For 30 random pairs of smooth and limbed outlines: how many targets are reached without folds
-/// (no zero of f', turning number 1, both Hausdorff distances below 1 % of the diameter), and the
-/// median time.
+/// Results for 30 random pairs of smooth and limbed outlines: the number of targets that are
+/// reached without folds, and the median time. A target is reached if f' has no zero (turning
+/// number 1) and the two-sided Hausdorff distance is below 1 % of the diameter.
 struct OutlineFigures {
   double reached = 0, median_ms = 0;
 };
 OutlineFigures outline_figures(bool published);
 inline constexpr int kOutlinePairs = 30;
 
-/// The time of the iterations alone, with 100 vertices and 400 samples, until the distance is
-/// within 1 % of its final value, for the slowest pair.
+/// The time that the slowest pair's iterations take to bring the distance within 1 % of its final
+/// value, without the setup. Uses 100 vertices and 400 samples.
 double outline_iterations_ms(int runs);
-/// The time of the slowest of six hard pairs, from a cold start.
+/// The time from a cold start for the slowest of six hard pairs.
 double hard_outline_ms();
 
-/// Preparing the Hilbert coordinates and the angle map of 20 corners at 10k mesh vertices; a frame
-/// in which one corner is dragged; and a frame in which all angles are recomputed.
+/// Times for a star with 20 corners and 10k mesh vertices: preparing its Hilbert coordinates and
+/// angle map, a frame in which one corner is dragged, and a frame in which all angles are
+/// recomputed.
 double angles_prepare_ms(int runs);
 double angles_drag_ms(int runs);
 double angles_pose_ms(int runs);
-/// A frame between two keyframes with 20k triangles, including the handles.
+/// The time of a frame between two keyframes, with 20k triangles and including the handles.
 double playback_ms(int runs);
-/// The largest relative error of the area while a bar is bent by 270 degrees; `linear_blend` blends
-/// the positions linearly.
+/// The largest relative error of the area, in percent, while a bar is bent by 270 degrees. With
+/// `linear_blend`, positions are blended linearly.
 double inbetween_loss_percent(bool linear_blend);
 
-/// A frame of dragging one of five strokes with 20 samples each, without evaluating the map on the
-/// mesh.
+/// The time of a frame in which one of five strokes is dragged, without evaluating the map on the
+/// mesh. Each stroke has 20 samples.
 double strokes_drag_ms(int runs);
 
 }  // namespace holomorph::bench

@@ -61,7 +61,7 @@ OutlineFigures outline_figures(bool published) {
 double outline_iterations_ms(int runs) {
   OutlineSettings settings;
   settings.vertices = 100;
-  settings.smoothness = 0.0101;  // just above the default, so that nothing is refined
+  settings.smoothness = 0.0101;  // just above the limit for refinement, which disables it
   double slowest = 0;
   for (unsigned seed = 1; seed <= kOutlinePairs; ++seed) {
     const Pair pair = pair_of(seed);
@@ -99,7 +99,7 @@ double strokes_drag_ms(int runs) {
   rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {10000}));
   rest.samples = rest.mesh->vertices;
   const double length =
-      perimeter(round) / (2 * kPi);  // L: strokes have 20 samples each, all inside
+      perimeter(round) / (2 * kPi);  // L; strokes of this length have 20 samples, all inside
   for (int i = 0; i < 5; ++i)
     rest.strokes.push_back({{-0.5 * length, 60.0 * (i - 2)}, {0.5 * length, 60.0 * (i - 2)}});
   const auto deformer = usual_method(MethodUse::strokes).prepare(rest, nullptr);
@@ -112,7 +112,7 @@ double strokes_drag_ms(int runs) {
     const double start = now_ms();
     map = deformer->deform(pose, {false, true});
     const double solved = now_ms();
-    map = deformer->deform(pose, {false, true});  // only the map
+    map = deformer->deform(pose, {false, true});  // solved already, so this only evaluates the map
     times.push_back(2 * solved - start - now_ms());
   }
   std::nth_element(times.begin(), times.begin() + runs / 2, times.end());

@@ -10,8 +10,8 @@ namespace outlines {
 
 using namespace holomorph;
 
-/// A star-shaped polygon, about 600 across: a circle with a few waves in its radius. With `limbs`,
-/// the radius is the exponential of the waves, so that they become long and thin.
+/// A star-shaped polygon, about 600 across: a circle whose radius is modulated by a few waves. With
+/// `limbs`, the radius is the exponential of the waves, which makes the limbs long and thin.
 inline Points random(unsigned seed, bool limbs, int points) {
   std::mt19937 random(seed);
   const auto number = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1; };
@@ -32,7 +32,7 @@ inline Points random(unsigned seed, bool limbs, int points) {
   return outline;
 }
 
-/// A curve with the same shape and corners whose consecutive points are at most `step` apart.
+/// Points along the same curve, including its corners, that are at most `step` apart.
 inline Points with_steps(const Polyline& line, double step) {
   Points points;
   const Points& from = line.points();

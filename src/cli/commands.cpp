@@ -20,7 +20,7 @@
 namespace holomorph {
 namespace {
 
-/// The cage is a path of an SVG file, or the boundary of a surface's texture coordinates.
+/// Reads a cage from a path in an SVG file or from the boundary of a surface's texture coordinates.
 Cage cage_of_file(const Path& path, const Image& picture) {
   const std::string text = read_file(path);
   if (lower_case(path.extension().string()) != ".obj")
@@ -87,14 +87,14 @@ void run(const NewCommand& command) {
   const auto absolute = [](const Path& path) { return absolute_path(path); };
   const std::string text = json_of(
       portable(with_deformation(loaded.scene, deformation), absolute(command.out).parent_path()));
-  scene_from_json(text, command.out.string());  // writes only what can be read again
+  scene_from_json(text, command.out.string());  // throws if the scene could not be read again
   write_result(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
                static_cast<size_t>(deformation.rest.size()));
 }
 
 void run(const BenchCommand& command) {
-  // If the table does not go to a terminal, each line is also shown on the terminal.
+  // If the table is not printed on a terminal, show each line on the terminal as well.
   const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
   const std::vector<bench::Result> results =
       bench::measured(command.filter, [&](const bench::Result& result) {

@@ -8,8 +8,9 @@
 
 namespace holomorph {
 
-// The path "-" stands for standard input or output. `force`: replace read-only files.
-/// The options that all commands share that read a scene.
+// In all commands, the path "-" stands for standard input or output, and `force` allows replacing
+// read-only files.
+/// The options shared by all commands that read a scene.
 struct SceneCommand {
   Path scene;
   bool outside = false;  ///< pictures may lie outside the scene's folder
@@ -47,7 +48,7 @@ struct InfoCommand : SceneCommand {
 };
 struct NewCommand {
   Path image, out;
-  bool force = false;  ///< replace an existing scene, too
+  bool force = false;  ///< also allows replacing an existing scene
   int vertices = 30;
   std::optional<double> margin = {};  ///< pixels; none: 2 % of the longer side
   bool curved = false;
@@ -70,7 +71,7 @@ struct BenchCommand {
   bool json = false;
 };
 
-/// Throws Error if the file does not exist. If the word may be a mistyped command, the message
+/// Throws Error if the file does not exist. If the path looks like a mistyped command, the message
 /// refers to --help.
 void check_is_file(const Path& path);
 

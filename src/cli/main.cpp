@@ -1,4 +1,4 @@
-// The only executable: commands run without a window; without a command, the editor opens.
+// The only executable. Runs a command without a window, or opens the editor if there is no command.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>

@@ -10,7 +10,7 @@
 
 namespace holomorph {
 
-/// As given on the command line. If neither is given: the scene's own pose.
+/// The options for times, as given on the command line. With neither, the scene's own pose is used.
 struct Moments {
   std::optional<double> time = {};         ///< seconds
   std::optional<std::string> frames = {};  ///< "A..B" or "all"
@@ -21,16 +21,16 @@ struct Moments {
 struct FrameRange {
   int first = 0, last = 0;
 };
-/// Throws Error for a text that is not a range of the scene's frames.
+/// Parses Moments::frames. Throws Error if the text is not a range of the scene's frames.
 FrameRange frames_named(const std::string& text, const Scene& scene);
 
-/// One moment: a frame and its time, or a time alone. If neither is given: the scene's own pose.
+/// One moment: a frame and its time, or only a time. With neither, it is the scene's own pose.
 struct FrameTime {
   std::optional<int> frame = {};
   std::optional<double> time = {};
 };
-/// The moments that the command line asks for, at least one. Throws Error like frames_named, and if
-/// there are times but no keyframes.
+/// The moments that the command line asks for, at least one. Throws Error if the frames are not a
+/// range of the scene's frames, or if times are given but the scene has no keyframes.
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path);
 
 /// Throws Error if the scene has no keyframes. `path` is the scene's file.

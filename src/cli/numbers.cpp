@@ -1,4 +1,4 @@
-// The commands map, inverse, coordinates and info, which give a scene's map in numbers.
+// The commands map, inverse, coordinates and info, which print a scene's map as numbers.
 #include <cstdio>
 #include <iostream>
 
@@ -14,7 +14,7 @@
 namespace holomorph {
 namespace {
 
-/// The start of a CSV row: the frame, if there are several.
+/// The first column of a CSV row, which contains the frame; empty if the moment has no frame.
 std::string frame_column(const FrameTime& moment) {
   return moment.frame ? std::to_string(*moment.frame) + "," : "";
 }
@@ -36,9 +36,9 @@ class NonFinitePoints {
   size_t count_ = 0, first_ = 0;
 };
 
-/// How many points to map in one block, so that their coordinates fit into memory.
+/// The number of points to map in one block. Limited so that their coordinates fit into memory.
 size_t block_size(const TimedMap& map) {
-  constexpr double kBudgetFraction = 0.25;  // fraction of the budget
+  constexpr double kBudgetFraction = 0.25;  // fraction of the budget for coordinates
   const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
   return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
 }
@@ -104,7 +104,7 @@ void run(const InverseCommand& command) {
         out.write(frame_column(moments[k]) + (command.all ? std::to_string(i) + "," : "") +
                   csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
                            preimage.residual, count));
-        if (!command.all) break;  // only the one on top
+        if (!command.all) break;  // only the topmost preimage
       }
     }
   }
@@ -123,7 +123,7 @@ void run(const CoordinatesCommand& command) {
               elevated_to(scene.deformation().rest, scene.deformation().pose).control_count()),
       "the points have");
   const Progress progress("coordinates");
-  // The columns belong to the pose's control points: the rest cage is raised to the pose's degrees.
+  // There is one column per control point of the pose. The rest cage's degrees are raised to match.
   for (Index i = 0; i < scene.deformation().rest.size(); ++i)
     if (scene.deformation().rest.degree(i) > scene.deformation().pose.degree(i))
       throw Error(ErrorKind::bad_input, shown_name(command.scene) + ": /cage/rest/" +

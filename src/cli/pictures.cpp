@@ -17,13 +17,13 @@
 namespace holomorph {
 namespace {
 
-/// "640 x 480 pixels, lower left corner at (0, 0)".
+/// Text such as "640 x 480 pixels, lower left corner at (0, 0)".
 std::string rectangle_text(int width, int height, Complex corner) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels, lower left corner at " +
          point_text(corner);
 }
 
-/// The option that gives other frames the same rectangle: " (--rect 0,0,640,480)".
+/// The option for rendering other frames with the same rectangle, such as " (--rect 0,0,640,480)".
 std::string rectangle_option(int width, int height, Complex corner, double scale) {
   return csv_line(" (--rect %.10g,%.10g,%.10g,%.10g)", corner.real(), corner.imag(), width / scale,
                   height / scale);
@@ -203,7 +203,7 @@ void run(const RenderCommand& command) {
   if (standard && moments.frames)
     throw Error(ErrorKind::bad_input,
                 "each frame is a file of its own; give a file name with --out");
-  // Fails immediately if there is no such format. Standard output gets a PNG.
+  // Fails early if the format is unknown. Standard output gets a PNG.
   const PictureFormat& format = picture_format_of(standard ? Path("out.png") : command.out);
   PictureOptions options;
   options.view = view_named(command.view);

@@ -1,4 +1,4 @@
-// A separate thread shows the time, so that commands without steps show it, too.
+// A separate thread shows the time, because some commands never report a step.
 #include "cli/progress.h"
 
 #include <unistd.h>
@@ -30,7 +30,7 @@ void stop(int) {
 
 void install_signal_handlers() {
   struct sigaction action {};
-  action.sa_handler = stop;  // no SA_RESTART: waiting for a pipe is interrupted
+  action.sa_handler = stop;  // without SA_RESTART, a signal interrupts waiting for a pipe
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 

@@ -1,4 +1,4 @@
-// The progress of commands, and their interruption by Ctrl-C.
+// Shows the progress of commands, and handles their interruption by Ctrl-C.
 #pragma once
 
 #include <atomic>
@@ -10,12 +10,12 @@ namespace holomorph {
 /// Thrown when the user stops a command; the exit status is 130.
 struct Interrupted {};
 
-/// After this call, SIGINT and SIGTERM end the program immediately with status 130, or, while a
-/// DeferredStop exists, make stop_if_interrupted() throw.
+/// After this call, SIGINT and SIGTERM end the program immediately with status 130. While a
+/// DeferredStop exists, they make stop_if_interrupted() throw instead.
 void install_signal_handlers();
 
-/// While one exists, a signal ends the program only at a call of stop_if_interrupted(), so that
-/// nothing is left half done.
+/// While an object of this class exists, a signal ends the program only at the next call of
+/// stop_if_interrupted(). This prevents half-written results.
 class DeferredStop {
  public:
   DeferredStop();
@@ -27,11 +27,11 @@ bool is_interrupted();
 /// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();
 
-/// Shows on a terminal, after the first second, what a command is doing and for how long:
-/// "render: frame 3 of 24, 2 s".
+/// Shows on a terminal what a command is doing and how long it has run, such as "render: frame 3 of
+/// 24, 2 s". Appears after one second.
 class Progress {
  public:
-  /// `unit` names the steps, such as "frame".
+  /// `unit` is the name of a step, such as "frame".
   explicit Progress(const std::string& what, const std::string& unit = "step");
   ~Progress();
   Progress(const Progress&) = delete;
@@ -44,7 +44,7 @@ class Progress {
 
   std::string what_, unit_;
   std::atomic<size_t> done_ = 0, all_ = 0;
-  std::jthread display_;  ///< last member, so that it ends before the others are destroyed
+  std::jthread display_;  ///< declared last, because it must end before the other members do
 };
 
 }  // namespace holomorph

@@ -96,7 +96,7 @@ void ResultWriter::flush() {
 }
 
 void ResultWriter::write(std::string_view bytes) {
-  constexpr size_t kMaxBuffered = 16 << 20;  // bytes that are kept in memory
+  constexpr size_t kMaxBuffered = 16 << 20;  // bytes
   buffer_ += bytes;
   if (buffer_.size() > kMaxBuffered) flush();
 }

@@ -1,4 +1,4 @@
-// The inputs and outputs of commands: files, pipes, and "-" for standard input and output.
+// The inputs and outputs of commands: files, pipes, and standard input and output ("-").
 #pragma once
 
 #include <string_view>
@@ -16,7 +16,7 @@ std::string shown_output(const Path& out);
 
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
-/// Reads a scene, and prints its warning if it has one. Throws Error.
+/// Reads a scene and prints its warning, if any. Throws Error.
 LoadedScene read_scene(const SceneCommand& command);
 /// Throws Error if the scene has no cage.
 void require_cage(const Scene& scene, const Path& input);
@@ -26,17 +26,18 @@ struct SceneAndPoints {
   Scene scene;
   Points points;
 };
-/// `takes_nan`: rows of nan, as `map` writes them, are accepted as points.
+/// With `takes_nan`, accepts rows of nan as points, because `map` writes such rows.
 SceneAndPoints read_scene_and_points(const SceneCommand& command, const Path& points,
                                      bool takes_nan = false);
 
 /// Throws Error if `out` is one of the command's inputs, or read-only without `force`.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
-/// The same for a command that reads a scene, whose pictures and surfaces are also inputs.
+/// Throws Error if `out` is the scene or one of its pictures or surfaces, or read-only without
+/// `force`.
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded);
 
 /// Writes the result of a command piece by piece to a file, a pipe or standard output. A file
-/// appears as a whole when it is finished, or not at all.
+/// appears only when finish() has written all of it.
 class ResultWriter {
  public:
   explicit ResultWriter(Path out) : out_(std::move(out)) {}
@@ -49,14 +50,14 @@ class ResultWriter {
 
   Path out_;
   std::string buffer_;
-  std::optional<DeferredStop> tidy_;  ///< so that an interrupt leaves nothing behind
+  std::optional<DeferredStop> tidy_;  ///< prevents an interrupt from leaving a partial file
   std::unique_ptr<NewFile> file_;
 };
 void write_result(const Path& out, const std::string& bytes);
 
 void print_warning(const LoadedScene& loaded);
 
-/// Formats numbers like printf, but NaN without the sign that some have and no reader expects.
+/// Formats numbers like printf, but writes "-nan" as "nan", because CSV readers expect no sign.
 template <class... Numbers>
 std::string csv_line(const char* format, Numbers... numbers) {
   char line[200];

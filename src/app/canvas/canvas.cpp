@@ -6,7 +6,7 @@
 namespace holomorph {
 namespace {
 
-/// Texture px per plane unit: a power of two, so that it stays the same when the box grows by a
+/// Texture px per plane unit. It is a power of two, so it does not change when the box grows by one
 /// pixel.
 double texture_zoom(const Box& box) {
   const double most = is_software_driver() ? 1024 : 2048;
@@ -28,7 +28,7 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   return frame;
 }
 
-/// The color of a background of one color, which replaces the theme's.
+/// The color of a one-colored background, which replaces the theme's background.
 Color color_of(const Background& background) {
   Color color;
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;
@@ -76,7 +76,7 @@ void Canvas::draw(Workspace& workspace, const CanvasFrame& at) {
 void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
                        bool original) {
   const Scene& scene = workspace.document.scene();
-  // Views of a map, and the rest shape, show the edited layer alone.
+  // Map views and the rest shape show only the edited layer.
   const bool edited_only =
       workspace.display.view != View::image || workspace.mode == EditMode::rest;
   RenderFrame frame = frame_at(workspace.display.viewport, at);

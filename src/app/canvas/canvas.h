@@ -1,4 +1,4 @@
-// The canvas between the panels: passes what the workspace shows to the painters of its layers.
+// The canvas between the panels. Passes the workspace's state to one painter per layer.
 #pragma once
 
 #include <map>
@@ -9,15 +9,15 @@
 
 namespace holomorph {
 
-/// What may change from frame to frame: the size of the window, colors, and the ratio of
-/// framebuffer px to window px.
+/// Settings that may change from frame to frame: the size of the window, the ratio of framebuffer
+/// px to window px, and colors.
 struct CanvasFrame {
   int window_width = 1, window_height = 1;  ///< framebuffer px
   double ratio = 1;
   Color background, backdrop;
 };
 
-/// Tint of the onion skin: warm for the keyframe before the current time, cold for the `later` one.
+/// Tint of an onion skin: blue for a keyframe after the current time (`later`), otherwise orange.
 Color onion_color(bool later);
 
 /// Owns the painters of all layers. Needs a current OpenGL context.
@@ -28,33 +28,33 @@ class Canvas {
 
   /// To be called when the workspace has another document.
   void forget() { forgets_ = true; }
-  /// To be called between frames. Makes room on the GPU for a picture that is ready, which can take
-  /// as long as a frame. Returns whether it did.
+  /// To be called between frames. Allocates GPU memory for a picture that is ready, which can take
+  /// as long as a frame. Returns whether there was such a picture.
   bool allocate_texture();
   /// Uploads what has changed since the last frame, then draws. The maps must be up to date.
   void draw(Workspace& workspace, const CanvasFrame& frame);
 
-  /// A box of the plane, enlarged so that draw_map draws it as a whole number of pixels.
+  /// Enlarges a box of the plane to a whole number of pixels at the scale that draw_map uses.
   static Box whole_pixels(const Box& box);
-  /// Draws the edited layer's posed map alone. The box, one that whole_pixels has returned, fills
-  /// the framebuffer; `clay` shows where the picture is transparent. Changes must have been
-  /// uploaded by draw.
+  /// Draws only the edited layer's posed map. The box fills the framebuffer and must come from
+  /// whole_pixels. Transparent parts of the picture show `clay`. Call draw first, because it
+  /// uploads changes.
   void draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay);
 
-  /// The edited layer's painter, for its heat map and how it is drawn. Valid once draw has been
-  /// called.
+  /// The edited layer's painter, which knows its heat map and how it is drawn. Valid after the
+  /// first call of draw.
   const LayerPainter& edited() const { return *edited_; }
 
  private:
-  /// Draws the part of the canvas between two fractions of its width.
+  /// Draws the part of the canvas between the fractions `from` and `to` of its width.
   void draw_part(Workspace& workspace, const CanvasFrame& at, double from, double to,
                  bool original);
   LayerPainter& painter_of(const Layer& layer);
   void update_picture(Workspace& workspace, const Layer& layer);
 
-  std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by the layers' ids
+  std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by layer id
   LayerPainter* edited_ = nullptr;
-  bool forgets_ = false;  ///< in the next frame; edited() may still be called in this one
+  bool forgets_ = false;  ///< delete the painters in the next frame; edited() is valid until then
   std::function<void()> wake_;
 };
 

@@ -1,13 +1,13 @@
-// Corners of the posed picture: those that the angle tool (A) edits, and those that are held at
-// the smallest angle.
+// Marks on the posed picture: the corners that the angle tool (A) edits, and the corners that have
+// reached the smallest angle.
 #pragma once
 
 #include "app/canvas/overlay.h"
 
 namespace holomorph {
 
-/// Draws all vertices of the cage where the map takes them, and the ring and arms of the chosen
-/// corner.
+/// Draws the images of the cage's edges and vertices under the map, and the ring and arms of the
+/// chosen corner.
 void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
 /// Marks each corner that would fold if it were closed further.

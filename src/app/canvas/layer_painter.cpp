@@ -1,5 +1,5 @@
-// To upload only what has changed, the number of the preparation and the address of the picture are
-// compared with those of the last upload.
+// To upload only changed data, compares the preparation's number and the picture's address with
+// their values at the last upload.
 #include "app/canvas/layer_painter.h"
 
 #include <utility>
@@ -8,7 +8,7 @@ namespace holomorph {
 
 namespace {
 
-/// Amounts that are uploaded within a frame without a noticeable delay.
+/// Amounts of data that can be uploaded in one frame without a noticeable delay.
 constexpr size_t kSmallPixels = 1'500'000;
 constexpr size_t kBytesPerFrame = 8 << 20;
 
@@ -64,13 +64,14 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
   const bool timed = map.timed().has_value();
   if (uploaded_ != map.preparation() || timed_ != timed) {
     if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
-    // With OpenGL in software, the shader's sum would be slower. In-betweens are not such a sum.
+    // The shader computes positions as a sum over controls. Software OpenGL is too slow for this,
+    // and in-betweens of keyframes are not such sums.
     by_operator_ = renderer_.set_operator(
         is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
     uploaded_ = map.preparation();
     timed_ = timed;
   }
-  if (mesh_ != map.drawn()) {  // depths have changed: the same triangles in another order
+  if (mesh_ != map.drawn()) {  // depths have changed the order of the triangles
     renderer_.set_triangles((mesh_ = map.drawn())->triangles);
   }
   if (by_operator_ && map.posed())

@@ -10,24 +10,24 @@
 
 namespace holomorph {
 
-/// Owns a renderer and remembers what was uploaded to it. Needs a current OpenGL context.
+/// Owns a renderer and keeps track of what was uploaded to it. Needs a current OpenGL context.
 class LayerPainter {
  public:
   /// `wake` is called on another thread when there is something new to draw.
   explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Takes the current picture, or null. Large pictures are prepared on another thread and appear
-  /// bit by bit. Returns the factor by which the picture was reduced for this driver: 1 if it was
-  /// not reduced, 0 if the factor is not known yet or was returned before.
+  /// Sets the current picture, or null. Large pictures are prepared on another thread and appear
+  /// gradually. Returns once, when it is known, the factor by which the picture was reduced for
+  /// this driver (1: not reduced). Otherwise returns 0.
   int update_picture(std::shared_ptr<const Image> picture);
-  /// Makes room for a picture that has been prepared, which can take as long as a frame. Returns
-  /// whether there was one.
+  /// Allocates GPU memory for a prepared picture, which can take as long as a frame. Returns
+  /// whether a picture was prepared.
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
-  /// Takes the current map, and computes its heat map if `view` is one.
+  /// Uploads the current map. If `view` is a heat map, also computes its values.
   void update_map(const LiveMap& map, View view, bool automatic_range);
-  /// Draws the layer. Sets view and placement of `frame` to suit the map that was taken.
+  /// Draws the layer. Adapts the view and placement in `frame` to the uploaded map.
   void draw(const LiveMap& map, View view, RenderFrame frame);
 
   const HeatScale& heat_scale() const { return heat_scale_; }
@@ -50,7 +50,7 @@ class LayerPainter {
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;
   unsigned uploaded_ = 0;  ///< number of the preparation; 0: none
-  bool timed_ = false;     ///< the uploaded map is an in-between, not a sum of controls
+  bool timed_ = false;     ///< the uploaded map is an in-between of keyframes
   bool by_operator_ = false;
 };
 

@@ -1,4 +1,4 @@
-// The legend of a heat map: what its colors mean, and where it is worst.
+// The legend of a heat map: the meaning of its colors and its worst point.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

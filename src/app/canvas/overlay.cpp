@@ -57,8 +57,8 @@ void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, I
   dashes(list, line, color, style);
 }
 
-/// Draws lines from each vertex to its tangent handles. Segments whose degree is not 3 show their
-/// whole control polygon.
+/// Draws lines from each vertex to its tangent handles. For segments whose degree is not 3, draws
+/// the whole control polygon.
 void draw_tangents(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                    const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -123,7 +123,8 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
   }
 }
 
-/// Draws a line from a pin to the point that the picture reached, if the gap is visible.
+/// Draws a line from a pin's target to the point where the map takes the pin, if the gap is
+/// visible.
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;
@@ -133,7 +134,8 @@ void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& s
   list.AddCircleFilled(place, 3 * s, style.colors.warning);
 }
 
-/// Draws a zero of the derivative of the map that is being kept from folding: a diamond with a dot.
+/// Marks a zero of the derivative with a diamond and a dot. Only maps that are kept from folding
+/// report such zeros.
 void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const auto diamond = [&](float r, ImU32 color) {
@@ -236,7 +238,7 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
 }
 
-/// Draws the radius of a soft drag, and marks the handles that make the mirrored move.
+/// Draws the radius of a soft drag, and marks the handles that symmetry will move as well.
 void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   Selection dragged = workspace.selection;
@@ -304,8 +306,8 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
 }
 
-/// Draws the outlines of the keyframes before and after the current time, in the colors of their
-/// pictures.
+/// Draws the outlines of the keyframes before and after the current time, in the tints of their
+/// onion skins.
 void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   for (const OnionSkin& skin : workspace.onion_skins()) {
@@ -352,7 +354,7 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
   draw_onion(list, workspace, style);
   if (workspace.display.show_cage && gesture.line.empty()) {
     const ImU32 color = mode == EditMode::rest ? style.colors.rest : style.colors.pose;
-    // With pins or strokes, the posed cage is only where the map starts from, so it is drawn
+    // With pins or strokes, the posed cage is only the map's starting point, so it is drawn
     // faintly.
     const Pose used = pose_of(deformation);
     const bool turned = std::ranges::any_of(used.corners, [](const PoseCorner& corner) {
@@ -434,7 +436,7 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   if (!workspace.display.hide_overlays && !workspace.display.show_original &&
       workspace.document.scene().layer().visible) {
-    // The overlay belongs to the posed part, "after".
+    // The overlay is drawn only in the "after" part, which shows the pose.
     const Viewport& view = workspace.display.viewport;
     const double from = view.left + workspace.display.split.value_or(0) * view.width;
     list.PushClipRect(

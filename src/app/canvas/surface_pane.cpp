@@ -1,5 +1,5 @@
-// The flat picture is drawn into one texture. The surface with that texture is drawn into
-// another one, which ImGui shows.
+// The flat picture is drawn into one texture. The surface, covered with this texture, is drawn into
+// a second texture, which ImGui shows.
 #include "app/canvas/surface_pane.h"
 
 #include <imgui.h>
@@ -20,8 +20,8 @@ bool is_withheld(const Workspace& workspace) {
       workspace.shown.deformation().surface->file);
 }
 
-/// Flattens the surface in its file, fits its boundary into the outline's box and makes that
-/// boundary the outline.
+/// Reads and flattens the surface again, fits its boundary into the outline's box, and makes the
+/// fitted boundary the new outline.
 void fit_to_outline(Workspace& workspace, const std::string& label, Flattening how) {
   const Deformation& deformation = workspace.shown.own();
   if (is_withheld(workspace)) return;
@@ -38,7 +38,7 @@ void fit_to_outline(Workspace& workspace, const std::string& label, Flattening h
       });
 }
 
-/// The time of a file's last change; the same value for all missing files.
+/// The time of a file's last change, or a fixed value if the file is missing.
 std::filesystem::file_time_type time_of(const Path& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
@@ -47,7 +47,7 @@ std::filesystem::file_time_type time_of(const Path& file) {
 
 }  // namespace
 
-/// The file is read on another thread. Until that has ended, there is no surface.
+/// Reads the file on another thread. There is no surface until that thread has finished.
 void SurfacePane::read(const Workspace& workspace) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool withheld = is_withheld(workspace);
@@ -61,7 +61,7 @@ void SurfacePane::read(const Workspace& workspace) {
     problem_.clear();
     fitted_ = 0;
     outline_.clear();
-    if (reading_) {  // not waited for
+    if (reading_) {  // does not wait for it to end
       reading_->cancel();
       abandoned_.push_back(std::move(reading_));
     }
@@ -125,7 +125,7 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
     follow(workspace);
     draw_header(workspace, s);
     if (flat_) draw_surface(workspace, canvas, style);
-  } catch (const Error& error) {  // from the driver: the rest of the window still works
+  } catch (const Error& error) {  // an error of the driver; the rest of the window still works
     ImGui::TextWrapped("%s", error.what());
   }
   ImGui::End();
@@ -185,7 +185,7 @@ void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,
   }
   const Color clay{0.72f, 0.70f, 0.67f};
   if (fitted_surface_) canvas.draw_map(workspace, box_, drawing_->flat, clay);
-  // Twice the pixels in each direction, which are averaged on display.
+  // Render at twice the resolution in each direction. The display averages the pixels.
   const int width = 2 * static_cast<int>(room.x), height = 2 * static_cast<int>(room.y);
   drawing_->space.bind(width, height);
   drawing_->renderer.draw(

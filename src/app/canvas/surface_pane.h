@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Shows the scene's surface and follows its outline; owns the camera and the renderer. Drawing
-/// needs a current OpenGL context.
+/// Shows the scene's surface and refits it when the outline changes. Owns the camera and the
+/// renderer. Drawing needs a current OpenGL context.
 class SurfacePane {
  public:
   /// `wake` is called on another thread when a surface has been read.
@@ -44,13 +44,13 @@ class SurfacePane {
   std::unique_ptr<Job> reading_;
   std::vector<std::unique_ptr<Job>> abandoned_;  ///< canceled, but not ended yet
   std::optional<SurfaceReference> shown_;
-  std::filesystem::file_time_type read_;  ///< change time of its file when it was read
-  Points outline_;                        ///< that laid_ was fitted to
-  std::optional<FlattenedSurface> flat_;  ///< as flattened; none if it cannot be read
+  std::filesystem::file_time_type read_;  ///< modification time of the file that was read
+  Points outline_;                        ///< the outline that fitted_surface_ was fitted to
+  std::optional<FlattenedSurface> flat_;  ///< before fitting; none if it could not be read
   std::optional<FlattenedSurface> fitted_surface_;
   Box box_;  ///< the part of the plane that the texture shows
   OrbitCamera camera_;
-  double fitted_ = 0;    ///< aspect ratio that the camera was fitted to; 0: to be fitted
+  double fitted_ = 0;    ///< aspect ratio for which the camera was fitted; 0: to be fitted
   bool moved_ = false;   ///< the user has moved the camera
   std::string problem_;  ///< why the surface shows no picture
   bool hovered_ = false;

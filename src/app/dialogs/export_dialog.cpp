@@ -2,7 +2,7 @@
 #include "app/dialogs/export_dialog.h"
 
 #include <imgui.h>
-// After imgui.h, which it does not include itself.
+// Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ void ExportDialog::again(const Path& folder) {
   workspace_.messages.complain(start(repeated));
 }
 
-/// The part of the plane to export; none if it depends on the maps.
+/// The part of the plane to export, or none if that depends on the maps.
 std::optional<Box> ExportDialog::region_box() const {
   if (settings_.region == ExportSettings::Region::canvas) {
     const Viewport& view = workspace_.display.viewport;
@@ -220,8 +220,8 @@ std::vector<std::string> ExportDialog::extensions() const {
   return all;
 }
 
-/// The extension decides the format. If pictures and films share it, the choice between them stays.
-/// Returns false if the extension is unknown.
+/// Sets the path and, from its extension, the format. If pictures and films share the extension,
+/// the current choice between them is kept. Returns false if the extension is unknown.
 bool ExportDialog::take_path(const Path& path) {
   const std::vector<Format> known = formats(plays(workspace_.document.scene()));
   const std::string extension = format_extension(path);
@@ -236,7 +236,7 @@ bool ExportDialog::take_path(const Path& path) {
 }
 
 void ExportDialog::accept() {
-  opening_ = true;  // if the dialog stays open, the name has the focus
+  opening_ = true;  // focuses the name if the dialog stays open
   if (name_.empty()) return;
   Path path = in_folder(name_);
   std::error_code error;
@@ -292,7 +292,7 @@ void ExportDialog::draw_file(double scale) {
         [this](const Path& path, double) {
           name_ = path.string();
           take_path(path);
-          confirming_ = files() == std::vector{path};  // the chooser has asked about it
+          confirming_ = files() == std::vector{path};  // the chooser has already asked about it
           return std::string();
         });
   }

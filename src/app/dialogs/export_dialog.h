@@ -7,11 +7,11 @@
 
 namespace holomorph {
 
-/// Settings of an export, which "Export again" uses again.
+/// Settings of an export. "Export again" reuses them.
 struct ExportSettings {
   enum class Region { all, picture, canvas };
   Path path;          ///< its extension decides the format
-  bool film = false;  ///< whether .png and .webp mean films
+  bool film = false;  ///< export a film; matters for .png and .webp, which can be either
   double scale = 1;   ///< output pixels per image pixel
   Region region = Region::all;
   std::optional<Background> background;  ///< none: the scene's
@@ -19,9 +19,9 @@ struct ExportSettings {
   bool loops = true;
 };
 
-/// Options for a picture of what the canvas shows: its view, its color range and its time.
+/// Options for a picture with the canvas's current view, color range and time.
 PictureOptions as_shown(const Workspace& workspace);
-/// A message about a picture that would be missing from such an export, or "".
+/// A message about a picture that would be missing from an export with these options, or "".
 std::string missing_picture_message(const Workspace& workspace);
 
 class ExportDialog {
@@ -29,12 +29,12 @@ class ExportDialog {
   ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser)
       : workspace_(workspace), jobs_(jobs), chooser_(chooser) {}
 
-  /// Opens the dialog for a picture or a film. Proposes a file in `folder`, or in the folder of the
-  /// last export if there was one.
+  /// Opens the dialog for a picture or a film. Proposes a file in the folder of the last export, or
+  /// in `folder` before the first export.
   void ask(bool film, const Path& folder);
   /// Repeats the last export, or opens the dialog if there was none.
   void again(const Path& folder);
-  /// To be called for another document: nothing of it was exported yet.
+  /// To be called when another document is opened. Forgets the last export.
   void forget() { last_.reset(); }
   bool has_exported() const { return last_.has_value(); }
   bool open() const { return open_; }
@@ -48,10 +48,10 @@ class ExportDialog {
   std::string result_text() const;
   std::optional<Box> region_box() const;
   std::vector<Path> files() const;
-  /// Returns what is wrong, or "".
+  /// Returns an error message, or "".
   std::string start(const ExportSettings& settings);
   std::vector<std::string> extensions() const;
-  /// The path of a typed name; a relative one lies in the last folder.
+  /// The path for a typed name. Relative names refer to the last folder.
   Path in_folder(const Path& path) const;
   bool take_path(const Path& path);
   void accept();
@@ -61,7 +61,7 @@ class ExportDialog {
   FileChooser& chooser_;
   ExportSettings settings_;
   std::optional<ExportSettings> last_;  ///< settings of the last export
-  bool last_all_ = true;                ///< the last export had all frames
+  bool last_all_ = true;                ///< the last export went up to the scene's last frame
   Path folder_;
   std::string name_, message_;
   bool open_ = false, opening_ = false, confirming_ = false;

@@ -1,5 +1,5 @@
-// The desktop's dialog is a separate program (zenity or kdialog). So Holomorph needs no GUI
-// toolkit, and survives a crash of the dialog.
+// The desktop's dialog is a separate program (zenity or kdialog). Therefore, Holomorph needs no GUI
+// toolkit and survives a crash of the dialog.
 #include "app/dialogs/file_chooser.h"
 
 #include <imgui.h>
@@ -12,7 +12,7 @@
 namespace holomorph {
 namespace {
 
-/// "*.png *.PNG".
+/// File name patterns for the extensions, such as "*.png *.PNG".
 std::string patterns(const std::vector<std::string>& extensions) {
   std::string text;
   for (const std::string& extension : extensions) {
@@ -24,7 +24,7 @@ std::string patterns(const std::vector<std::string>& extensions) {
   return text;
 }
 
-/// The command of the desktop's dialog; empty if there is none.
+/// The command that opens the desktop's dialog, or nothing if there is no such dialog.
 std::vector<std::string> native_command(const FileQuestion& question, const Path& start) {
   const bool saves = question.mode == FileQuestion::Mode::save;
   if (has_program("zenity")) {
@@ -66,12 +66,13 @@ void FileChooser::ask(FileQuestion question, Answer answer) {
       wake_);
 }
 
-/// Uses the answer of the desktop's dialog. The browser asks what that dialog does not: whether to
-/// replace a file whose extension was added, and for another file if the answer cannot be used.
+/// Uses the answer of the desktop's dialog. Opens the browser if a question remains: whether to
+/// replace files that the desktop's dialog did not ask about, or which file to use instead if the
+/// answer was rejected.
 void FileChooser::use_native_answer() {
   native_.reset();
   if (chosen_->empty()) return;
-  // The answer may ask another question.
+  // Moved out of the members, because the answer may ask another question.
   FileQuestion question = std::move(question_);
   const Answer answer = std::move(answer_);
   Path path = *chosen_;

@@ -17,9 +17,9 @@ class FileChooser {
   /// `wake` is called on another thread when the desktop's dialog has been answered.
   explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Questions for more than a file are always asked in this window.
+  /// Questions that ask for more than a file always use the browser.
   void ask(FileQuestion question, Answer answer);
-  /// Asks for a file to read. `answer` returns what is wrong with the file, or "".
+  /// Asks for a file to read. `answer` uses the file and returns an error message, or "".
   void ask_open(const std::string& title, const std::string& button,
                 std::vector<std::string> extensions,
                 std::function<std::string(const Path&)> answer) {

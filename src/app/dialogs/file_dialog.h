@@ -10,29 +10,30 @@
 
 namespace holomorph {
 
-/// A question for a file.
+/// A request to choose a file.
 struct FileQuestion {
   enum class Mode { open, save } mode = Mode::open;
   std::string title, button;
-  std::vector<std::string> extensions;  ///< lower case, with the dot; saving adds the first
-  Path start;                           ///< a folder or a file; empty: the last folder
-  bool asks_scale = false;              ///< also asks for the scale of pictures
-  /// The files that saving to a path writes, if not the path itself.
+  /// In lower case, with the dot. Saving adds the first one to a name that ends in none of them.
+  std::vector<std::string> extensions;
+  Path start;               ///< a folder or a file; empty: the last folder
+  bool asks_scale = false;  ///< also asks for the scale of pictures
+  /// Returns the files that saving to a path writes. If not set, saving writes the path itself.
   std::function<std::vector<Path>(const Path&)> writes = {};
 };
 
 /// Shows one question at a time. The answer comes through the callback.
 class FileDialog {
  public:
-  /// Uses the chosen path. Returns "", or what is wrong; then the dialog stays open.
+  /// Uses the chosen path. Returns "", or an error message, which keeps the dialog open.
   using Answer = std::function<std::string(const Path& path, double scale)>;
 
   void ask(FileQuestion question, Answer answer);
-  /// Sets the folder for questions without a start.
+  /// Sets the folder for questions without `start`.
   void start_in(const Path& folder) { folder_ = folder; }
   const Path& folder() const { return folder_; }
   bool open() const { return open_; }
-  /// Shows a message below the name, such as why the last answer could not be used.
+  /// Shows a message below the name, for example why the last answer was rejected.
   void say(const std::string& message) { message_ = message; }
   /// Draws the dialog while it is open.
   void draw(double scale);
@@ -45,7 +46,7 @@ class FileDialog {
 
   FileQuestion question_;
   Answer answer_;
-  unsigned questions_ = 0;  ///< asked so far
+  unsigned questions_ = 0;  ///< number of questions asked so far
   bool open_ = false, opening_ = false, confirming_ = false, focus_ = false;
   Path folder_;
   std::string name_, message_;

@@ -10,7 +10,7 @@
 namespace holomorph {
 namespace {
 
-/// Jobs that end within this time, in ms, show no dialog, which avoids flicker.
+/// Jobs that end within this time, in ms, show no dialog. This avoids flicker.
 constexpr double kShortMs = 60;
 
 }  // namespace
@@ -57,7 +57,7 @@ void Jobs::draw(double scale) {
     ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {360 * s, 0},
                        text.c_str());
   } else {
-    // The duration is unknown: a light moves back and forth.
+    // The duration is unknown, so a light moves back and forth.
     const float t = static_cast<float>(std::fmod(ImGui::GetTime(), 2.0)), at = t < 1 ? t : 2 - t;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::ProgressBar(0, {360 * s, 0}, "");

@@ -6,20 +6,20 @@
 
 namespace holomorph {
 
-/// Runs one job at a time. While it runs, a dialog over the window takes all input.
+/// Runs one job at a time. Meanwhile, a dialog over the window takes all input.
 class Jobs {
  public:
   /// `wake` is called on another thread when a job has ended.
   Jobs(Workspace& workspace, std::function<void()> wake)
       : workspace_(workspace), wake_(std::move(wake)) {}
 
-  /// Does the work on another thread, and after it `then` on this one, unless the work fails or is
-  /// canceled. Short work has ended when this returns. Returns what went wrong with it, or "";
-  /// later errors are shown as toasts. Cancels the job that is running, if any.
+  /// Runs `work` on another thread. If the work succeeds and is not canceled, calls `then` on this
+  /// thread. Waits for short work and returns its error message, or "". Errors of longer work are
+  /// shown as toasts. Cancels a job that is already running.
   std::string run(const std::string& title, Job::Work work, std::function<void()> then);
   bool running() const { return job_ != nullptr; }
-  /// Draws the running job's dialog, and finishes the job if it has ended. `then` may start another
-  /// job.
+  /// Draws the running job's dialog, and calls `then` once the work has ended. `then` may start
+  /// another job.
   void draw(double scale);
 
  private:

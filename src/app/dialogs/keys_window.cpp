@@ -1,8 +1,8 @@
-// One row for each action of the table. A click on its keys waits for another key.
+// Shows one row per action. After a click on an action's keys, waits for the user to press a key.
 #include "app/dialogs/keys_window.h"
 
 #include <imgui.h>
-// After imgui.h, which it does not include itself.
+// Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The window "Keys and mouse" (F1): finds, changes, exports and imports keys.
+// The window "Keys and mouse" (F1), in which the user finds, changes, exports and imports keys.
 #pragma once
 
 #include "app/dialogs/file_chooser.h"
@@ -16,7 +16,7 @@ class KeysWindow {
   bool open() const { return open_; }
   /// Whether the next key is to be assigned to an action.
   bool waits_for_key() const { return !waiting_.empty(); }
-  /// Assigns a key. A key of another action has to be pressed twice.
+  /// Assigns a key. If the key belongs to another action, it must be pressed twice.
   void take(const Shortcut& key);
   void draw(double scale);
 
@@ -35,8 +35,8 @@ class KeysWindow {
   FileChooser& chooser_;
   std::function<void()> changed_;
   std::string search_, waiting_;         ///< waiting_: id of the action whose key is being chosen
-  bool adds_key_ = false;                ///< adds a key to those that it has
-  std::optional<Shortcut> pending_key_;  ///< another action's key, to be pressed again
+  bool adds_key_ = false;                ///< the action keeps its present keys
+  std::optional<Shortcut> pending_key_;  ///< belongs to another action; must be pressed again
   bool open_ = false, opening_ = false, was_waiting_ = false;
 };
 

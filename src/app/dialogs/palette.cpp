@@ -1,11 +1,11 @@
-// Up and Down choose a row, and Enter runs it. Rows that are disabled are gray.
+// Up and Down choose a row, and Enter runs it. Disabled rows are gray.
 #include "app/dialogs/palette.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "edit/edits/edits.h"
-// After imgui.h, which it does not include itself.
+// Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
 
 namespace holomorph {
@@ -18,7 +18,7 @@ struct Row {
   std::function<void()> run;
 };
 
-/// Adds rows for methods, presets and parameters. The changed scene is made when a row is run.
+/// Adds rows for methods, presets and parameters. Each row builds its changed scene only when run.
 void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
   const Deformation& deformation = workspace.shown.deformation();
   const Method& method = method_named(deformation.method);
@@ -111,7 +111,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
     const bool chosen = static_cast<int>(i) == chosen_;
     ImGui::BeginDisabled(!row.enabled);
     ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
-    ImGui::TextUnformatted("\uf00c");  // a check mark, invisible if the row is not on
+    ImGui::TextUnformatted("\uf00c");  // a check mark, invisible if the row is not checked
     ImGui::PopStyleColor();
     ImGui::SameLine(24 * s);
     if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;
@@ -129,7 +129,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
   ImGui::End();
   open_ = !run && !left;
-  opening_ = open_ && entered;  // nothing was run: the field keeps the focus
+  opening_ = open_ && entered;  // keeps the field's focus if Enter did not close the palette
   if (run) run->run();
   return answer;
 }

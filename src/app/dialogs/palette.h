@@ -1,5 +1,5 @@
-// The command palette (Ctrl+Shift+P): searches actions, methods, settings of the method, and themes
-// and sizes of the interface.
+// The command palette (Ctrl+Shift+P). Searches actions, methods, the method's settings, and the
+// interface's themes and sizes.
 #pragma once
 
 #include "app/panels/panels.h"
@@ -14,7 +14,7 @@ class Palette {
 
  private:
   std::string text_;
-  int chosen_ = 0;  ///< index among the rows that are shown
+  int chosen_ = 0;  ///< index among the visible rows
   bool open_ = false, opening_ = false;
 };
 

@@ -1,4 +1,4 @@
-// A question in front of the window, and what each answer does.
+// A dialog that asks a question and runs the chosen answer.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ struct Question {
   std::string title, text;
   std::vector<Answer> answers;
   size_t default_answer =
-      0;  ///< the answer that has the focus and that Enter gives; a harmless one
-  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last
+      0;  ///< the answer that has the focus and that Enter gives; should be harmless
+  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last answer
 };
 
 /// Shows one question at a time.

@@ -40,7 +40,7 @@ float draw_cage_offer(Workspace& workspace, double scale) {
               static_cast<float>(view.top + view.height) - 24 * s},
              {0.5f, 1.0f}, scale);
   ImGui::TextUnformatted("To bend this picture, put a cage around it.");
-  // In one row if there is room.
+  // Use one row if there is room.
   const bool row = view.width > 600 * scale;
   const auto button = [&](const char* face, const char* id) {
     if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);

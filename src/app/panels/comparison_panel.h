@@ -1,4 +1,4 @@
-// The window that compares Holomorph's projection with those of other methods, row by row.
+// The window that compares Holomorph's projection with other methods, one row per map.
 #pragma once
 
 #include <functional>
@@ -16,19 +16,19 @@ class ComparisonPanel {
   /// `wake` is called on the worker thread after each row.
   explicit ComparisonPanel(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Opens the window and starts to compare. The deformation's method must be `bounded`.
+  /// Opens the window and starts the comparison. The deformation's method must be `bounded`.
   void start(const Deformation& deformation);
-  /// The number of rows that are ready.
+  /// The number of finished rows.
   int rows() const {
     const std::lock_guard lock(mutex_);
     return static_cast<int>(rows_.size());
   }
-  /// Draws the window, and the chosen row's map over the canvas.
+  /// Draws the window, and draws the chosen row's map over the canvas.
   void draw(const Workspace& workspace, const OverlayStyle& style);
 
  private:
   void work(const Deformation& deformation, std::stop_token stop);
-  /// Returns whether to compare again.
+  /// Returns whether the user asked to compare again.
   bool draw_window(const Workspace& workspace, const OverlayStyle& style);
   void draw_table(double scale);
   void draw_map(const Workspace& workspace, const OverlayStyle& style) const;
@@ -43,7 +43,7 @@ class ComparisonPanel {
   std::vector<ComparedMap> rows_;
   std::string failure_;
   bool computing_ = false;
-  std::jthread worker_;  ///< declared last, so that it ends before what it uses
+  std::jthread worker_;  ///< declared last, because it must end before the other members do
 };
 
 }  // namespace holomorph

@@ -5,8 +5,8 @@
 
 namespace holomorph {
 
-/// Draws the first step that is not done yet into the corner of the canvas. `kept` says whether the
-/// work was saved or exported. Returns false if the user closes the card.
+/// Draws the first unfinished step in the corner of the canvas. `kept` says whether the work was
+/// saved or exported. Returns false if the user closes the card.
 bool draw_hints(const Workspace& workspace, bool kept, double scale);
 
 }  // namespace holomorph

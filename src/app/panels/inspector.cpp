@@ -116,7 +116,7 @@ void method_section(Workspace& workspace) {
     wrapped_text(workspace.map().map().note);
 }
 
-/// Fields for a corner's angles and for the tension of the edge after it.
+/// Draws fields for a corner's angles and for the tension of the edge after it.
 void corner_angles(Workspace& workspace, Index vertex) {
   const Deformation deformation = workspace.shown.deformation();
   if (!has_method_for(deformation, MethodUse::corners) || workspace.mode == EditMode::rest) return;
@@ -235,7 +235,7 @@ void many_handles(Workspace& workspace) {
               });
 }
 
-/// A number field for relative changes. After each step it returns to `neutral`, 0 or 100 %.
+/// A number field for relative changes. After each change, it returns to `neutral` (0 or 100 %).
 template <class Edit>
 void step_number(const char* label, double neutral, const char* format, Workspace& workspace,
                  const char* step, Edit edit) {
@@ -252,7 +252,7 @@ void step_number(const char* label, double neutral, const char* format, Workspac
   if (!ImGui::IsItemActive()) storage.SetFloat(id, static_cast<float>(neutral));
 }
 
-/// Fields that rotate and scale the selection about its center.
+/// Draws fields that rotate and scale the selection about its center.
 void turn_and_scale(Workspace& workspace) {
   const Selection selection = workspace.selection;
   const EditMode mode = workspace.mode;
@@ -292,7 +292,7 @@ void selection_section(Workspace& workspace) {
   ImGui::NewLine();
 }
 
-/// "2 pins", with a note if the method does not use them.
+/// Text such as "2 pins", with a note if the method does not use them.
 std::string counted(size_t count, const std::string& what, bool used) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s") +
          (count == 0 || used ? "" : " (unused)");
@@ -350,7 +350,7 @@ void history_section(Workspace& workspace) {
   const History& history = workspace.document.history();
   begin_part("history", {0, std::max(ImGui::GetContentRegionAvail().y,
                                      7 * ImGui::GetTextLineHeightWithSpacing())});
-  // Scrolls to the current step when it has changed. Otherwise the user decides what is in view.
+  // Scroll only when the current step has changed, so that the user can scroll freely otherwise.
   int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);
   const bool moved =
       std::exchange(shown, static_cast<int>(history.index())) != static_cast<int>(history.index());
@@ -395,7 +395,7 @@ void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& h
     ImGui::PopID();
     ImGui::Spacing();
   };
-  // First, because the first section does not move when others grow.
+  // Layers come first, because the first section does not move when other sections grow.
   section(
       "Layers", true, [&] { layers.draw(workspace, scale); }, layers.is_renaming());
   section("Method", true, [&] {

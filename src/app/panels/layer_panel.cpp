@@ -1,10 +1,10 @@
-// A name that is being typed is kept here. The scene changes when typing has ended.
+// The panel holds the name that is being typed. The scene changes only when typing ends.
 #include "app/panels/layer_panel.h"
 
 #include <utility>
 
 #include "app/panels/panels.h"
-// After imgui.h, which it does not include itself.
+// Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
 
 namespace holomorph {
@@ -78,7 +78,7 @@ void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
 
 void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
   const Scene& scene = workspace.document.scene();
-  const SharedLayer shared = scene.layers[layer];  // commits replace the scene
+  const SharedLayer shared = scene.layers[layer];  // a copy, because commits replace the scene
   const Layer& state = *shared;
   ImGui::PushID(state.id);
   const auto toggle_flag = [&](bool Layer::*flag, const char* label) {
@@ -117,7 +117,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
 void LayerPanel::draw(Workspace& workspace, double scale) {
   const float s = static_cast<float>(scale);
   const size_t count = workspace.document.scene().layers.size();
-  // At most five rows, so that there is room for the other sections.
+  // Show at most five rows, to leave room for the other sections.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
   begin_part("rows",
              {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});

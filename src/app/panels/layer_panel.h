@@ -1,4 +1,4 @@
-// The inspector's list of layers, and the background.
+// The inspector's section with the list of layers and the background.
 #pragma once
 
 #include "edit/workspace.h"
@@ -7,11 +7,11 @@ namespace holomorph {
 
 class LayerPanel {
  public:
-  /// Lets the user type a name for the edited layer.
+  /// Opens a text field for the edited layer's name.
   void rename(const Scene& scene);
-  /// To be called for another document.
+  /// To be called when another document is opened.
   void forget() { renamed_id_ = 0; }
-  /// Whether a name is being typed. Its field must be visible then.
+  /// Whether a name is being typed. Its field must then be visible.
   bool is_renaming() const { return renamed_id_ != 0; }
   void draw(Workspace& workspace, double scale);
 

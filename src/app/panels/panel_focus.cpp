@@ -3,7 +3,7 @@
 
 #define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
-// After imgui.h, whose functions cannot focus an item that is not under the pointer.
+// Needed because the functions of imgui.h cannot focus an item that is not under the pointer.
 #include <imgui_internal.h>
 
 #include <algorithm>

@@ -5,20 +5,21 @@ namespace holomorph {
 
 class PanelFocus {
  public:
-  /// Gives the keys to the next visible panel, and after the last one back to the canvas.
+  /// Gives the keys to the next visible panel, or to the canvas after the last panel.
   void next();
-  /// Gives the keys to this menu of the menu bar. To be called while the menu bar is being drawn.
+  /// Gives the keys to a menu of the menu bar. To be called while the menu bar is being drawn.
   void go_to_menu(const char* name);
   /// Whether a panel takes the keys.
   bool held() const { return panel_ != nullptr; }
   /// Gives the keys back to the canvas.
   void leave();
-  /// To be called once per frame. Leaves a panel that is no longer visible, and the menu bar once
-  /// an entry was chosen. When a click has led to another panel, that one takes the keys.
+  /// To be called once per frame. Gives the keys back to the canvas if their panel is no longer
+  /// visible or an entry of the menu bar was chosen. If the user has clicked another panel, gives
+  /// the keys to that panel.
   void look();
 
  private:
-  const char* panel_ = nullptr;  ///< the name of its window; null: the canvas
+  const char* panel_ = nullptr;  ///< name of the panel's window; null: the canvas
   bool chooses_ = false;         ///< Enter or Space was pressed in a menu
 };
 

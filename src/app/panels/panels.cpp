@@ -60,7 +60,7 @@ bool text_row(int number, const std::string& text, bool selected, ImVec2 size,
               ImGuiSelectableFlags flags) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::CalcTextSize(text.c_str());
   if (size.x <= 0 && ImGui::GetContentRegionAvail().x < room.x)
-    size.x = room.x;  // at least as wide as the text, as in menus
+    size.x = room.x;  // at least as wide as the text, for example in menus
   ImGui::PushID(number);
   const bool chosen = ImGui::Selectable("##row", selected, flags, size);
   ImGui::PopID();
@@ -193,17 +193,17 @@ void draw_toolbar(Workspace& workspace, double scale) {
                                          "view.fit",
                                          "view.timeline",
                                          "help.keys"};
-  // Buttons shrink so that all buttons and lines fit into the height.
+  // Shrink the buttons until all buttons and lines fit into the height.
   const long lines = std::ranges::count(kIds, std::string_view(),
                                         [](const char* id) { return std::string_view(id); });
   const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
               room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s,
               gap = ImGui::GetStyle().ItemSpacing.y;
-  // If that makes them too low for their icons, they form two columns.
+  // If the buttons would become too low for their icons, use two columns.
   const bool pairs = room / buttons - gap < 24 * s;
   const float rows = pairs ? std::ceil(buttons / 2) + static_cast<float>(lines) / 2 : buttons;
   const ImVec2 button((pairs ? 18.5f : 40) * s, std::min(38 * s, room / rows - gap));
-  bool left = true;  // the next one is in the left column
+  bool left = true;  // the next button goes into the left column
   for (const char* id : kIds) {
     if (!*id) {
       left = true;

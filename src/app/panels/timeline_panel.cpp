@@ -45,8 +45,8 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   ImGui::SameLine(0, 3);
 }
 
-/// Shows the tooltip of the item drawn last; the next item follows in the same line. A gesture that
-/// starts on the item becomes a separate step.
+/// Shows the last drawn item's tooltip, and continues on the same line. A gesture that starts on
+/// the item becomes a separate undo step.
 void finish_item(Workspace& workspace, const char* tooltip) {
   if (ImGui::IsItemActivated()) workspace.end_mergeable_step();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
@@ -80,7 +80,8 @@ void draw_key_numbers(Workspace& workspace, float s) {
   Deformation deformation = workspace.shown.own();
   const size_t key = key_at(deformation, workspace.shown.timeline.time);
   if (key >= deformation.keyframes.size()) return;
-  if (ImGui::GetContentRegionAvail().x < 240 * s) return;  // the keyframe's menu has them, too
+  if (ImGui::GetContentRegionAvail().x < 240 * s)
+    return;  // the keyframe's menu has these fields, too
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
   int ease = static_cast<int>(deformation.keyframes[key].ease);
@@ -99,8 +100,8 @@ void draw_key_numbers(Workspace& workspace, float s) {
   finish_item(workspace, "Extra whole turns between the previous keyframe and this one");
 }
 
-/// Draws a keyframe: a circle for smooth easing, a diamond for linear, a square for hold. Hollow
-/// ones do not play.
+/// Draws a keyframe: a circle for smooth easing, a diamond for linear, a square for hold. If the
+/// keyframe does not play, the mark is hollow.
 void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool plays) {
   if (ease == Ease::smooth) {
     r *= 0.85f;
@@ -134,7 +135,7 @@ std::optional<size_t> key_under_pointer(const Deformation& deformation, const Ru
   return under;
 }
 
-/// Draws the menu of the keyframe at the current time while the menu is open.
+/// Draws the context menu of the keyframe at the current time, if it is open.
 void draw_key_menu(Workspace& workspace) {
   if (!ImGui::BeginPopup("key")) return;
   const Deformation deformation = workspace.shown.own();
@@ -209,7 +210,7 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  // Looked up each time, because commits replace it.
+  // A function, because commits replace the deformation.
   const auto own = [&]() -> const Deformation& { return workspace.shown.own(); };
   if (held_ == Held::nothing)
     length_ = std::max(
@@ -249,7 +250,7 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
   draw_key_menu(workspace);
 }
 
-/// Moves what the pointer holds, the current time or a keyframe, to a time.
+/// Moves the dragged item (the current time or a keyframe) to `time`.
 void TimelinePanel::drag(Workspace& workspace, double time, float s) {
   const Deformation& own = workspace.shown.own();
   if (held_ == Held::time && time != workspace.shown.timeline.time) workspace.go_to_time(time);

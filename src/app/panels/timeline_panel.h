@@ -15,10 +15,10 @@ class TimelinePanel {
   void draw_track(Workspace& workspace, float scale);
   void drag(Workspace& workspace, double time, float scale);
 
-  Held held_ = Held::nothing;   ///< what the pointer holds
-  size_t key_ = 0;              ///< index of the keyframe that is held
+  Held held_ = Held::nothing;   ///< what the pointer drags
+  size_t key_ = 0;              ///< index of the dragged keyframe
   std::optional<double> rate_;  ///< frame rate while it is being typed
-  double length_ = 2;  ///< of the ruler in seconds; does not change while something is held
+  double length_ = 2;           ///< length of the ruler in seconds; constant during a drag
 };
 
 }  // namespace holomorph

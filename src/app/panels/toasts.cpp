@@ -1,4 +1,4 @@
-// One small window for each message, stacked.
+// Each message is shown in its own small window. The windows are stacked.
 #include "app/panels/toasts.h"
 
 #include <utility>
@@ -14,11 +14,11 @@ constexpr double kShownMs = 4500, kProblemMs = 9000;
 
 void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   const size_t step = workspace.document.history().index();
-  // After the next step, the point that a message is about is no longer the same.
+  // Remove messages about a point after the next history step, because the point may have changed.
   std::erase_if(shown_,
                 [&](const Shown& shown) { return shown.toast.where && shown.step != step; });
   for (Toast& toast : std::exchange(workspace.messages.toasts, {})) {
-    // A repeated message is shown longer, not twice.
+    // A repeated message is shown longer instead of twice.
     std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
@@ -26,8 +26,8 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const Viewport& view = workspace.display.viewport;
   const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
-  // Stacked downward from the menu; on the welcome page, whose title is at the top, upward from the
-  // status bar.
+  // Messages are stacked downward from the menu. On the welcome page, whose title is at the top,
+  // they are stacked upward from the status bar.
   const bool upwards = workspace.document.empty();
   float y = static_cast<float>(upwards ? view.top + view.height - 6 * style.scale
                                        : view.top + 6 * style.scale);

@@ -7,18 +7,18 @@ namespace holomorph {
 
 class Toasts {
  public:
-  /// Takes the messages of the workspace and draws those that have not expired. A message about a
-  /// point marks it and has a button that goes there.
+  /// Takes over the workspace's messages, and draws all messages that have not expired. For a
+  /// message about a point, marks the point and draws a button that moves the view there.
   void draw(Workspace& workspace, const OverlayStyle& style);
   bool empty() const { return shown_.empty(); }
-  /// Removes messages that have been shown long enough. Returns whether there were any.
+  /// Removes expired messages. Returns whether it removed any.
   bool expire();
 
  private:
   struct Shown {
     Toast toast;
     double until;
-    size_t step;  ///< of the history, when the message came
+    size_t step;  ///< index of the history's current step when the message arrived
   };
   std::vector<Shown> shown_;
 };

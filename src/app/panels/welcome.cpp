@@ -49,7 +49,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
   }
   ImGui::Dummy({0, 10 * s});
   ImGui::TextUnformatted("Samples");
-  // All tiles are in one row if that does not make them too small.
+  // Put all tiles in one row unless that makes them too small.
   const float count = static_cast<float>(std::max<size_t>(samples.size(), 1)),
               tile = std::clamp((display.x - 116 * s) / count - 20 * s, 110 * s, 200 * s);
   for (size_t i = 0; i < samples.size(); ++i) {
