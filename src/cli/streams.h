@@ -30,7 +30,8 @@ struct SceneAndPoints {
 SceneAndPoints read_scene_and_points(const SceneCommand& command, const Path& points,
                                      bool takes_nan = false);
 
-/// Throws Error if `out` is one of the command's inputs, or read-only without `force`.
+/// Throws Error if `out` is one of the command's inputs, or if it is read-only and `force` is not
+/// set.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
 /// Throws Error if `out` is the scene or one of its pictures or surfaces, or read-only without
 /// `force`.

@@ -71,7 +71,7 @@ class Renderer {
   static int largest_side();
   /// Sets the mesh at rest; resets the positions and the operator. Null removes the mesh.
   void set_mesh(const Mesh* mesh);
-  /// Sets another order of the mesh's triangles; later ones are drawn on top.
+  /// Changes the order in which the mesh's triangles are drawn; later triangles are drawn on top.
   void set_triangles(const std::vector<Triangle>& triangles);
   /// Sets the vertex positions for Placement::positions.
   void set_positions(std::span<const Complex> positions);

@@ -19,7 +19,7 @@ struct Picture {
   std::filesystem::file_time_type changed = {};  ///< the file's modification time
 };
 
-/// Reads the pictures that references name. A file named by several references is read once.
+/// Reads the pictures named by references. A file named by several references is read once.
 class PictureFiles {
  public:
   /// `open` is the number of pixels in pictures that are already open.
@@ -57,7 +57,7 @@ class Pictures {
   std::shared_ptr<const Image> shared(const Layer& layer) const;
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
-  /// Marks a file named by a scene as not to be accessed until the user agrees.
+  /// Withholds a file that a scene names: it must not be accessed until the user agrees.
   void withhold(const std::string& file) { withheld_.insert(file); }
   const std::set<std::string>& withheld() const { return withheld_; }
   void release() { withheld_.clear(); }

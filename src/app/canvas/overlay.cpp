@@ -266,8 +266,8 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
   }
 }
 
-/// Draws the painted stiffness and the brush. Plus signs mark stiff parts and rings soft ones; they
-/// are larger where the paint is stronger.
+/// Draws the painted stiffness and the brush. Plus signs mark stiff parts, and rings mark soft
+/// ones; they are larger where the paint is stronger.
 void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);

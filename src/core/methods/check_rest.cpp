@@ -1,4 +1,4 @@
-// One function checks each kind of field.
+// Each kind of field is checked by its own function.
 #include "core/methods/check_rest.h"
 
 #include <algorithm>

@@ -50,7 +50,7 @@ class ConformalStart {
   ConformalStart& operator=(const ConformalStart&) = delete;
 
   /// Whether many points of either outline coincide on the disk's boundary to within rounding, as
-  /// at the ends of a strip that is twelve times as long as wide. In that case, no start can be
+  /// at the ends of a strip twelve times as long as it is wide. In that case, no start can be
   /// found.
   bool is_crowded() const;
   /// Whether a hundredth of either outline covers less than 5e-13 of the disk's boundary. Rounding

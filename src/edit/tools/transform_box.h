@@ -42,7 +42,7 @@ struct BoxMark {
 
 class TransformBox {
  public:
-  /// Updates the box and which of its grips is under the pointer.
+  /// Updates the box and determines which of its grips is under the pointer.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return mark_ && mark_->hovered; }
   /// Whether the pointer is inside the box and not on a grip. A drag from there moves the handles.
