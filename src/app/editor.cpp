@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/canvas/canvas.h"
+#include "app/canvas/navigation.h"
+#include "app/canvas/split_line.h"
 #include "app/canvas/surface_pane.h"
 #include "app/dialogs/keys_window.h"
 #include "app/dialogs/palette.h"
@@ -97,7 +99,7 @@ class Editor {
     handle_events();
     Input input = read_input();
     if (input.wheel != 0 && current_tool().scroll(input, workspace_)) input.wheel = 0;
-    drag_split(input);
+    split_line_.drag(input, workspace_.display);
     navigate(input);
     use_tool(input);
     open_context_menu(input);
@@ -260,47 +262,17 @@ class Editor {
     return input;
   }
 
-  /// Lets the user drag the line between before and after.
-  void drag_split(Input& input) {
-    std::optional<double>& split = workspace_.display.split;
-    if (!split || !input.down) dragging_split_ = false;
-    if (!split) return;
-    const Viewport& view = workspace_.display.viewport;
-    const double off = input.px.real() - view.left - *split * view.width;
-    const bool over = input.inside && std::abs(off) < 0.6 * workspace_.display.handle_px;
-    if (over && input.pressed) dragging_split_ = true;
-    if (dragging_split_) split = std::clamp((input.px.real() - view.left) / view.width, 0.02, 0.98);
-    if (over || dragging_split_) {
-      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-      input.inside = input.pressed = input.double_clicked = false;
-    }
-  }
-
-  /// Whether a position is in the "before" part on the left, where nothing can be grabbed.
-  bool is_before(Complex px) const {
-    const Viewport& view = workspace_.display.viewport;
-    return workspace_.display.split &&
-           px.real() < view.left + *workspace_.display.split * view.width;
-  }
-
   void navigate(Input& input) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const bool space = window_.is_down(Key::space) && !io.WantTextInput;
-    if (input.inside && (ImGui::IsMouseClicked(2) || (space && input.pressed))) panning_ = true;
-    if (!ImGui::IsMouseDown(2) && !(space && input.down)) panning_ = false;
-    if (panning_) workspace_.display.viewport.pan_px({io.MouseDelta.x, io.MouseDelta.y});
-    if (space && !std::exchange(space_, true))
-      space_used_ = key_focus(window_focus()) != KeyFocus::canvas;
-    space_used_ = space_used_ || panning_;
-    if (!space && std::exchange(space_, false) && !space_used_ && !current_tool().busy())
+    const bool pressed = input.pressed;
+    const bool space = window_.is_down(Key::space) && !ImGui::GetIO().WantTextInput;
+    const bool for_canvas = key_focus(window_focus()) == KeyFocus::canvas;
+    const Navigation::Outcome outcome =
+        navigation_.navigate(input, space, for_canvas, workspace_.display.viewport);
+    if (outcome.tapped && !current_tool().busy())
       if (const Action* action = workspace_.actions.for_key(Key::space, workspace_))
         holomorph::run(*action, workspace_);
-    if (input.wheel != 0)
-      workspace_.display.viewport.zoom_at(input.px, std::pow(1.15, input.wheel));
-    if (panning_ || input.wheel != 0 || input.pressed) opened_ = false;
-    if (input.pressed) panel_focus_.leave();
-    if (panning_ || space) input.inside = input.pressed = input.double_clicked = false;
-    input.position = workspace_.display.viewport.plane_at_px(input.px);
+    if (outcome.moved || pressed) opened_ = false;
+    if (pressed) panel_focus_.leave();
   }
 
   Tool& current_tool() {
@@ -315,7 +287,7 @@ class Editor {
         if (tool->id() == last_tool_) tool->cancel(workspace_);
       last_tool_ = workspace_.tools.active;
     }
-    if (is_before(input.px) && !current_tool().busy())
+    if (is_before(workspace_.display, input.px) && !current_tool().busy())
       input.pressed = input.double_clicked = input.inside = false;
     if (input.pressed && !workspace_.require_open_layer())
       input.pressed = input.double_clicked = input.inside = false;
@@ -325,7 +297,8 @@ class Editor {
   void open_context_menu(const Input& input) {
     if (!input.inside || !ImGui::IsMouseClicked(1)) return;
     if (const auto handle = handle_at(workspace_, input.px);
-        handle && !is_before(input.px) && !workspace_.selection.contains(*handle))
+        handle && !is_before(workspace_.display, input.px) &&
+        !workspace_.selection.contains(*handle))
       workspace_.selection = {*handle};
     ImGui::OpenPopup("context");
   }
@@ -393,6 +366,7 @@ class Editor {
       answer(draw_welcome(workspace_, preferences_, samples_.shown(), files_.recoverable(), scale));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
+      draw_split_line(workspace_.display, style);
       if (canvas_.edited().heat_values().size() > 0)
         draw_legend(workspace_, canvas_.edited().heat_scale(), canvas_.edited().heat_values(),
                     style);
@@ -443,10 +417,11 @@ class Editor {
   Toasts toasts_;
   std::optional<StateFile> state_file_;
   std::string title_;
-  bool fit_ = false, opened_ = false, halved_ = false, panning_ = false, dragging_split_ = false,
-       was_active_ = false, restyle_ = false, menu_was_open_ = false, goes_to_menu_ = false;
+  bool fit_ = false, opened_ = false, halved_ = false, was_active_ = false, restyle_ = false,
+       menu_was_open_ = false, goes_to_menu_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0;
-  bool space_ = false, space_used_ = false;  ///< Space is held; its release does not play
+  Navigation navigation_;
+  SplitLine split_line_;
   ComparisonPanel comparison_;
   SurfacePane surface_pane_{[this] { window_.wake(); }};
   TimelinePanel timeline_;

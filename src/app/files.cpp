@@ -5,16 +5,10 @@
 
 #include <utility>
 
-#include "app/clipboard.h"
-#include "app/panels/panels.h"
 #include "core/error.h"
-#include "edit/actions/keymap.h"
-#include "edit/tools/tool.h"
-#include "raster/picture.h"
-#include "raster/textured.h"
-#include "scene/formats/export.h"
-#include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -37,7 +31,7 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       allow_outside_(allow_outside),
       jobs_(workspace, wake),
       dialog_(wake),
-      export_(workspace, jobs_, dialog_),
+      exports_(workspace, jobs_, dialog_),
       imports_(
           workspace, jobs_, dialog_, [this] { return reach(); },
           [this](const Path& path) { keep_recent(path); },
@@ -66,11 +60,10 @@ void Files::ask_about_changes_then(Then then) {
 void Files::adopt(Document document) {
   workspace_.document.remove_autosave(autosave_folder());
   workspace_.open(std::move(document));
-  export_.forget();
+  exports_.forget();
   questions_.withdraw();
   watch_.forget();
-  last_seen_change_.reset();
-  handled_change_.reset();
+  scene_watch_ = {};
   replaced_();
 }
 
@@ -186,21 +179,13 @@ void Files::watch() {
 }
 
 void Files::watch_scene() {
-  using Time = std::filesystem::file_time_type;
   Document& document = workspace_.document;
-  if (document.path().empty() || asking() || workspace_.shown.preview) return;
-  std::error_code gone;
-  const Time found = std::filesystem::last_write_time(document.path(), gone);
-  const Time now = gone ? Time::min() : found;
-  if (handled_change_ == now || (!gone && !document.changed_on_disk())) return;
-  if (last_seen_change_ != now) {
-    last_seen_change_ = now;
-    return;
-  }
-  handled_change_ = now;
+  if (asking() || workspace_.shown.preview) return;
+  const SceneWatch::Change change = scene_watch_.look(document);
+  if (change == SceneWatch::Change::none) return;
   const bool saved = !document.modified();
   document.mark_unsaved();  // the file no longer has this version
-  if (gone)
+  if (change == SceneWatch::Change::gone)
     workspace_.messages.complain(
         document.title() +
         " has been moved or deleted by another program. Save to keep your work.");
@@ -244,26 +229,6 @@ void Files::ask_where(const Path& path) {
   question.answers.push_back({"Open instead", [this, path] { ask_open(path); }});
   question.answers.push_back({"Cancel", {}});
   questions_.ask(std::move(question));
-}
-
-void Files::copy_picture() {
-  if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
-    return workspace_.messages.complain(problem);
-  const Document& document = workspace_.document;
-  const auto copy = [scene = document.scene(), pictures = document.pictures(),
-                     options = as_shown(workspace_)](Job::Progress& progress) {
-    const RasterResult result = picture_of(scene, pictures.of(scene.layer()), options, pictures);
-    if (!progress.cancelled())
-      put_on_clipboard(encode_png(result.image), [&] { return !progress.cancelled(); });
-  };
-  workspace_.messages.complain(jobs_.run("Copying the picture", copy, [this] {
-    workspace_.messages.say("Copied the picture to the clipboard.");
-  }));
-}
-
-Path Files::in_document_folder(const std::string& name) const {
-  const Path& document = workspace_.document.path();
-  return (document.empty() ? dialog_.folder() : document.parent_path()) / name;
 }
 
 void Files::ask_sample(const Path& scene) {
@@ -347,59 +312,12 @@ void Files::save(bool as, const Then& then) {
     return workspace_.messages.complain(save_to(document.path(), then));
   Path start = document.path();
   if (start.empty() && !document.first_picture().empty())
-    start = in_document_folder(document.first_picture().stem().string() + ".json");
+    start =
+        in_document_folder(document, dialog_, document.first_picture().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
   dialog_.ask(
       {FileQuestion::Mode::save, "Save scene", "Save", {".json", ".holomorph"}, start, false},
       [this, then](const Path& path, double) { return save_to(path, then); });
-}
-
-void Files::ask_export_svg() {
-  const Document& document = workspace_.document;
-  const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const Path start =
-      in_document_folder((source.empty() ? "cage" : source.stem().string()) + ".svg");
-  dialog_.ask({FileQuestion::Mode::save, "Export cage", "Export", {".svg"}, start, false},
-              [this](const Path& path, double) -> std::string {
-                try {
-                  check_may_write(path, workspace_.document.sources());
-                  write_file(path, svg_of(workspace_.shown.base(),
-                                          workspace_.document.scene().layer().image));
-                  workspace_.messages.say("Exported " + path.filename().string() + ".");
-                } catch (const Error& error) {
-                  return error.what();
-                }
-                return "";
-              });
-}
-
-std::string Files::export_surface(const Path& path, double scale) {
-  try {
-    const Document& document = workspace_.document;
-    const Deformation& deformation = workspace_.shown.own();
-    if (document.pictures().withheld().contains(deformation.surface->file))
-      return Path(deformation.surface->file).filename().string() +
-             " is not in the scene's folder and was not read. Press Show it first.";
-    const FlattenedSurface surface = flattened_surface_of(deformation);
-    for (const Path& file : files_of_textured(path)) check_may_write(file, document.sources());
-    write_textured(path, surface, textured(surface, deformation, document.image(), scale));
-    workspace_.messages.say("Exported " + path.filename().string() +
-                            " with its material and picture.");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void Files::ask_export_surface() {
-  const Document& document = workspace_.document;
-  const Path& source = document.path().empty() ? document.image_path() : document.path();
-  const Path start = in_document_folder(
-      source.stem().string() + "-" +
-      Path(document.scene().deformation().surface->file).stem().string() + ".obj");
-  dialog_.ask(
-      {FileQuestion::Mode::save, "Export textured surface", "Export", {".obj"}, start, true},
-      [this](const Path& path, double scale) { return export_surface(path, scale); });
 }
 
 void Files::autosave() {
@@ -446,22 +364,12 @@ void Files::answer(Request request) {
       save(true);
       break;
     case Request::export_picture:
-      export_.ask(false, folder());
-      break;
     case Request::export_again:
-      export_.again(folder());
-      break;
     case Request::copy_picture:
-      copy_picture();
-      break;
     case Request::export_svg:
-      ask_export_svg();
-      break;
     case Request::export_film:
-      export_.ask(true, folder());
-      break;
     case Request::export_surface:
-      ask_export_surface();
+      exports_.answer(request);
       break;
     case Request::quit:
       ask_about_changes_then([this] {
@@ -496,7 +404,7 @@ void Files::answer(Request request) {
 void Files::draw(double scale) {
   dialog_.draw(scale);
   questions_.draw(scale);
-  export_.draw(scale);
+  exports_.draw(scale);
   jobs_.draw(scale);
 }
 

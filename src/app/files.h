@@ -2,10 +2,11 @@
 // for the user that these involve.
 #pragma once
 
-#include "app/dialogs/export_dialog.h"
 #include "app/dialogs/question.h"
+#include "app/exports.h"
 #include "app/imports.h"
 #include "app/picture_watch.h"
+#include "app/scene_watch.h"
 #include "scene/preferences.h"
 #include "scene/recovery.h"
 
@@ -45,7 +46,7 @@ class Files {
   /// Draws the dialog or question that is open.
   void draw(double scale);
   bool asking() const {
-    return dialog_.open() || export_.open() || questions_.open() || jobs_.running();
+    return dialog_.open() || exports_.asking() || questions_.open() || jobs_.running();
   }
   /// The title of the question that is open, or "".
   std::string question() const { return questions_.title(); }
@@ -57,7 +58,7 @@ class Files {
   /// Whether the document is saved with all its changes, or has been exported.
   bool has_kept() const {
     const Document& document = workspace_.document;
-    return export_.has_exported() || (!document.path().empty() && !document.modified());
+    return exports_.has_exported() || (!document.path().empty() && !document.modified());
   }
 
  private:
@@ -77,15 +78,7 @@ class Files {
   enum class Conflict { ask, overwrite };
   std::string save_to(const Path& path, const Then& then, Conflict conflict = Conflict::ask);
   void save(bool as, const Then& then = {});
-  /// The path of a file in the document's folder. A document without a file uses the folder of the
-  /// last dialog.
-  Path in_document_folder(const std::string& name) const;
-  Path folder() const { return in_document_folder("").parent_path(); }
   void ask_where(const Path& dropped);
-  void copy_picture();
-  void ask_export_svg();
-  void ask_export_surface();
-  std::string export_surface(const Path& path, double scale);
 
   Workspace& workspace_;
   Preferences& preferences_;
@@ -94,14 +87,11 @@ class Files {
   Jobs jobs_;
   Questions questions_;
   FileChooser dialog_;
-  ExportDialog export_;
+  Exports exports_;
   Imports imports_;
   PictureWatch watch_;
+  SceneWatch scene_watch_;
   std::vector<Recovery> recoverable_;
-  /// Modification times of the scene's file: at the last check, and of the version that was handled
-  /// last. A changed file is handled once two consecutive checks find the same time. Before that,
-  /// the other program may still be writing it.
-  std::optional<std::filesystem::file_time_type> last_seen_change_, handled_change_;
   bool quit_ = false, autosave_failed_ = false;
 };
 

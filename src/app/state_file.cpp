@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/report.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

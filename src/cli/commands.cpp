@@ -16,6 +16,8 @@
 #include "scene/formats/scene_json.h"
 #include "scene/formats/surface_file.h"
 #include "scene/formats/svg_path.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "scene/budget.h"
+#include "system/text.h"
 
 using namespace holomorph;
 

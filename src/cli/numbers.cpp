@@ -10,6 +10,7 @@
 #include "scene/budget.h"
 #include "scene/formats/export.h"
 #include "scene/report.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

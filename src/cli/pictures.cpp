@@ -13,6 +13,8 @@
 #include "scene/formats/svg_path.h"
 #include "scene/keyframes.h"
 #include "scene/timed_map.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "scene/formats/export.h"
 #include "scene/formats/scene_json.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "scene/document.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 

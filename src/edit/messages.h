@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "system/file.h"
+#include "system/text.h"
 
 namespace holomorph {
 

@@ -4,6 +4,7 @@
 
 #include "film/film_writer.h"
 #include "film/ordered_tasks.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "film/film_writer.h"
 #include "raster/compose.h"
+#include "system/new_file.h"
 #include "system/process.h"
 
 namespace holomorph {

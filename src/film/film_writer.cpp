@@ -5,6 +5,8 @@
 
 #include "core/error.h"
 #include "film/ordered_tasks.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "film/film_writer.h"
 #include "film/ordered_tasks.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

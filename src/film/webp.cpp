@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "film/film_writer.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

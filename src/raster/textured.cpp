@@ -10,6 +10,8 @@
 #include "raster/raster.h"
 #include "scene/prepared_map.h"
 #include "system/file.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

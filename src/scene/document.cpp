@@ -7,6 +7,8 @@
 #include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
 #include "scene/recovery.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

@@ -5,6 +5,7 @@
 
 #include "scene/history.h"
 #include "scene/loading.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 

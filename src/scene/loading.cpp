@@ -10,6 +10,8 @@
 #include "scene/preferences.h"
 #include "scene/prepared_map.h"
 #include "scene/recovery.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

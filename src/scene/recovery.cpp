@@ -7,6 +7,7 @@
 #include "scene/formats/json_reader.h"
 #include "scene/formats/scene_json.h"
 #include "scene/loading.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

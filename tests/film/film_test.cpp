@@ -9,6 +9,7 @@
 #include "support/scenes.h"
 #include "support/seeds.h"
 #include "system/job.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 

@@ -14,6 +14,7 @@
 #include "support/folder.h"
 #include "support/scenes.h"
 #include "support/shapes.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 

@@ -20,6 +20,8 @@
 #include "support/folder.h"
 #include "support/scenes.h"
 #include "support/shapes.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 using namespace holomorph;
 namespace fs = std::filesystem;

@@ -9,6 +9,7 @@
 #include "scene/flattened_surface.h"
 #include "scene/formats/scene_json.h"
 #include "support/complaint.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 

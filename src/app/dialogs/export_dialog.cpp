@@ -10,6 +10,7 @@
 
 #include "app/panels/panels.h"
 #include "edit/content.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/panels/panels.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "app/panels/panels.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

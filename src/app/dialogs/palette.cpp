@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "edit/edits/edits.h"
+#include "system/text.h"
 // Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
 

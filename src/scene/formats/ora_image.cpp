@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/image_formats.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

@@ -6,6 +6,7 @@
 #include "scene/auto_cage.h"
 #include "scene/flattened_surface.h"
 #include "scene/formats/svg_path.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {

@@ -21,6 +21,7 @@
 #include "support/folder.h"
 #include "support/pictures.h"
 #include "support/seeds.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 

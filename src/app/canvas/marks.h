@@ -1,0 +1,32 @@
+// The marks of the overlay: lines, handles, pins and the box around a selection, in window px.
+#pragma once
+
+#include "app/canvas/overlay.h"
+
+namespace holomorph {
+
+/// Draws a line with a dark edge.
+void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+               const OverlayStyle& style);
+/// Draws a dashed line. Rest shapes are dashed because not everyone can tell them from poses by
+/// their color.
+void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
+                 const OverlayStyle& style);
+/// Draws a vertex as a square and any other control point as a disk.
+void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered,
+                      ImU32 color, const OverlayStyle& style);
+/// Draws the ring around a smooth vertex. Corners have none.
+void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style);
+/// Draws a pin with its depth and, if it is fixed, its rotation.
+void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
+              const OverlayStyle& style);
+/// Draws a line from a pin's target to the point where the map takes the pin, if the gap is
+/// visible.
+void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style);
+/// Marks a zero of the derivative with a diamond and a dot. Only maps that are kept from folding
+/// report such zeros.
+void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style);
+/// Draws the box around the selection, with its grips and its knob.
+void draw_box(ImDrawList& list, const BoxMark& mark, const OverlayStyle& style);
+
+}  // namespace holomorph

@@ -1,0 +1,17 @@
+// Text for display and for searches.
+#pragma once
+
+#include <string>
+
+namespace holomorph {
+
+/// A text made safe for display. A question mark replaces each character that would control a
+/// terminal or change the text direction.
+std::string printable(const std::string& text);
+
+/// The text with ASCII letters in lower case, for extensions and searches.
+std::string lower_case(std::string text);
+/// Whether a text contains all of these words, ignoring case.
+bool has_words(const std::string& text, const std::string& words);
+
+}  // namespace holomorph
