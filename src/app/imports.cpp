@@ -6,7 +6,6 @@
 
 #include "app/clipboard.h"
 #include "core/error.h"
-#include "edit/actions/keymap.h"
 #include "edit/tools/tool.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"

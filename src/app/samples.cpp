@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/error.h"
 #include "raster/picture.h"
 #include "scene/document.h"
 

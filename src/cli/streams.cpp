@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "scene/formats/export.h"
-#include "scene/formats/scene_json.h"
 #include "system/new_file.h"
 #include "system/text.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
 #include "core/maps/heat.h"
 #include "edit/actions/actions.h"

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "raster/raster.h"
-#include "scene/motion.h"
 #include "scene/pictures.h"
 
 namespace holomorph {

@@ -2,7 +2,6 @@
 // keyframes.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "core/maps/distortion.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {

@@ -2,7 +2,6 @@
 #include "scene/loading.h"
 
 #include "core/error.h"
-#include "core/mesh/mesher.h"
 #include "scene/budget.h"
 #include "scene/flattened_surface.h"
 #include "scene/formats/ora_image.h"

@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "core/clock.h"
-#include "core/error.h"
-#include "core/maps/distortion.h"
 #include "scene/budget.h"
 
 namespace holomorph {

@@ -2,7 +2,6 @@
 // animation.
 #pragma once
 
-#include "core/maps/distortion.h"
 #include "core/maps/inverse.h"
 #include "scene/motion.h"
 #include "scene/scene.h"

@@ -1,7 +1,6 @@
 // A worker thread fills the rows. The window shows those that are ready.
 #include "app/panels/comparison_panel.h"
 
-#include "core/error.h"
 #include "core/mesh/mesher.h"
 
 namespace holomorph {

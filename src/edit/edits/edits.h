@@ -4,7 +4,6 @@
 #include <optional>
 #include <set>
 
-#include "core/mesh/mesh.h"
 #include "scene/deformation.h"
 
 namespace holomorph {
