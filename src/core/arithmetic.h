@@ -1,5 +1,5 @@
-// Complex arithmetic written out. The operators of std::complex handle infinities, which makes them
-// several times slower.
+// Complex arithmetic, written out explicitly. The operators of std::complex handle infinities,
+// which makes them several times slower.
 #pragma once
 
 #include <cmath>

@@ -29,7 +29,7 @@ class Error : public std::runtime_error {
   std::optional<Complex> where_;
 };
 
-/// The message of an exception, in words. Also handles exceptions of the standard library.
+/// The message of an exception as readable text. Also handles exceptions from the standard library.
 std::string what_of(const std::exception& error);
 
 /// Aborts with a message when an invariant of the program itself is broken. Active in every build.

@@ -1,6 +1,6 @@
 // The scalar and array types used throughout the program.
 //
-// A point of the plane is a Complex, in image pixels: the origin is at the lower left of the image
+// A point in the plane is a Complex, in image pixels: the origin is at the lower left of the image
 // and y points up.
 #pragma once
 

@@ -26,7 +26,7 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   fit_ = HolomorphicFit(basis, points_.boundary);
   Rest followed = used_by(method, rest);
   followed.parameters = parameters_of(rest, method);
-  followed.precision = Precision::full;  // there are few samples
+  followed.precision = Precision::full;  // affordable for so few samples
   followed.samples = points_.boundary;
   for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
   followed.derivative_samples.clear();

@@ -1,5 +1,5 @@
-// The reference that a map without folds follows: another method's map, sampled along the boundary
-// and inside.
+// The reference for a map without folds: another method's map, sampled along the boundary and
+// inside.
 #pragma once
 
 #include "core/bounded/bounded_space.h"
@@ -8,7 +8,7 @@
 
 namespace holomorph {
 
-/// The bounds specified by the parameters of method `bounded`.
+/// The bounds specified by the parameters of the `bounded` method.
 Bounds bounds_of(const Parameters& values);
 
 /// Samples a method's map at the points where a BoundedSpace measures the distance to it.
@@ -19,8 +19,8 @@ class ReferenceSampler {
   /// are smooth there.
   static constexpr double kInset = 1;
 
-  /// Prepares the method for the rest's cage and pins. All arguments but the rest must outlive
-  /// this.
+  /// Prepares the method for the rest's cage and pins. All arguments except `rest` must outlive
+  /// this object.
   ReferenceSampler(const Rest& rest, const Method& method, const BoundaryBasis& basis,
                    const MapOnMesh& mesh);
 
@@ -38,7 +38,7 @@ class ReferenceSampler {
   /// The indices of some of the mesh's vertices (at least one), and the images of these vertices.
   const std::vector<int>& anchors() const { return anchors_; }
   std::span<const Complex> anchor_images() const;
-  /// The method's note, such as a pin that it could not use.
+  /// The method's note, for example about a pin that it could not use.
   const std::string& note() const { return map_.note; }
 
  private:

@@ -27,24 +27,24 @@ struct BoundedSettings {
   double weight = 1;  ///< weight of the distance of nu, which is half the mean square
 };
 
-/// The solve narrows the bounds by this fraction. The original bounds can then be proved.
+/// The solver narrows the bounds by this fraction. The original bounds can then be proved.
 inline constexpr double kTightening = 0.002;
 
 class BoundedSpace {
  public:
   /// Distances are measured at `points`. Half of nu's distance is measured at the inner points, or
-  /// all of it at the boundary if there are no inner points. The solve uses bounds that are 0.2 %
-  /// narrower than the bounds to be proved. Throws Error for bounds that cannot be used. Cost: a
-  /// product of unknowns^2 and samples.
+  /// all of it at the boundary if there are no inner points. The solver uses bounds that are 0.2 %
+  /// narrower than the bounds to be proved. Throws Error for bounds that cannot be used. Cost:
+  /// proportional to samples times unknowns^2.
   BoundedSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePoints& points,
                const BoundedSettings& settings);
 
   /// The map of this space that is nearest to a reference, with its certificate. During drags, pass
-  /// an earlier solution of this space as `warm`: the solve starts there and is less accurate.
+  /// an earlier solution of this space as `warm`: the solver starts there and is less accurate.
   /// Without `warm`, the result depends on the reference alone.
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
-  /// Tries to prove that a map of this space keeps the bounds.
+  /// Tries to prove that a map of this space satisfies the bounds.
   Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
 
   const BoundaryBasis& basis() const { return *basis_; }

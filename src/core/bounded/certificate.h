@@ -66,7 +66,7 @@ struct Certificate {
 
 class Certifier {
  public:
-  /// Cost: pieces times polygon vertices. The basis must outlive this.
+  /// Cost: pieces times polygon vertices. The basis must outlive this object.
   explicit Certifier(const BoundaryBasis& basis);
 
   /// Tries to prove the bounds on all pieces. Each piece is halved up to `depth` times. Cost:

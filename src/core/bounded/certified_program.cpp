@@ -7,7 +7,7 @@
 namespace holomorph {
 
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions) {
-  constexpr double kNothing = 1e-2;  // the interior-point method leaves smaller multipliers
+  constexpr double kNothing = 1e-2;  // the solver leaves smaller multipliers on inactive bounds
   std::optional<Bound> binding;
   double most = kNothing;
   for (const ConeSolution* solution : solutions)
@@ -21,7 +21,7 @@ std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution
 
 namespace {
 
-/// The start, moved towards the center as far as necessary to be strictly feasible.
+/// The start, moved toward the center as far as necessary to be strictly feasible.
 ConeSolution inside(const ConeSystem& system, ConeSolution start, const VectorXd& center) {
   const VectorXd x = start.x;
   for (double fraction = 0.02; !is_feasible(system, start.x) && fraction <= 1; fraction *= 2)

@@ -1,4 +1,4 @@
-// A cone program whose solution is a map, and the proof that this map keeps its bounds.
+// A cone program whose solution is a map, and the proof that this map stays within its bounds.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace holomorph {
 
-/// A map that keeps its bounds, how it was found, and the proof.
+/// A map that stays within its bounds, how it was found, and the proof.
 struct BoundedMap {
   LogMap map;
   Certificate certificate;
@@ -16,15 +16,15 @@ struct BoundedMap {
   int rounds = 0;      ///< number of times that samples were added
   Points cuts;         ///< all samples that were added
   int iterations = 0;  ///< total over all rounds
-  double blend = 0;    ///< how far the proof moved the solution to the center, 0 to 1
+  double blend = 0;    ///< how far the proof moved the solution toward the center, 0 to 1
 };
 
 /// The bound that, if widened, would reduce the solutions' energies most. Empty when no bound is
 /// active.
 std::optional<Bound> binding_constraint(std::initializer_list<const ConeSolution*> solutions);
 
-/// A cone program at the boundary's samples, and the maps that its unknowns represent. All
-/// references must outlive this.
+/// A cone program at the boundary's samples, and the maps that its unknowns represent. The objects
+/// that it refers to must outlive it.
 struct CertifiedProgram {
   const Certifier& certifier;
   const Bounds& bounds;  ///< to be proved; the program's own bounds are a little narrower
@@ -36,7 +36,7 @@ struct CertifiedProgram {
 
   /// Solves from a feasible start. `cuts` are additional samples that are likely to be needed.
   /// Where the proof fails, more samples are added and the program is solved again. If this does
-  /// not suffice, the solution is moved towards the center, if necessary all the way. Cost: one
+  /// not suffice, the solution is moved toward the center, all the way if necessary. Cost: one
   /// solution of the program, and one more for each round.
   BoundedMap solved(const ConeTarget& target, const ConeSettings& settings,
                     const ConeSolution& start, const Points& cuts = {}) const;

@@ -14,7 +14,7 @@ struct ReferencePoints {
 class HolomorphicDistance {
  public:
   /// The distance is multiplied by `weight`. Without inner points it is measured at the boundary
-  /// alone. Cost: a product of points and unknowns^2.
+  /// alone. Cost: proportional to points times unknowns^2.
   HolomorphicDistance(const BoundaryBasis& basis, const ReferencePoints& points, double weight);
 
   /// The matrix P of x'Px / 2, where x = (Re, Im) of the whitened unknowns.

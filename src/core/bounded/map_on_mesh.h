@@ -1,4 +1,4 @@
-// Maps without folds at the vertices of a mesh, by integration.
+// Evaluates maps without folds at the vertices of a mesh by integration.
 #pragma once
 
 #include "core/bounded/certificate.h"
@@ -10,7 +10,7 @@ namespace holomorph {
 class MapOnMesh {
  public:
   /// Precomputes two matrices with a row for each vertex and a column for each polygon vertex. Both
-  /// arguments must outlive this.
+  /// arguments must outlive this object.
   MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh);
 
   /// The map up to a constant, f = Phi + conj(Psi), and its derivatives at the vertices.
@@ -18,15 +18,15 @@ class MapOnMesh {
     VectorXc f;
     Derivatives first;
   };
-  /// Cost: four products with such matrices.
+  /// Cost: four products with these matrices.
   Values values(const LogMap& map) const;
-  /// Like the f of `values`, but accurate to rounding. Cost: at least 12 rows of the basis for each
-  /// edge of the tree.
+  /// Like f in `values`, but accurate to rounding error. Cost: at least 12 rows of the basis for
+  /// each edge of the tree.
   VectorXc integrated(const LogMap& map) const;
   /// Phi alone, at the vertices.
   VectorXc phi(const VectorXc& l) const;
-  /// Psi at the given locations, one row for each. Column j is computed from the Psi' whose
-  /// coefficients are in column j.
+  /// Psi at the given locations, one row for each. Column j is the Psi whose derivative has the
+  /// coefficients in column j of `coefficients`.
   MatrixXc psi_rows(std::span<const Location> locations, const MatrixXc& coefficients) const;
 
   /// The antiderivative, at the vertices, of a function of the basis. It is 0 in the middle of the

@@ -1,4 +1,4 @@
-// Integrates the derivatives of a map along straight lines, to rounding.
+// Integrates the derivatives of a map along straight lines, accurate to rounding error.
 #pragma once
 
 #include "core/bounded/certificate.h"
@@ -13,7 +13,7 @@ struct Line {
 
 /// The increment of f = Phi + conj(Psi) along each line. The functions are defined only inside the
 /// basis' polygon. Each Gauss-Legendre panel is shorter than its distance from that polygon, which
-/// reduces the error to rounding. Cost: 12 rows of the basis for each panel.
+/// reduces the error to the level of rounding. Cost: 12 rows of the basis for each panel.
 VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
                           std::span<const Line> lines);
 

@@ -29,7 +29,7 @@ class PsiSpace {
   BoundedMap conformal(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
   /// The second step: given l from the first step, the Psi' within the bounds that is nearest to
-  /// the reference's Psi'. At the pins, Psi is pulled towards `wanted`, up to a constant common to
+  /// the reference's Psi'. At the pins, Psi is pulled toward `wanted`, up to a constant common to
   /// all pins. The result is certified.
   BoundedMap nearest(const BoundedMap& conformal, const BoundedReference& reference,
                      const VectorXc& wanted, const BoundedMap* warm = nullptr) const;
@@ -37,10 +37,10 @@ class PsiSpace {
   /// The nearest point in the space H, whose bounds are convex in |f_z| and Psi'. It is returned as
   /// a reference; the two steps above turn it into a map. No function of the basis has exactly the
   /// |f_z| of that point at the samples: the fit (15) of the paper leaves a residual. The second
-  /// step therefore fits Psi' once more. Cost: a program of samples + unknowns.
+  /// step therefore fits Psi' once more. Cost: one cone program with samples + unknowns variables.
   BoundedReference convexified(const BoundedReference& reference) const;
 
-  /// Tries to prove that a map of this space keeps the bounds.
+  /// Tries to prove that a map of this space satisfies the bounds.
   Certificate certify(const LogMap& map) const {
     return conformal_.certifier().certify(map, settings_.bounds);
   }

@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-/// The corners of a polygon, each moved outwards by its own distance from both of its edges.
+/// The corners of a polygon, each moved outward by its own distance from both of its edges.
 Points mitered(const Points& polygon, const std::vector<double>& distances) {
   const size_t n = polygon.size();
   constexpr double kLongest = 12;  // length of a miter, in units of the distance
@@ -22,8 +22,8 @@ Points mitered(const Points& polygon, const std::vector<double>& distances) {
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
     Complex miter = u + v;
     const double size = std::norm(miter);
-    // At a spike, the miter would be too long and is cut. In a notch, it must keep its length, or
-    // the sides intersect before its end.
+    // At a spike, the miter would be too long and is shortened. In a notch, it must keep its full
+    // length; otherwise, the sides would intersect before its end.
     const bool spike = cross(before, after) >= 0;
     if (spike && size < 4 / (kLongest * kLongest))
       miter = kLongest * before / std::abs(before);
@@ -71,12 +71,12 @@ std::vector<BoundaryPiece> subdivided(const Cage& domain, const BoundaryPiece& p
   return pieces;
 }
 
-/// An upper bound of the distance between a piece and its chord.
+/// An upper bound on the distance between a piece and its chord.
 double sagitta(const BoundaryPiece& piece) {
   return piece.bend / 8;
 }
 
-/// About `wanted` pieces of equal length, at least one for each segment, and more where they
+/// About `wanted` pieces of equal length, at least one for each segment, and more where they would
 /// deviate from their chords by more than `flat`.
 std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
   const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
@@ -104,7 +104,8 @@ bool crosses(Complex a, Complex b, Complex c, Complex d) {
          cross(d - c, a - c) * cross(d - c, b - c) <= 0;
 }
 
-/// Whether a polygon is simple and surrounds `inner` at a distance above `distance` everywhere.
+/// Whether a polygon is simple and surrounds `inner` at a distance of more than `distance`
+/// everywhere.
 bool is_around(const Points& polygon, const Points& inner, double distance) {
   if (self_crossing(polygon)) return false;
   for (const Complex& z : inner)
@@ -179,7 +180,7 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   check_rest_cage(domain);
   const double around = perimeter(flattened(domain_).points);
   const int vertices = std::max(basis, 25);
-  constexpr double kOffset = 0.05;  // of the mean edge length: for 50 vertices, 0.1 % of the loop
+  constexpr double kOffset = 0.05;  // in mean edge lengths: for 50 vertices, 0.1 % of the loop
   Surrounding around_domain = surrounding(domain_, vertices, kOffset * around / vertices);
   polygon_ = std::move(around_domain.polygon);
   const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));

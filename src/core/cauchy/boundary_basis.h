@@ -19,8 +19,8 @@ struct BoundaryPiece {
   double from = 0, to = 1;  ///< parameters on the segment
 
   Complex start, end;
-  double length = 0;  ///< upper bound of |dz/dx| for x from 0 to 1 along the piece
-  double bend = 0;    ///< upper bound of |d^2 z/dx^2|; 0 if straight
+  double length = 0;  ///< upper bound on |dz/dx| for x from 0 to 1 along the piece
+  double bend = 0;    ///< upper bound on |d^2 z/dx^2|; 0 if straight
 };
 
 /// The part of a segment of a counter-clockwise cage between two parameters.
@@ -50,13 +50,13 @@ class BoundaryBasis {
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   Index size() const { return static_cast<Index>(polygon_.size()); }
 
-  /// The samples, moved inwards. Each one moves by the fraction `share` of the distance to the
+  /// The samples, moved inward. Each one moves by the fraction `share` of the distance to the
   /// nearer neighboring sample, but in thin parts no farther than the middle.
   Points inset(double share) const;
 
   /// C (or C' for order 1) at points of the domain, with one row per point.
   MatrixXc values(std::span<const Complex> points, int order = 0) const;
-  /// The whitened basis at the points for which `values` holds C. There F = row . unknowns.
+  /// The whitened basis at the points for which `values` holds C: F = row . unknowns.
   MatrixXc whitened(const MatrixXc& values) const { return values * coefficients_; }
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
   /// The coefficients a_j for the given unknowns.

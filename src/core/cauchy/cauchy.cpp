@@ -184,8 +184,8 @@ bool add_quadrature(const SegmentPolynomial& segment, std::span<const Root> root
   return true;
 }
 
-/// Whether two roots are so close to each other that quadrature is more accurate. A double root has
-/// only half the digits, and the derivatives of two close roots cancel each other.
+/// Whether two roots are so close to each other that quadrature is more accurate. A double root is
+/// accurate to only half the digits, and the derivatives of two close roots cancel each other.
 bool has_close_roots(std::span<const Root> roots, int order) {
   const double apart = order == 0 ? 1e-3 : 0.05;
   for (size_t i = 0; i < roots.size(); ++i)

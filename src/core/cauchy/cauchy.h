@@ -21,8 +21,8 @@ namespace holomorph {
 ///
 /// Identities inside the cage: with b = controls_of(cage), order 0: rows sum to 1 and C b = z;
 /// order 1: rows sum to 0 and D b = 1. Outside the cage, all of these sums are 0. On the boundary,
-/// or within rounding of it (see contact.h), the result is the limit from inside. At a vertex this
-/// limit exists only for order 0; the row is NaN for higher orders. The cage may have either
+/// or within rounding error of it (see contact.h), the result is the limit from inside. At a vertex
+/// this limit exists only for order 0; the row is NaN for higher orders. The cage may have either
 /// orientation, and it may mix straight and curved segments. Scaling all inputs by 2^k scales the
 /// results exactly. The relative error per straight edge is below 1e-13 for degrees up to 8 and
 /// orders up to 3. Throws Error if the order is negative. Cost: one complex logarithm per point and
@@ -32,9 +32,9 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, i
 /// The coordinates at boundary points given by segment and parameter, as limits from inside.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order = 0);
 
-/// Whether z lies inside the cage or, within rounding, on it. The answer is exact even for curved
-/// cages, because the winding number is the sum of the imaginary parts of the same logarithms. The
-/// cage may have either orientation. Costs as much as a row of order 0.
+/// Whether z lies inside the cage or, to within rounding error, on it. The answer is exact even for
+/// curved cages, because the winding number is the sum of the imaginary parts of the same
+/// logarithms. The cage may have either orientation. Costs as much as a row of order 0.
 bool contains(const Cage& cage, Complex z);
 
 /// A flag for each end of a segment.
@@ -44,10 +44,10 @@ struct Ends {
 
 /// The degree + 1 coordinates of a single segment for a basis of the given degree, differentiated
 /// `order` times. z must differ from both ends. If z lies on the segment, `own` must give its
-/// location there, and the result is the limit from the left. Among the derivatives, the first
-/// coordinate has a pole at the start of the segment, and the last coordinate has a pole at the
-/// end. The poles of the neighboring segments cancel them. `without_poles` says at which ends to
-/// omit the pole. At each vertex, the pole must be omitted for both segments or for neither.
+/// location there, and the result is the limit from the left. For derivatives, the first coordinate
+/// has a pole at the start of the segment, and the last coordinate has a pole at the end. The poles
+/// of the neighboring segments cancel them. `without_poles` says at which ends to omit the pole. At
+/// each vertex, the pole must be omitted for both segments or for neither.
 VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const FinePoint& z,
                              int order, const Contact* own = nullptr, Ends without_poles = {});
 

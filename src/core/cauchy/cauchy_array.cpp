@@ -1,4 +1,4 @@
-// The kernels fill blocks of points, segment by segment; points on the boundary take the stable
+// The kernels fill blocks of points, segment by segment. Points on the boundary use the stable
 // formula.
 #include "core/cauchy/cauchy_array.h"
 
@@ -107,8 +107,8 @@ class BlockFiller {
       if (moments.on_edge[i] != 0) needs_patch_[i] = true;
   }
 
-  /// Each root of a curve takes the role of s in a straight edge. Points whose roots need care take
-  /// the exact path.
+  /// Each root of a curve plays the role of s for a straight edge. Points with a root near the
+  /// segment, or with two nearly equal roots, take the exact path.
   void curved_moments_of(Index e, kernel::Moments& moments) {
     const SegmentPolynomial& segment = segments_[e];
     std::vector<Root>& roots = roots_[e];  // the roots of the previous point, which is nearby

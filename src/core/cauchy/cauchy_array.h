@@ -2,7 +2,7 @@
 //
 // The values agree with those of cauchy.h to 1e-14 for degree 1 and to 1e-13 for higher degrees.
 // Away from a segment, the coordinates are a power series in 1 / W^2, where W = q - s is twice the
-// offset from the midpoint in edge lengths. Near the segment, they take one logarithm. Both
+// offset from the midpoint in edge lengths. Near the segment, they require one logarithm. Both
 // formulas run without branches over blocks of points, and the compiler vectorizes them.
 #pragma once
 
@@ -39,7 +39,7 @@ MatrixXc as_complex(const PlanarMatrix<T>& planar) {
   return c;
 }
 
-/// Which machine code runs: `automatic` takes the widest of AVX-512, AVX2 and portable that the
+/// The machine code to run: `automatic` selects the widest of AVX-512, AVX2 and portable that the
 /// processor supports.
 enum class Kernel { automatic, portable, avx2 };
 /// Whether this processor can run Kernel::avx2.
@@ -48,11 +48,11 @@ bool has_avx2();
 /// Cauchy coordinates (order 0 or 1) of a cage's control points: points x control points.
 /// Orientation, boundary limits and identities are as for cauchy_coordinates, with one exception:
 /// derivatives at a vertex are evaluated inside the cage, at a distance of 1e-12 of an edge. This
-/// gives the limit if it is finite. Bases of degree above 4 take the path of cauchy.h. Rows of
-/// order 0 sum to one only up to 1e-11. If the control points are far from the origin, take
-/// products relative to their center. Points that are close to each other should be neighbors in
-/// the list. Cost with AVX2: 3 ns per point and edge of degree 1, 8 ns for degree 3; 0.4 us per
-/// point and curved cubic segment, most of it for the roots.
+/// gives the limit if it is finite. Bases of degree above 4 use the code in cauchy.h. Rows of order
+/// 0 sum to one only up to 1e-11. If the control points are far from the origin, compute products
+/// relative to their center. Points that are close to each other should be neighbors in the list.
+/// Cost with AVX2: 3 ns per point and edge of degree 1, 8 ns for degree 3; 0.4 us per point and
+/// curved cubic segment, most of it for the roots.
 template <class T>
 PlanarMatrix<T> planar_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0,
                                    Kernel kernel = Kernel::automatic);

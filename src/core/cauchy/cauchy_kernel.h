@@ -1,6 +1,6 @@
-// The inner loops, which are compiled several times: for any processor and for wider instructions.
-// They use plain pointers and no templates of other headers. Otherwise, the linker might use code
-// with wider instructions in the rest of the program.
+// The inner loops, which are compiled several times: once for any processor, and again for wider
+// instruction sets. They use plain pointers and no templates from other headers. Otherwise, the
+// linker might use code with wider instructions in the rest of the program.
 #pragma once
 
 namespace holomorph::kernel {

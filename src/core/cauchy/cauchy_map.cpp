@@ -13,7 +13,8 @@
 namespace holomorph {
 namespace {
 
-/// A Gauss-Legendre rule that is exact to rounding where the modulus of W = q - s is above `from`.
+/// A Gauss-Legendre rule that is exact to within rounding error where the modulus of W = q - s is
+/// above `from`.
 struct Rule {
   double from;
   int nodes;

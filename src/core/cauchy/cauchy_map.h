@@ -1,4 +1,4 @@
-// A holomorphic map f(z) = z + sum C_m(z) d_m at single points, with its derivative.
+// A holomorphic map f(z) = z + sum C_m(z) d_m at individual points, with its derivative.
 //
 // The d_m are displacements of the control points of a cage. Unlike the coordinates themselves,
 // this sum needs only one polynomial per segment: integral of d(t) / (t - s) dt = d(s) L + a

@@ -11,9 +11,9 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear = 0.05;     ///< of a vertex's reach: closer than this, poles are omitted
+constexpr double kNear = 0.05;     ///< in units of a vertex's reach: poles are omitted if closer
 constexpr double kPole = 1e-5;     ///< closer than this, separate segments would lose digits
-constexpr double kInside = 1e-12;  ///< of a vertex's reach
+constexpr double kInside = 1e-12;  ///< in units of a vertex's reach
 /// Factor of the tolerance outside the loop. A point on a cage must also count as a boundary point
 /// of finer loops along this cage, although their vertices are rounded.
 constexpr double kOutside = 3;
@@ -107,7 +107,7 @@ VectorXc CauchyRows::row(BoundaryPoint point) const {
 }
 
 /// Replaces the second derivatives at vertices between two straight edges by their rational form,
-/// which has no cancellation.
+/// which is free of cancellation.
 void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const {
   for (Index v = 0; v < cage_.size(); ++v) {
     const size_t vertex = static_cast<size_t>(v);

@@ -22,9 +22,9 @@ class CauchyRows {
   VectorXc row(Complex z) const;
   VectorXc row(BoundaryPoint point) const;
 
-  /// Correct values for the columns of the row at z that lose their digits if each segment is
+  /// Correct values for the columns of the row at z that would lose accuracy if each segment were
   /// evaluated separately. This happens on the boundary and, for derivatives, next to a vertex. The
-  /// columns are `first` and its successors, cyclically. Returns none if no column is affected.
+  /// columns are `first` and its successors, cyclically. Returns nullopt if no column is affected.
   struct Patch {
     Index first = 0;
     VectorXc values;

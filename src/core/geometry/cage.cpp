@@ -177,7 +177,7 @@ FlatCage flattened(const Cage& cage) {
   FlatCage flat;
   for (Index i = 0; i < cage.size(); ++i) {
     const Points controls = cage.controls(i);
-    double bend = 0;  // upper bound of c'' / (n (n - 1)): the largest second difference
+    double bend = 0;  // upper bound on c'' / (n (n - 1)): the largest second difference
     for (size_t m = 0; m + 2 < controls.size(); ++m)
       bend = std::max(bend, std::abs(controls[m] - 2.0 * controls[m + 1] + controls[m + 2]));
     const double n = cage.degree(i), sagitta = n * (n - 1) * bend / 8;

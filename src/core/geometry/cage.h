@@ -66,11 +66,11 @@ struct FlatCage {
 };
 FlatCage flattened(const Cage& cage);
 
-/// The point of the cage nearest to z. `flat` is the flattened cage. Costs as much as
+/// The point on the cage nearest to z. `flat` is the flattened cage. Costs as much as
 /// nearest_on_polygon.
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
 
-/// The same loop traversed backwards from the same first vertex.
+/// The same loop traversed backward from the same first vertex.
 Cage reversed(const Cage& cage);
 
 /// The same loop, traversed counter-clockwise.
@@ -98,9 +98,9 @@ enum class Refit { curve, tangents };
 double joint_parameter(const Cage& cage, Index vertex);
 
 /// Removes vertex `vertex`. Two straight segments become one. Curved segments are replaced as
-/// `refit` says, and `joint` is the parameter of the old vertex on the new curve. The rest cage and
-/// the posed cage must use the same `joint`, or the picture slides along the curve. The cage must
-/// have more than three segments.
+/// `refit` specifies, and `joint` is the parameter of the old vertex on the new curve. The rest
+/// cage and the posed cage must use the same `joint`, or the picture slides along the curve. The
+/// cage must have more than three segments.
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
 
 /// Whether every segment is a straight edge traversed at constant speed. Edges of raised degree

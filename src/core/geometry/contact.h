@@ -1,4 +1,4 @@
-// Finds the boundary point with which a point coincides, up to rounding.
+// Finds the boundary point with which a point coincides, up to rounding error.
 //
 // Rounding puts about half of all boundary points outside the loop. These points still get the
 // limits from inside. Near a vertex, both adjacent segments must use the same position.
@@ -21,8 +21,8 @@ struct Contact {
 
 /// Returns the boundary point nearest to z if z is on the boundary up to the rounding error of z
 /// and of the curves, which is about 4 eps |z|. For points outside the loop, this tolerance is
-/// multiplied by `outside`. Returns none if the boundary is farther away. Cost: 3 ns per straight
-/// segment, plus the roots for each curved segment whose box contains z.
+/// multiplied by `outside`. Returns nullopt if the boundary is farther away. Cost: 3 ns per
+/// straight segment, plus the roots for each curved segment whose box contains z.
 std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Complex z,
                                   double outside = 1);
 

@@ -61,8 +61,8 @@ SegmentPolynomial::SegmentPolynomial(std::span<const Complex> controls) {
   middle_ = powers_about_middle(controls);
   start_ = powers_of(Points(controls.begin(), controls.end()));
   end_ = powers_of(std::move(backwards));
-  // A leading coefficient is ignored if it may be only rounding of the control points, amplified by
-  // the differences.
+  // A leading coefficient is ignored if it may be only rounding error of the control points,
+  // amplified by the differences.
   const auto rounding = [&] {
     const double n = static_cast<double>(controls.size()) - 1, k = static_cast<double>(degree());
     double binomial = 1;
@@ -144,7 +144,7 @@ void SegmentPolynomial::taylor(const Root& at, std::span<Complex> out) const {
     for (size_t k = work.size() - 1; k-- > j;) work[k] += times(work[k + 1], x);
   for (size_t j = 0; j < out.size(); ++j) {
     out[j] = j < work.size() ? work[j] : Complex(0);
-    if (!from_start && j % 2 == 1) out[j] = -out[j];  // q runs backwards
+    if (!from_start && j % 2 == 1) out[j] = -out[j];  // q runs backward
   }
 }
 

@@ -54,8 +54,8 @@ class SegmentPolynomial {
 
   /// Writes the degree() roots of c(t) = z. If `near` is given, the iteration starts from these
   /// roots, which should belong to a nearby z. Uses Aberth's method, followed by Newton's method on
-  /// the expansion about the nearer end. A double root necessarily has only half the digits. Cost:
-  /// about 100 ns per root.
+  /// the expansion about the nearer end. A double root is necessarily accurate to only half the
+  /// digits. Cost: about 100 ns per root.
   void roots(const FinePoint& z, std::span<Root> out, std::span<const Root> near = {}) const;
 
   /// The Taylor coefficients c^(j)(t) / j! at a parameter, for j < out.size(). They are 0 for j

@@ -1,4 +1,4 @@
-// The centroids correspond, and the factor is a quotient of sums of products.
+// The similarity maps one centroid to the other, and the factor is a quotient of sums of products.
 #include "core/geometry/similarity.h"
 
 #include "core/error.h"

@@ -53,7 +53,7 @@ class Simplifier {
   struct Change {
     double cost;
     int node, version;
-    bool corner;  ///< replace the node and the next by a corner; else drop the node
+    bool corner;  ///< replace this node and the next by a corner; otherwise drop this node
     bool operator<(const Change& other) const { return cost > other.cost; }
   };
 
@@ -103,7 +103,8 @@ class Simplifier {
     return true;
   }
 
-  /// Whether no other edge cuts the corner p off the triangle (b, p, c) on the edge after node i.
+  /// Whether no other edge crosses the sides bp and pc of the new triangle (b, p, c), where bc is
+  /// the edge after node i.
   bool is_uncut(int i, Complex p) const {
     const int j = nodes_[i].next;
     const auto crosses = [](Complex a, Complex b, Complex c, Complex d) {

@@ -41,7 +41,7 @@ struct ParameterSpec {
 
 enum class Precision {
   single,  ///< operators in float, for display (error 1e-6 of the displacement)
-  full     ///< operators in double, for numbers that are written out
+  full     ///< operators in double, for numeric output
 };
 
 /// A point handle at rest. With `has_frame`, its pose also prescribes an angle and a scale.
@@ -106,7 +106,7 @@ struct SampledMap {
   enum class Status { exact, iterating, certified, infeasible };
   VectorXc f, fz, fzbar;
   Status status = Status::exact;
-  std::string note;  ///< what the user should know, such as a pin that could not be used
+  std::string note;  ///< what the user should know, for example that a pin could not be used
   int iterations = 0;
   /// The energy before the first iteration of the whole solve and after each iteration, for methods
   /// that report it.
@@ -121,7 +121,7 @@ struct SampledMap {
 struct EvalOptions {
   bool derivatives = false;
   /// Set during drags. Iterative methods may then continue from their last result and stop early.
-  /// Otherwise, the map depends on rest and pose alone.
+  /// Otherwise, the map depends only on the rest and the pose.
   bool draft = false;
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
   /// ignore this.
@@ -154,13 +154,13 @@ class Deformer {
   virtual const PlanarMatrix<float>* operator_matrix() const { return nullptr; }
   virtual VectorXc controls(const Pose&) const { return {}; }
 
-  /// The posed cage for which method `cage` yields the same map as this pose. Empty when no such
-  /// cage exists.
+  /// The posed cage for which the `cage` method yields the same map as this pose. Empty when no
+  /// such cage exists.
   virtual std::optional<Cage> solved_cage(const Pose&) const { return {}; }
 
   /// The map of a pose at any point. If the rest is in full precision, the map is accurate to
-  /// rounding, or to the integration error for methods that integrate along the mesh. Null when the
-  /// method knows its map only at the samples.
+  /// rounding error, or to the integration error for methods that integrate along the mesh. Null
+  /// when the method knows its map only at the samples.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 };
 
@@ -190,8 +190,8 @@ struct Method {
   /// be used.
   ///
   /// Threads: this may run on one thread while `previous->deform` runs on another. Therefore `make`
-  /// reads only members of `previous` that do not change after construction. It keeps them alive by
-  /// shared ownership, because `previous` may be destroyed as soon as this returns.
+  /// reads only members of `previous` that do not change after construction. It keeps them alive
+  /// through shared ownership, because `previous` may be destroyed as soon as this returns.
   std::unique_ptr<Deformer> prepare(const Rest& rest, const Deformer* previous) const;
 };
 

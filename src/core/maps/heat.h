@@ -17,7 +17,7 @@ enum class View { image, angle, area, stretch, checker };
 
 inline constexpr std::array<const char*, 5> kViewNames{"image", "angle", "area", "stretch",
                                                        "checker"};
-/// The view with this name. Throws Error that lists the valid names.
+/// The view with this name. Throws an Error that lists the valid names.
 View view_named(const std::string& name);
 
 /// Whether a view shows the distortion of the map. Such a view requires derivatives.
@@ -42,7 +42,7 @@ HeatScale heat_scale(View view, const Eigen::VectorXd& values, bool automatic);
 using Color = std::array<float, 3>;
 /// The color at `t` in [0, 1] (clamped).
 Color heat_color(double t, bool diverging);
-/// Position of a value on a scale, clamped to [0, 1]. NaN is at 1.
+/// Position of a value on a scale, clamped to [0, 1]. NaN maps to 1.
 double heat_position(const HeatScale& scale, double value);
 
 }  // namespace holomorph

@@ -20,7 +20,7 @@ struct Arc {
 
 class ImageWinding {
  public:
-  /// `cage` and `map` must outlive this.
+  /// `cage` and `map` must outlive this object.
   ImageWinding(const Cage& cage, const PointMap& map) : cage_(cage), map_(map) {}
 
   /// An arc and the images of its ends. `bulge` estimates how far the arc's image deviates from its
@@ -34,11 +34,11 @@ class ImageWinding {
   Piece piece(const Arc& arc) const;
 
   /// The angle in radians by which f - w turns along a piece. Empty when w lies on the piece's
-  /// image to within rounding. If w is near the image, the piece is halved repeatedly. Cost: seven
-  /// evaluations of the map for each halving, none if w is not near.
+  /// image to within rounding error. If w is near the image, the piece is halved repeatedly. Cost:
+  /// seven evaluations of the map for each halving, none if w is not near.
   std::optional<double> turn(const Piece& piece, Complex w) const { return turn(piece, w, 0); }
   /// The number of whole turns of f - w along a closed loop. Empty when w lies on the loop's image
-  /// to within rounding.
+  /// to within rounding error.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
 
   /// The point at `fraction` of an arc, 0 to 1, and the two arcs into which this point divides it.

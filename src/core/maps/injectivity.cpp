@@ -13,7 +13,7 @@ namespace {
 /// The flipped regions, the largest first. Each is represented by the center of its largest
 /// triangle. Empty when all regions together are too small to be seen.
 Points visible_folds(const Mesh& mesh, const VectorXc& f) {
-  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative areas of all regions, of one
+  constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative areas: of all regions, of one region
   double turned = 0, total = 0;
   std::vector<std::pair<double, const Triangle*>> over;
   for (const Triangle& t : mesh.triangles) {

@@ -13,10 +13,10 @@ struct Injectivity {
   /// the picture folds around it. Loops below this size, such as those at corners of outlines, are
   /// invisible and do not count.
   double turning_number = 1;
-  /// One posed position in each flipped region, the largest region first. Empty when the regions
-  /// together cover less than 1e-4 of the picture's area, unless the turning number is not 1. In
-  /// that case, this is the position where the picture is compressed most, which is near a zero of
-  /// f'.
+  /// One posed position in each flipped region, the largest region first. Regions that together
+  /// cover less than 1e-4 of the picture's area are ignored. The list is then empty if the turning
+  /// number is 1. Otherwise, it holds the position where the picture is compressed most, which is
+  /// near a zero of f'.
   Points folds_at;
   /// The smallest |f_z| - |f_zbar| of the triangles, ignoring the worst thousandth of the picture.
   /// This is the scale factor in the most compressed direction. It is negative if a visible part of

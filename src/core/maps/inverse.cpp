@@ -17,7 +17,7 @@ constexpr double kNear =
 constexpr double kSame = 1e-7;  ///< relative to the size; preimages closer than this are the same
 constexpr double kOn = 1e-12;
 constexpr double kBranch = 1e-5;
-constexpr double kOnCurve = 8;  ///< distance of mesh boundary from its curve, in rounding errors
+constexpr double kOnCurve = 8;  ///< the mesh boundary's distance from its curve, in rounding errors
 
 int oriented(const std::vector<Preimage>& found) {
   int sum = 0;
@@ -157,7 +157,7 @@ bool InverseMap::improve(Complex w, Preimage& at) const {
   return at.residual <= good;
 }
 
-/// The start. If it lies outside a curved cage, it is moved towards the center of its boundary
+/// The start. If it lies outside a curved cage, it is moved toward the center of its boundary
 /// triangle, because the map may be undefined between a curve and the mesh's chord.
 Complex InverseMap::pulled_inside(Complex start, int triangle) const {
   if (triangle < 0) return start;
@@ -192,7 +192,7 @@ bool InverseMap::is_inside(Complex z) const {
   const NearestPoint near = nearest_on_polygon(outline, z);
   if (near.distance > near_) return winding_number(outline, z) != 0;
   // On the boundary the result depends on rounding. A point therefore also counts as inside if a
-  // tiny step inwards takes it inside.
+  // tiny step inward moves it inside.
   const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
   return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
 }
@@ -202,7 +202,8 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   const std::optional<int> wanted = winding(w);
   std::vector<Preimage> found = newton_from_grid(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
-  // The count may include points slightly outside. On the boundary itself the count is undefined.
+  // The count may include points slightly outside the cage. On the boundary itself the count is
+  // undefined.
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
     if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;

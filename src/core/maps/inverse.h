@@ -23,8 +23,7 @@ struct Preimage {
 class InverseMap {
  public:
   /// `positions` are the values of the map at the mesh's vertices. The mesh and the map must
-  /// outlive this.
-  /// Cost: linear in the triangles.
+  /// outlive this object. Cost: linear in the number of triangles.
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
   InverseMap(const InverseMap&) = delete;  // its members refer to each other
@@ -39,7 +38,7 @@ class InverseMap {
   std::vector<Preimage> at(Complex w) const;
 
   /// The winding number of the boundary's image around w; empty when w lies on that image to within
-  /// rounding.
+  /// rounding error.
   std::optional<int> winding(Complex w) const;
 
  private:

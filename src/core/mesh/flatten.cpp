@@ -54,7 +54,7 @@ Eigen::Vector3d side(const Surface& surface, int a, int b) {
   return surface.vertices[static_cast<size_t>(b)] - surface.vertices[static_cast<size_t>(a)];
 }
 
-/// Throws Error for triangles that are degenerate.
+/// Throws Error if a triangle is degenerate.
 void check_areas(const Surface& surface) {
   constexpr double kThinnest = 1e-12;
   for (size_t i = 0; i < surface.triangles.size(); ++i) {

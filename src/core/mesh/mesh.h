@@ -24,10 +24,10 @@ struct Mesh {
 /// Makes a mesh of the inside of a rest cage from the caller's own triangles, of either
 /// orientation. The triangles must form one disk without holes that fills the cage, and no triangle
 /// may be flat. The boundary vertices must lie on the cage to within 1e-4 of the cage's size. At
-/// every cage vertex there must be a boundary vertex to within 1e-9 of the size. It is moved to the
-/// exact position. The areas of mesh and cage must agree to within 1e-3 of the size squared. Throws
-/// an Error that names the failed condition. Cost: O(n log n) in the number of triangles, plus
-/// boundary vertices times cage vertices.
+/// every cage vertex, there must be a boundary vertex within 1e-9 of the size. This boundary vertex
+/// is moved to the exact position. The areas of the mesh and the cage must agree to within 1e-3 of
+/// the size squared. Throws an Error that names the failed condition. Cost: O(n log n) in the
+/// number of triangles, plus boundary vertices times cage vertices.
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles);
 
 /// For each vertex, 1 if it is on the boundary, else 0. Cost: linear.

@@ -1,4 +1,4 @@
-// Makes the domain mesh by CGAL's Delaunay refinement. No other file includes CGAL's mesher.
+// Makes the domain mesh with CGAL's Delaunay refinement. No other file includes CGAL's mesher.
 //
 // Most vertices come from a graded triangular lattice. Inserting the whole lattice in one call is
 // several times faster than refinement. Refinement then fills the gap between lattice and boundary.

@@ -15,7 +15,7 @@ struct MeshOptions {
 /// Meshes the inside of a simple polygon of either orientation with conforming Delaunay triangles,
 /// which are smaller near the boundary. Every cage vertex is a mesh vertex with the same
 /// coordinates. Slivers, collinear and nearly repeated vertices are allowed. A needle-sharp corner
-/// of the polygon gives needle-sharp triangles. Refinement stops at about three times the target
+/// of the polygon produces needle-sharp triangles. Refinement stops at about three times the target
 /// number of vertices. Throws Error for polygons that check_rest_cage rejects. Cost: about 4 us per
 /// vertex.
 Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options = {});

@@ -12,7 +12,7 @@ namespace holomorph {
 
 using Cone3 = Eigen::Vector3d;  // (height, w)
 
-/// height^2 - |w|^2, without cancellation of the squares.
+/// height^2 - |w|^2, computed without subtracting squares.
 inline double det(const Cone3& v) {
   const double r = std::hypot(v[1], v[2]);
   return (v[0] - r) * (v[0] + r);

@@ -1,4 +1,4 @@
-// Dense linear algebra by BLAS, for the operations that solvers repeat in every iteration.
+// Dense linear algebra with BLAS, for the operations that solvers repeat in every iteration.
 //
 // The BLAS library selects the instruction set at run time and also has a portable code path.
 #pragma once
@@ -35,15 +35,15 @@ struct Orthonormal {
 Orthonormal orthonormal(MatrixXc a);
 
 /// The x that minimizes |A x - b|, by Householder reflections. A must have full rank and at least
-/// as many rows as columns. If rows have very different sizes, sort them by decreasing size to keep
-/// their digits.
+/// as many rows as columns. If rows have very different sizes, sort them by decreasing size to
+/// preserve accuracy.
 VectorXc least_squares(MatrixXc a, VectorXc b);
 
 /// The factorization L L^T of a symmetric positive definite matrix. Only the lower triangle is
 /// read.
 class Cholesky {
  public:
-  /// Returns false if the matrix is not positive definite up to rounding.
+  /// Returns false if the matrix is not positive definite up to rounding error.
   bool factor(const MatrixXd& matrix);
   VectorXd solve(const VectorXd& right) const;
   /// Solves for all columns of `right`.
