@@ -1,4 +1,4 @@
-// Benchmarks of angle maps and of playing keyframes.
+// Benchmarks of angle maps and keyframe playback.
 #include <numeric>
 #include <optional>
 
@@ -21,7 +21,7 @@ Points star() {
   return star;
 }
 
-constexpr int kAngleMeshVertices = 8700;  ///< requested vertices, for a mesh of about 10000
+constexpr int kAngleMeshVertices = 8700;  ///< vertices to request for a mesh of about 10000
 
 Deformation star_scene() {
   Deformation deformation;

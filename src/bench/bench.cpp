@@ -1,4 +1,4 @@
-// Each benchmark is one entry of the table kEntries.
+// Each benchmark is one entry in the table kEntries.
 #include "bench/bench.h"
 
 #include <algorithm>
@@ -114,8 +114,8 @@ double curved_prepare_ms(int runs) {
 
 /// The composition through an intermediate polygon (Lin and Chen 2024, section 4.3): u2 after the
 /// inverse of u1, where u1 maps the polygon of the segments' endpoints to the curved rest cage.
-/// Measures which percentage of the domain's samples has no preimage under u1, and the time to set
-/// up the composition and find the preimages.
+/// Measures what percentage of the domain's samples have no preimage under u1, and how long it
+/// takes to set up the composition and find the preimages.
 struct PolygonRoute {
   double missing_percent = 0, milliseconds = 0;
 };
@@ -136,8 +136,8 @@ PolygonRoute polygon_route() {
   return {100.0 * missing / static_cast<double>(domain.vertices.size()), now_ms() - start};
 }
 
-/// The time per point and edge to compute the coordinates of a straight cage whose pose has this
-/// degree.
+/// The time that it takes, per point and edge, to compute the coordinates of a straight cage whose
+/// pose has this degree.
 double raised_coordinates_ns(int degree, int runs) {
   const Cage straight = polygon_cage(wavy(100, {500, 500}, 350));
   Cage raised = straight;
@@ -379,8 +379,8 @@ const Entry kEntries[] = {
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
 };
 
-/// Name prefix of the benchmarks that project the same folded bar with all published methods. They
-/// report the time and properties of the map.
+/// The name prefix of the benchmarks that project the same folded bar with each published method.
+/// They report the time and properties of the map.
 constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
 
 std::vector<Result> comparison(const std::function<void(const Result&)>& report) {

@@ -1,4 +1,5 @@
-// The benchmarks of outlines, angles, keyframes and strokes, and the timer of all benchmarks.
+// The benchmarks for outlines, angles, keyframes and strokes, and the timer that all benchmarks
+// use.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@ OutlineFigures outline_figures(bool published);
 inline constexpr int kOutlinePairs = 30;
 
 /// The time that the slowest pair's iterations take to bring the distance within 1 % of its final
-/// value, without the setup. Uses 100 vertices and 400 samples.
+/// value, excluding setup. Uses 100 vertices and 400 samples.
 double outline_iterations_ms(int runs);
 /// The time from a cold start for the slowest of six hard pairs.
 double hard_outline_ms();

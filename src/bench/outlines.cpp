@@ -61,7 +61,7 @@ OutlineFigures outline_figures(bool published) {
 double outline_iterations_ms(int runs) {
   OutlineSettings settings;
   settings.vertices = 100;
-  settings.smoothness = 0.0101;  // just above the limit for refinement, which disables it
+  settings.smoothness = 0.0101;  // just above the limit, which disables refinement
   double slowest = 0;
   for (unsigned seed = 1; seed <= kOutlinePairs; ++seed) {
     const Pair pair = pair_of(seed);
@@ -98,8 +98,8 @@ double strokes_drag_ms(int runs) {
   rest.cage = polygon_cage(round);
   rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {10000}));
   rest.samples = rest.mesh->vertices;
-  const double length =
-      perimeter(round) / (2 * kPi);  // L; strokes of this length have 20 samples, all inside
+  // L. A stroke of this length has 20 samples, all inside the cage.
+  const double length = perimeter(round) / (2 * kPi);
   for (int i = 0; i < 5; ++i)
     rest.strokes.push_back({{-0.5 * length, 60.0 * (i - 2)}, {0.5 * length, 60.0 * (i - 2)}});
   const auto deformer = usual_method(MethodUse::strokes).prepare(rest, nullptr);

@@ -96,7 +96,7 @@ void run(const NewCommand& command) {
 }
 
 void run(const BenchCommand& command) {
-  // If the table is not printed on a terminal, show each line on the terminal as well.
+  // If standard error is a terminal but the table goes elsewhere, show each line there as well.
   const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
   const std::vector<bench::Result> results =
       bench::measured(command.filter, [&](const bench::Result& result) {

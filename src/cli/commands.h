@@ -50,7 +50,7 @@ struct NewCommand {
   Path image, out;
   bool force = false;  ///< also allows replacing an existing scene
   int vertices = 30;
-  std::optional<double> margin = {};  ///< pixels; none: 2 % of the longer side
+  std::optional<double> margin = {};  ///< in pixels; if not set, 2 % of the longer side
   bool curved = false;
   std::optional<Path> cage;     ///< SVG file or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file

@@ -257,7 +257,7 @@ void CommandLine::add_to(CLI::App& app) {
   add_bench(app);
 }
 
-/// The words on the command line that the program does not know.
+/// The words on the command line that the program does not recognize.
 std::vector<std::string> unknown_words(const CLI::App& app) {
   std::vector<std::string> words = app.remaining();
   for (const CLI::App* sub : app.get_subcommands())
@@ -292,7 +292,7 @@ int run_program(int argc, char** argv) {
       if (!std::cout.flush()) throw Error(ErrorKind::failed, "standard output: cannot be written");
       return 0;
     }
-    // The first word was parsed as a file to open.
+    // A mistyped command is parsed as the name of a file to open.
     const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     if (extras && !line.editor.file.empty()) check_is_file(line.editor.file);
     return report_parse_error(app, error);
@@ -311,7 +311,7 @@ int fail(const std::string& what, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a pipe without a reader is an ordinary error
+  std::signal(SIGPIPE, SIG_IGN);  // makes writing to a pipe without a reader an ordinary error
   try {
     return run_program(argc, argv);
   } catch (const Interrupted&) {

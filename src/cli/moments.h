@@ -10,7 +10,8 @@
 
 namespace holomorph {
 
-/// The options for times, as given on the command line. With neither, the scene's own pose is used.
+/// The options for times, as given on the command line. If neither is given, the scene's own pose
+/// is used.
 struct Moments {
   std::optional<double> time = {};         ///< seconds
   std::optional<std::string> frames = {};  ///< "A..B" or "all"
@@ -24,7 +25,7 @@ struct FrameRange {
 /// Parses Moments::frames. Throws Error if the text is not a range of the scene's frames.
 FrameRange frames_named(const std::string& text, const Scene& scene);
 
-/// One moment: a frame and its time, or only a time. With neither, it is the scene's own pose.
+/// One moment: a frame and its time, or only a time. If neither is set, it is the scene's own pose.
 struct FrameTime {
   std::optional<int> frame = {};
   std::optional<double> time = {};

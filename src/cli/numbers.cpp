@@ -37,7 +37,7 @@ class NonFinitePoints {
   size_t count_ = 0, first_ = 0;
 };
 
-/// The number of points to map in one block. Limited so that their coordinates fit into memory.
+/// The number of points to map in one block. It is limited by the memory budget for coordinates.
 size_t block_size(const TimedMap& map) {
   constexpr double kBudgetFraction = 0.25;  // fraction of the budget for coordinates
   const double controls = static_cast<double>(map.prepared().rest.cage.control_count());

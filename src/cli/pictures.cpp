@@ -150,7 +150,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
-/// A format of `export`, and which options it accepts.
+/// A format of `export` and the options that it accepts.
 struct Format {
   std::string id;
   bool scale = false, crop = false, time = false, frames = false;

@@ -30,7 +30,7 @@ void stop(int) {
 
 void install_signal_handlers() {
   struct sigaction action {};
-  action.sa_handler = stop;  // without SA_RESTART, a signal interrupts waiting for a pipe
+  action.sa_handler = stop;  // without SA_RESTART, a signal interrupts a wait for a pipe
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 

@@ -44,7 +44,7 @@ class Progress {
 
   std::string what_, unit_;
   std::atomic<size_t> done_ = 0, all_ = 0;
-  std::jthread display_;  ///< declared last, because it must end before the other members do
+  std::jthread display_;  ///< declared last, because its thread must end first
 };
 
 }  // namespace holomorph

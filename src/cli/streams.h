@@ -34,8 +34,8 @@ SceneAndPoints read_scene_and_points(const SceneCommand& command, const Path& po
 /// Throws Error if `out` is one of the command's inputs, or if it is read-only and `force` is not
 /// set.
 void check_out(const Path& out, bool force, const std::vector<Path>& inputs);
-/// Throws Error if `out` is the scene or one of its pictures or surfaces, or read-only without
-/// `force`.
+/// Throws Error if `out` is the scene or one of its pictures or surfaces, or if it is read-only and
+/// `force` is not set.
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded);
 
 /// Writes the result of a command piece by piece to a file, a pipe or standard output. A file

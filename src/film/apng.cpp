@@ -58,7 +58,7 @@ class ApngWriter final : public FilmWriter {
       if (type == "IDAT") data += png.substr(at + 8, length);
       at += length + 12;
     }
-    // Number, size, offset, duration, disposal 1 (clear afterwards), blending 0 (replace). The
+    // Number, size, offset, duration, disposal 1 (clear afterward), blending 0 (replace). The
     // duration is a fraction with numerator 250, which is exact for rates like 24 and 23.976.
     const std::uint32_t first = sequence_++;
     body_ += chunk(

@@ -1,6 +1,6 @@
-// Films encoded by the program ffmpeg. It reads raw frames from a socket: if it dies, the next
-// write returns an error instead of raising a signal. It writes to a file that is already open,
-// because a file name could redirect its output.
+// Encodes films with the program ffmpeg. It reads raw frames from a socket, because a write after
+// it has died then returns an error instead of raising a signal. It writes to a file that is
+// already open, because a file name could redirect its output.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -122,7 +122,7 @@ class FfmpegWriter final : public FilmWriter {
   std::optional<NewFolder> folder_;  ///< only for pipes, because ffmpeg must seek in its output
   NewFile film_;
   bool opaque_;
-  std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< ffmpeg's messages; has no name
+  std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< unnamed file of ffmpeg's messages
   Child child_;
   int status_ = 0;
 };

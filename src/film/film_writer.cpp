@@ -1,4 +1,5 @@
-// The table of formats, and numbered PNG files, the only format that needs no film encoder.
+// Contains the table of formats and the writer of numbered PNG files, the only format that needs no
+// film encoder.
 #include "film/film_writer.h"
 
 #include <algorithm>

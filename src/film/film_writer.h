@@ -36,7 +36,7 @@ const std::vector<FilmFormat>& film_formats();
 /// known extensions.
 const FilmFormat& film_format_of(const Path& path);
 
-/// The name of a frame's file: walk-0007.png for walk.png and 7.
+/// The name of a frame's file: walk-0007.png for walk.png and frame 7.
 Path numbered(const Path& path, int frame);
 /// The files that a film with this number of frames is written to.
 std::vector<Path> files_of_film(const Path& out, int frames);

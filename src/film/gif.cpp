@@ -1,5 +1,5 @@
 // Writes GIF with giflib; libimagequant chooses the colors. Frame durations are in hundredths of a
-// second and are rounded to keep the length of the whole film right.
+// second and are rounded in a way that keeps the length of the whole film correct.
 #include <gif_lib.h>
 #include <libimagequant.h>
 
@@ -37,7 +37,7 @@ Quantized quantized(const Image& frame) {
     if (error != LIQ_OK) throw Error(ErrorKind::failed, "cannot choose the colors of a GIF frame");
   };
   const Owned<liq_attr, liq_attr_destroy> settings(liq_attr_create());
-  liq_set_max_colors(settings.get(), 255);  // and one for transparency
+  liq_set_max_colors(settings.get(), 255);  // one more is for transparency
   liq_set_speed(settings.get(), 6);
   const Owned<liq_image, liq_image_destroy> image(
       liq_image_create_rgba(settings.get(), solid.pixels.data(), solid.width, solid.height, 0));

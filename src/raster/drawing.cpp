@@ -92,7 +92,7 @@ class Drawing {
 
  private:
   struct Band {
-    std::vector<int> pieces, silhouette, cage;  ///< indices of the ones that touch the band
+    std::vector<int> pieces, silhouette, cage;  ///< indices of those that touch the band
   };
   using Edge = std::array<double, 4>;
 

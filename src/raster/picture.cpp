@@ -89,7 +89,8 @@ class PictureMaker::LayerMaker {
   static constexpr double kMaxPieces = 2000;
 
   /// Extends `box` to contain the motion from one time to another. Halves the interval until the
-  /// path of each vertex hardly bends and is bounded by its ends and middle, up to a margin.
+  /// path of each vertex hardly bends. The path is then bounded by its ends and its middle, up to a
+  /// margin.
   bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
                        Box& box, const std::function<bool()>& keep_going, int halves) {
     const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // plane units

@@ -11,10 +11,10 @@ namespace holomorph {
 struct PictureOptions {
   View view = View::image;  ///< all other views show only the edited layer, without a background
   double scale = 1;         ///< output pixels per image pixel
-  bool crop = false;        ///< crop to the lowest picture's rectangle; else nothing is cut off
+  bool crop = false;        ///< crop to the lowest picture's rectangle; otherwise crop nothing
   bool automatic_range = false;
   std::optional<Box> region = {};   ///< draw exactly this part of the plane
-  std::optional<double> time = {};  ///< time on the timeline in seconds; none: the scene's pose
+  std::optional<double> time = {};  ///< seconds on the timeline; if not set, the scene's pose
 };
 
 /// Draws the posed scene: its visible layers over its background. `source` is the edited layer's
@@ -35,7 +35,7 @@ class PictureMaker {
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
-  /// each two keyframes.
+  /// each pair of consecutive keyframes.
   std::optional<Box> motion_region(const std::function<bool()>& keep_going = [] { return true; });
   /// The rectangle of the lowest visible picture, to which `crop` crops; empty if there is none.
   Box rectangle() const;

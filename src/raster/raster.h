@@ -1,4 +1,4 @@
-// Warps a picture by a mesh, on all processor cores. All exported pixels come from here.
+// Warps a picture by a mesh, on all processor cores. This code computes all exported pixels.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace holomorph {
 /// What to draw. The mesh's vertices move to `positions`; `source` is sampled once, at rest
 /// coordinates. The picture outside the rest cage does not move.
 struct RasterJob {
-  const Mesh* mesh = nullptr;          ///< null: draw only the source
+  const Mesh* mesh = nullptr;          ///< if null, only the source is drawn
   std::span<const Complex> positions;  ///< one per mesh vertex
   const Image* source = nullptr;       ///< may be null for heat maps and checkers
   View view = View::image;
@@ -20,10 +20,10 @@ struct RasterJob {
   HeatScale scale;
   double pixels_per_unit = 1;  ///< output pixels per image pixel
   bool surroundings = true;    ///< also draw the source outside the rest cage
-  bool crop = false;           ///< crop to the source's rectangle; else nothing is cut off
+  bool crop = false;           ///< crop to the source's rectangle; otherwise crop nothing
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
-  std::optional<double> top;   ///< y of the top edge of pixel row 0; none: the source's height
-  int threads = 0;             ///< 0: one per processor core
+  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's height
+  int threads = 0;             ///< if 0, one per processor core
 };
 
 /// A picture and the position of its lower left corner in the plane.

@@ -9,17 +9,17 @@
 
 namespace holomorph {
 
-/// For each pixel of the picture's rectangle, the position in the picture that it shows. As usual
-/// in compositing programs, s points right and t up, both 0 to 1 over the picture. NaN where
-/// nothing is shown. Rows from the top.
+/// For each pixel of the picture's rectangle, the position in the picture that it shows. As is
+/// usual in compositing programs, s points right and t points up, and both run from 0 to 1 across
+/// the picture. Pixels that show nothing are NaN. Rows are stored from the top.
 struct StMap {
   int width = 0, height = 0;
   std::vector<float> st;  ///< height x width x 2, row by row
 };
 
-/// The ST-map of a scene in its pose, or at a time of its keyframes in seconds. The picture's size
-/// is in pixels; `scale` is in ST-map pixels per picture pixel. Each position is computed from the
-/// map itself and rounded to single precision. Calls `progress` on the calling thread with the
+/// The ST-map of a scene in its own pose, or at a time on its timeline in seconds. The picture's
+/// size is in pixels; `scale` is in ST-map pixels per picture pixel. Each position is computed from
+/// the map itself and rounded to single precision. Calls `progress` on the calling thread with the
 /// number of rows that have been started and the number of all rows. An exception from `progress`
 /// ends the computation and is rethrown. Throws Error if the cage or the picture is missing, or if
 /// the method has no inverse. Cost: 20 us per pixel on one core with 10 straight edges, 45 us with

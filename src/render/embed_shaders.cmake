@@ -1,4 +1,4 @@
-# Writes the header OUT, which has each shader of FOLDER as a string.
+# Writes the header OUT, which contains each shader in FOLDER as a string.
 set(text "// Generated from the folder shaders by the build.\n#pragma once\n\n")
 foreach(pair IN ITEMS "warp.vert=kWarpVert" "image.frag=kImageFrag" "surface.vert=kSurfaceVert"
         "surface.frag=kSurfaceFrag")

@@ -1,4 +1,4 @@
-// An OpenGL render target that can be used as a texture afterwards.
+// An OpenGL render target that can be used as a texture afterward.
 #pragma once
 
 namespace holomorph {

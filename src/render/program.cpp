@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "render/gl.h"
-#include "shaders.h"  // the files of shaders/, as strings
+#include "shaders.h"  // the files in shaders/, as strings
 
 namespace holomorph {
 namespace {

@@ -242,7 +242,7 @@ void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
   gl.width = gl.levels ? gl.levels->width : 0;
   gl.height = gl.levels ? gl.levels->height : 0;
   if (!gl.levels) return;
-  // Create a new texture, because the levels of the old one have other sizes.
+  // Create a new texture, because the levels of the old one have different sizes.
   glDeleteTextures(1, &gl.picture);
   glGenTextures(1, &gl.picture);
   glActiveTexture(GL_TEXTURE0 + kPicture);

@@ -21,7 +21,7 @@ bool is_software_driver();
 /// Where the vertex positions come from.
 enum class Placement { at_rest, positions, by_operator };
 
-/// A tinted, half-transparent copy of the picture behind the drawn one.
+/// A tinted, half-transparent copy of the picture, drawn behind it.
 struct Ghost {
   std::span<const Complex> positions;  ///< one per mesh vertex
   Color tint;
@@ -31,7 +31,8 @@ struct Ghost {
 /// backdrop.
 enum class Content { map, original, nothing };
 
-/// The contents and settings of one frame of the canvas. In window pixels, x points right, y down.
+/// The contents and settings of one frame of the canvas. In window pixels, x points right and y
+/// points down.
 struct RenderFrame {
   int window_width = 1, window_height = 1;                                      ///< framebuffer px
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
@@ -47,7 +48,7 @@ struct RenderFrame {
   bool over = false;        ///< draw over the canvas: do not clear it, and draw no backdrop
   Content content = Content::map;
   Color background{0.2f, 0.2f, 0.2f},
-      backdrop{0.25f, 0.25f, 0.25f};  ///< of the canvas; behind the picture
+      backdrop{0.25f, 0.25f, 0.25f};  ///< colors of the canvas and behind the picture
 };
 
 /// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and

@@ -12,8 +12,8 @@ struct SurfaceFrame {
   int width = 1, height = 1;  ///< size of the render target in pixels
   Eigen::Matrix4d to_view;    ///< rigid motion into view space; the camera looks along -z
   Eigen::Matrix4d to_clip;    ///< from view space to clip space
-  unsigned texture = 0;       ///< OpenGL texture with mipmaps, premultiplied; 0: only clay
-  Color background, clay;     ///< behind the surface; on it where the texture is transparent
+  unsigned texture = 0;       ///< OpenGL texture with mipmaps, premultiplied; if 0, only clay
+  Color background, clay;     ///< behind the surface, and on it where the texture is transparent
 };
 
 /// Owns the OpenGL objects of one surface. Needs a current OpenGL context.

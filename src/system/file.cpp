@@ -61,14 +61,14 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) throw refuse(unreadable(path, errno));
   if (S_ISDIR(found.st_mode)) throw refuse("this is a directory, not a file");
-  // Devices are not even opened, because opening some of them has effects.
+  // Devices are not even opened, because opening some of them has side effects.
   if (!S_ISREG(found.st_mode) && !streams) throw refuse("this is not a regular file");
   const bool waits = !S_ISREG(found.st_mode);  // until another program writes into the pipe
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (waits ? 0 : O_NONBLOCK));
   if (fd < 0) throw refuse(unreadable(path, errno));
   const Descriptor closed{fd};
   if (waits) return read_descriptor(fd, path, limit);
-  // The name may refer to another file than the one that was checked.
+  // The name may now refer to a different file from the one that was checked.
   if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
     throw refuse("this is not a regular file");
   if (static_cast<size_t>(found.st_size) > limit)

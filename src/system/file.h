@@ -22,7 +22,7 @@ bool is_file(const Path& path);
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
-/// Like read_file(), but also reads a pipe or a device up to its end. The call may wait. Use it
+/// Like read_file(), but also reads a pipe or a device up to its end. The call may block. Use it
 /// only for files that the user names, not for files that another file names.
 std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);
 
@@ -37,7 +37,7 @@ bool is_stream(const Path& path);
 /// the name.
 Error about(const Path& file, const Error& error);
 
-/// The SHA-256 of bytes as 64 lower-case hexadecimal digits.
+/// The SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 std::string sha256_hex(const std::string& bytes);
 
 }  // namespace holomorph

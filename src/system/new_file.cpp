@@ -99,7 +99,7 @@ Path temporary_path(const Path& folder) {
 }
 
 /// Removes a file or folder left behind by a NewFile or a NewFolder. Does nothing if it is in use
-/// or something else has the name.
+/// or if something else now has the name.
 void remove_leftover(int folder, const char* name) {
   const int fd = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return;
@@ -155,7 +155,7 @@ void clean(const Path& folder) {
 /// removed it.
 bool lock_created(int descriptor) {
   while (::flock(descriptor, LOCK_EX) != 0)
-    if (errno != EINTR) break;  // if locks fail, no process removes anything
+    if (errno != EINTR) break;  // if locking fails, no process can remove anything
   struct stat found {};
   return ::fstat(descriptor, &found) == 0 && found.st_nlink > 0;
 }

@@ -7,14 +7,14 @@
 
 namespace holomorph {
 
-/// A file that is being written. The data are written to a temporary file with a short name next to
+/// A file that is being written. The data is written to a temporary file with a short name next to
 /// the destination. put_in_place() replaces the destination atomically. Temporary files of killed
 /// programs are removed by a later NewFile or NewFolder in the same folder. A pipe or a device is
 /// written directly.
 class NewFile {
  public:
-  /// The permissions of the file. Usual: those of the file that it replaces, or for a new file
-  /// those that the umask allows. Owner: only the owner may read the file.
+  /// The permissions of the file. Usual: the permissions of the file that it replaces or, for a
+  /// new file, those that the umask allows. Owner: only the owner may read the file.
   enum class Readers { usual, owner };
 
   /// Throws Error{failed} if the destination cannot be written. If `path` is a link, its target is
@@ -57,13 +57,12 @@ class NewFolder {
 /// program.
 void write_file(const Path& path, const std::string& bytes,
                 NewFile::Readers readers = NewFile::Readers::usual);
-/// Replaces a file in the same way with a finished file, which is moved. This is fastest within one
-/// file system.
+/// Like write_file(), but moves a finished file into place. This is fastest within one file system.
 void move_file(const Path& finished, const Path& path);
 /// Writes to standard output. Throws Error{failed} if not all bytes can be written.
 void write_standard_output(const std::string& bytes);
 
-/// Whether a file exists and either this user may not write it or its permissions let nobody write
+/// Whether a file exists that this user cannot write to or whose permissions let nobody write to
 /// it.
 bool is_read_only(const Path& path);
 /// Throws Error{failed} if the file is read-only.

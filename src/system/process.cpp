@@ -1,4 +1,4 @@
-// Uses POSIX calls; nothing goes through a shell.
+// Uses POSIX calls and never runs a shell.
 #include "system/process.h"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ std::optional<Child> start_program(const std::vector<std::string>& words, int me
     ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
   else
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // This action comes last, because no later action may overwrite the descriptor.
+  // This action must be last, because a later action could overwrite the descriptor.
   if (passed >= 0) ::posix_spawn_file_actions_adddup2(&actions, passed, kPassedDescriptor);
   Child child;
   const int wrong =
@@ -88,7 +88,8 @@ std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
       if (count > 0) finished.output.append(part.data(), static_cast<size_t>(count));
       if (count < 0 && errno != EAGAIN && errno != EINTR) break;
     } else if (!ended) {
-      // Some programs leave a helper behind that keeps this socket open (clipboard tools do).
+      // Some programs, such as clipboard tools, leave a helper process behind that keeps this
+      // socket open.
       ended = ::waitpid(child->pid, &status, WNOHANG) == child->pid;
     } else {
       break;

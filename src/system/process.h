@@ -31,7 +31,7 @@ inline constexpr int kPassedDescriptor = 3;
 /// Runs a program found on the PATH, writes `input` to its standard input and waits until it ends.
 /// `keep_running` is called every few hundredths of a second. The program is terminated if
 /// `keep_running` returns false, or if the output exceeds `limit` bytes. Returns none in both
-/// cases, and if the program cannot be started.
+/// cases, and also if the program cannot be started.
 std::optional<ProcessResult> run_program(
     const std::vector<std::string>& words, const std::string& input = "",
     const std::function<bool()>& keep_running = [] { return true; }, size_t limit = 512u << 20);

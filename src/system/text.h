@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-/// A text made safe for display. A question mark replaces each character that would control a
+/// The text, made safe for display. A question mark replaces each character that would control a
 /// terminal or change the text direction.
 std::string printable(const std::string& text);
 

@@ -1,4 +1,4 @@
-// exp(i H) is integrated outwards from the anchor. Paths continue from boundary vertices only if no
+// exp(i H) is integrated outward from the anchor. Paths continue from boundary vertices only if no
 // other path exists.
 #include "core/angles/angle_map.h"
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
 constexpr double kMostStep = 0.5;  ///< largest change of an angle per iteration, in radians
 constexpr double kSettled = 1e-9;  ///< largest residual or step, relative to the size or in radians
-constexpr double kMeanAngleWeight = 0.05;  ///< weight of the mean angle; jumps and bends have 1
+constexpr double kMeanAngleWeight = 0.05;  ///< weight of the mean angle relative to jumps and bends
 constexpr double kScaleWeight = 0.05, kTranslationWeight = 0.05;
 
 /// (D^T D)^-1, where D penalizes jumps, bends, and the rotation, scale and translation of the whole

@@ -18,7 +18,7 @@ class AnglePins {
     int iterations = 0;
     bool settled = true;
     double largest_miss = 0;     ///< the largest distance of a pin from its target
-    std::vector<Index> limited;  ///< vertex numbers of corners held at the smallest angle
+    std::vector<Index> limited;  ///< vertex indices of corners held at the smallest angle
   };
   /// Changes `placed` by Gauss-Newton steps that penalize jumps and bends of the angles. A pin with
   /// a frame also prescribes f' at its position. With `draft`, the iteration starts from the last

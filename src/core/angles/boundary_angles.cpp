@@ -24,7 +24,7 @@ SegmentTurn segment_turn(const Points& controls) {
   double size = 0;
   for (const Complex& z : controls) size = std::max(size, std::abs(z));
   Points directions;
-  constexpr double kRounding = 1e-13;  // from raising the degree of a segment of length 0
+  constexpr double kRounding = 1e-13;  // due to degree elevation of a zero-length segment
   for (size_t i = 0; i + 1 < controls.size(); ++i)
     if (std::abs(controls[i + 1] - controls[i]) > kRounding * size)
       directions.push_back(controls[i + 1] - controls[i]);

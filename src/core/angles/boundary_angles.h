@@ -10,8 +10,8 @@ namespace holomorph {
 inline constexpr double kLeastCornerAngle = 5 * kPi / 180;
 
 struct BoundaryAngles {
-  VectorXd theta;              ///< in radians, before and after each corner; no jumps by 2 pi
-  std::vector<Index> limited;  ///< vertex numbers of corners held at the smallest angle
+  VectorXd theta;              ///< in radians, before and after each corner; no jumps of 2 pi
+  std::vector<Index> limited;  ///< vertex indices of corners held at the smallest angle
 };
 
 /// The boundary angles that take `rest` to `pose`. Both cages must be counter-clockwise and have

@@ -14,7 +14,7 @@ namespace holomorph {
 
 /// Real functions along a cage's boundary, one per column.
 struct RealParts {
-  /// Their values, one row per boundary point; never evaluated at vertices.
+  /// Returns their values, one row per boundary point. It is never called for vertices.
   std::function<MatrixXd(std::span<const BoundaryPoint>)> values;
   MatrixXd jumps;   ///< their jumps, one row per vertex of the cage
   MatrixXd linear;  ///< weights that combine the functions into 1, x and y (or only 1)
@@ -29,8 +29,8 @@ class HilbertCoordinates {
  public:
   /// `cage` must be counter-clockwise and pass check_rest_cage. The boundary is subdivided, at most
   /// seven times, until the error of every real part is at most `tolerance` at the fitted points.
-  /// Between these points, the error can be about twice as large. Cost: cubic in the vertices; 5 ms
-  /// for a dozen, 200 ms for fifty.
+  /// Between these points, the error can be about twice as large. Cost: cubic in the number of
+  /// vertices; 5 ms for a dozen, 200 ms for fifty.
   HilbertCoordinates(Cage cage, RealParts parts, double tolerance = 1e-3);
 
   const Cage& cage() const { return cage_; }
@@ -52,8 +52,8 @@ class HilbertCoordinates {
 
  private:
   struct Vertex {
-    Complex at, tip;             ///< the ends of the branch cut outside; `at` is the vertex
-    double angle = 0;            ///< the inner angle
+    Complex at, tip;   ///< the ends of the branch cut outside the cage; `at` is the vertex
+    double angle = 0;  ///< the inner angle
     std::vector<double> powers;  ///< exponents of (z - at) / (z - tip)
   };
   /// The part of a segment between two parameters.

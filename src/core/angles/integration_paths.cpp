@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPanels = 6, kMorePanels = 5, kPanelNodes = 5, kMoreNodes = 3;
 constexpr double kRatio = 0.3;
-/// In units of the shorter edge. Closer to a vertex, only the power matters.
+/// In units of the shorter edge. Closer to a vertex than this, only the power matters.
 constexpr double kPower = 1e-8;
 
 /// The number of Gauss nodes for a leg, given the ratio of its length to its distance from the
@@ -125,8 +125,8 @@ bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   return false;
 }
 
-// The chord of a curve that bends inwards runs outside the cage, where the coordinates are
-// different functions. Inside the cage, all paths between two nodes give the same integral.
+// The chord of a curve that bends inward runs outside the cage, where the coordinates are different
+// functions. Inside the cage, all paths between two nodes give the same integral.
 bool IntegrationPaths::add_detour(const End& a, const End& b) {
   const Complex middle = 0.5 * (a.at + b.at), across = kI * (b.at - a.at);
   for (const double aside : {0.05, 0.15, 0.4, 0.8})

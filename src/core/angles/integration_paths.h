@@ -10,7 +10,7 @@ namespace holomorph {
 
 /// Nodes joined by steps, with the quadrature points and weights of each step. A step is integrated
 /// by a Gauss rule whose order is higher near the cage's vertices. A step that starts or ends at a
-/// cage vertex is divided into panels that shrink towards the vertex. On the part next to the
+/// cage vertex is divided into panels that shrink toward the vertex. On the part next to the
 /// vertex, a power is integrated exactly.
 class IntegrationPaths {
  public:
@@ -23,8 +23,8 @@ class IntegrationPaths {
   void add(int from, int to);
   /// The mesh vertex from which add_node reaches z.
   int vertex_near(Complex z) const;
-  /// Adds a node at any point z of the mesh, with a step from vertex_near(z). Returns its number,
-  /// or vertex_near(z) when that vertex lies at z.
+  /// Adds a node at any point z in the mesh, with a step from vertex_near(z). Returns its index, or
+  /// vertex_near(z) if that vertex is at z.
   int add_node(Complex z);
   int nodes() const { return static_cast<int>(nodes_.size()); }
 
@@ -39,7 +39,7 @@ class IntegrationPaths {
  private:
   struct PathStep {
     int from, to;
-    Index end;  ///< one past its last quadrature point; the first is the previous `end`
+    Index end;  ///< one past its last quadrature point; the first is the previous step's `end`
   };
   /// The part of a step next to a cage vertex. Its other end is a quadrature point of weight 0.
   struct Tail {

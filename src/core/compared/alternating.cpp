@@ -1,5 +1,5 @@
 // Projections that alternate between two steps: project each element separately, then find the
-// nearest map with elements that fit together.
+// nearest map whose elements fit together.
 #include <algorithm>
 #include <array>
 #include <limits>

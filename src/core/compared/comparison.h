@@ -15,10 +15,10 @@ struct ComparedMap {
   std::string label, hint;
   VectorXc f = {};  ///< at the mesh's vertices
   double max_k = 0,
-         max_tau = 0;         ///< tau = max(sigma_max, 1 / sigma_min); infinite at folds
+         max_tau = 0;         ///< tau = max(sigma_max, 1 / sigma_min); infinite if the map folds
   int flipped_triangles = 0;  ///< inverted triangles
   double turning_number = 0;  ///< turning number of the boundary's image
-  double milliseconds = 0;    ///< time of the solve, without preparation
+  double milliseconds = 0;    ///< time of the solve, excluding preparation
   int iterations = 0;
   bool settled = true;  ///< false when it stopped at the iteration limit
 };
@@ -27,9 +27,9 @@ struct ComparedMap {
 /// program's map, and the results of plain implementations of Lipman 2012, Chen and Weber 2015,
 /// Aigerman and Lipman 2013, and Kovalsky et al. 2015. All use the rest's parameters. Piecewise
 /// linear maps are measured on the mesh's triangles; harmonic maps are measured at the mesh's
-/// vertices and densely along the boundary, also between the samples. `on_row` receives each row as
-/// soon as it is finished; `stop` ends the work early. Throws Error under the same conditions as
-/// the methods. Cost: seconds for a thousand vertices.
+/// vertices and densely along the boundary, including between the samples. `on_row` receives each
+/// row as soon as it is finished; `stop` ends the work early. Throws Error under the same
+/// conditions as the methods. Cost: seconds for a thousand vertices.
 void compare(const Rest& rest, const Pose& pose,
              const std::function<void(const ComparedMap&)>& on_row, std::stop_token stop = {});
 

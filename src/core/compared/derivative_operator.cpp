@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNullSpaceWeight = 1e-9;  ///< added to the diagonal for the null space of T
+constexpr double kNullSpaceWeight = 1e-9;  ///< added to the diagonal because T has a null space
 
 class MeshOperator final : public DerivativeOperator {
  public:
@@ -52,7 +52,7 @@ class MeshOperator final : public DerivativeOperator {
   }
 
  private:
-  /// f_z and f_zbar of the linear map on a triangle: sums of coefficients times corners.
+  /// f_z and f_zbar of the linear map on a triangle: linear combinations of its corners.
   void add_triangle(Index t, std::vector<Eigen::Triplet<double>>& entries) {
     const Triangle& corners = mesh_.triangles[static_cast<size_t>(t)];
     const auto at = [&](int k) { return mesh_.vertices[static_cast<size_t>(corners[k % 3])]; };

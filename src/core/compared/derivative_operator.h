@@ -18,7 +18,7 @@ class DerivativeOperator {
  public:
   virtual ~DerivativeOperator() = default;
   virtual Index unknowns() const = 0;
-  /// The elements' weights, with sum 1: fractions of the area or of the boundary.
+  /// The elements' weights, which sum to 1: fractions of the area or of the boundary.
   const VectorXd& weights() const { return weights_; }
   Index elements() const { return weights_.size(); }
 

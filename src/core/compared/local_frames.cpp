@@ -138,7 +138,7 @@ class LocalFrames {
     for (Index i = 0; i < m; ++i) {
       barriers.push_back(barrier(y, i));
       const Barrier& b = barriers.back();
-      // Eliminate r with its own row of the system.
+      // Eliminate r using its own row of the system.
       const Eigen::Vector4d mixed = b.hessian.col(4).head<4>();
       const double rr = b.hessian(4, 4);
       blocks.push_back(mu * (b.hessian.topLeftCorner<4, 4>() - mixed * mixed.transpose() / rr));

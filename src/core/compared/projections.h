@@ -38,7 +38,7 @@ Element nearest_bounded(const Element& element, const Bounds& bounds);
 Projected by_local_frames(DerivativeOperator& t, const VectorXd& g,
                           const ProjectionSettings& settings);
 
-/// Aigerman, Lipman 2013: each element that breaks the bounds is projected, and the projection
+/// Aigerman, Lipman 2013: each element that violates the bounds is projected, and the projection
 /// defines a half-space. A quadratic program then finds the nearest map with all elements in their
 /// half-spaces. These two steps repeat until all elements are within the bounds.
 Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,

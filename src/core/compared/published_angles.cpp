@@ -15,7 +15,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   const FlatCage flat = flattened(cage);
   const RealParts angles = corner_values(cage, corners);
   const double length = perimeter(flat.points) / pieces;
-  // Parts of about equal length; every vertex of the polygon is the end of a part.
+  // Parts of about equal length; every vertex of the polygon is an end of a part.
   std::vector<BoundaryPoint> starts;
   std::vector<double> lengths;  // the length of each part in the cage's parameter
   Points nodes;

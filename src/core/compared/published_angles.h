@@ -10,9 +10,9 @@ namespace holomorph {
 
 class PublishedAngles {
  public:
-  /// `cage` must be counter-clockwise, and `corners` must be vertices of it. The boundary is
+  /// `cage` must be counter-clockwise, and `corners` must be some of its vertices. The boundary is
   /// divided into about `pieces` equal parts (100 in the paper). `anchor` must be inside the cage.
-  /// Cost: cubic in the pieces.
+  /// Cost: cubic in the number of pieces.
   PublishedAngles(const Cage& cage, const std::vector<Index>& corners, Complex anchor,
                   int pieces = 100);
 
@@ -29,7 +29,7 @@ class PublishedAngles {
   Index unknowns() const { return coefficients_.rows(); }
 
  private:
-  /// A part of an edge, and the numbers of the functions that are 1 at its ends.
+  /// A part of an edge, and the indices of the functions that are 1 at its ends.
   struct EdgePart {
     Complex from, to;
     Index start, end;
@@ -40,7 +40,7 @@ class PublishedAngles {
   Cage nodes_;  ///< the polygon of all parts
   Complex anchor_;
   MatrixXc coefficients_;  ///< functions x angles
-  MatrixXc slopes_;        ///< H where f' is fitted, Im H = 0 at the anchor
+  MatrixXc slopes_;        ///< H where f' is fitted, with Im H = 0 at the anchor
   MatrixXc fit_;           ///< computes the map's coefficients from f' at those points
   double error_ = 0;
 };

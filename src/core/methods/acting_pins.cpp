@@ -6,7 +6,7 @@
 namespace holomorph {
 
 UsablePins usable_pins(const Rest& rest) {
-  constexpr double kSpread = 1e-9;  // pins closer than this, in units of L, count as one
+  constexpr double kSpread = 1e-9;  // pins closer together than this, in units of L, count as one
   const double least = kSpread * perimeter(outline_of(rest.cage)) / (2 * kPi);
   UsablePins acting;
   std::string outside, doubled;

@@ -45,7 +45,7 @@ struct Boundary {
     }
     return own;
   }
-  /// The corner's vertex number in the rest's cage.
+  /// The corner's vertex index in the rest's cage.
   Index vertex(Index corner) const {
     return reversed ? (cage.size() - corner) % cage.size() : corner;
   }
@@ -247,7 +247,7 @@ class AnglesDeformer final : public Deformer {
   AngleFrame frame_;
   UsablePins acting_;
   std::optional<AnglePins> pins_;
-  std::optional<PublishedAngles> published_;  ///< for comparison
+  std::optional<PublishedAngles> published_;  ///< the published map, used for comparison
   PlanarMatrix<double> slopes_;
 };
 

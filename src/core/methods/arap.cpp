@@ -15,7 +15,7 @@ namespace holomorph {
 namespace {
 
 constexpr int kMostIterations = 120, kDraftIterations = 6;
-constexpr double kSettled = 1e-5;  ///< largest move in an iteration, relative to the size
+constexpr double kSettled = 1e-5;  ///< largest displacement per iteration, relative to the size
 constexpr double kHandleWeight =
     1e3;  ///< weight of handles, relative to the energy's mean diagonal
 
@@ -39,8 +39,8 @@ class ArapDeformer final : public Deformer {
           const double weight = dot(ea, eb) / (8 * area);
           rigid.push_back({t[a], t[b], weight});
           if (a == b) diagonal += weight / stiffness_.back();
-          // The product of the conjugated coefficient of a in f_zbar and the coefficient of b. A
-          // small part of the rigid energy makes the matrix definite.
+          // The product of the conjugated coefficient of a in f_zbar and the coefficient of b.
+          // Adding a small part of the rigid energy makes the matrix definite.
           constexpr double kRigidPart = 1e-3;
           angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kRigidPart * weight});
         }
@@ -118,7 +118,7 @@ class ArapDeformer final : public Deformer {
   }
 
   /// Starts from the most conformal map, found by one linear solve. While dragging, minimize()
-  /// starts from the last answer instead.
+  /// starts from the last solution instead.
   void start(const Points& targets) {
     VectorXc right = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
     add_targets(targets, right);

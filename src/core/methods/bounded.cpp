@@ -20,7 +20,7 @@ namespace {
 
 class BoundedDeformer final : public Deformer {
  public:
-  /// The polygon of the basis gets about `basis` vertices.
+  /// The polygon of the basis has about `basis` vertices.
   BoundedDeformer(const Rest& rest, int basis)
       : rest_(rest),
         method_(method_named("bounded")),

@@ -31,7 +31,7 @@ class HandlePoints {
   Points rest_points_;
   std::vector<Location> locations_;
   struct Source {
-    Index handle;  ///< number of the pin or cage vertex
+    Index handle;  ///< index of the pin or cage vertex
     Complex arm;   ///< offset from the handle at rest
   };
   std::vector<Source> sources_;

@@ -41,7 +41,7 @@ inline ParameterSpec one_of(std::string key, std::string label, std::string hint
   return spec;
 }
 
-/// Returns `spec`, restricted to have an effect only while the parameter `key` has this value.
+/// Returns `spec`, limited to take effect only while the parameter `key` has this value.
 inline ParameterSpec used_with(std::string key, double value, ParameterSpec spec) {
   spec.used_when = ParameterSpec::Condition{std::move(key), value};
   return spec;

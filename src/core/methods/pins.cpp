@@ -198,8 +198,8 @@ class PinsDeformer final : public LinearDeformer<T> {
 
  private:
   /// The basis has corners all along the boundary, where its derivatives have logarithmic poles.
-  /// Points on the boundary represent their neighborhood, so they are moved inwards by a fraction
-  /// of the nearest segment's length.
+  /// Points on the boundary represent their neighborhood, so they are moved inward by a fraction of
+  /// the nearest segment's length.
   Points inset(Points points) const {
     constexpr double kOn = 0.05, kBy = 0.2;
     const Points outline = outline_of(basis_->basis, 4);

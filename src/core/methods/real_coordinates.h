@@ -9,7 +9,7 @@ namespace holomorph {
 class RealCoordinates {
  public:
   virtual ~RealCoordinates() = default;
-  /// One row per point. Order 0: the real parts are h. Order 1: h_x - i h_y.
+  /// One row per point. For order 0, the real parts are h. For order 1, the values are h_x - i h_y.
   virtual MatrixXc at(std::span<const Complex> points, int order) const = 0;
 };
 

@@ -15,12 +15,12 @@ namespace {
 
 constexpr int kSamplesPerUnknown = 4;
 constexpr size_t kPinTerm = 1;
-constexpr double kInset = 7e-4;      ///< depth of the loop in which zeros are counted, in diagonals
-constexpr double kSoftInset = 5e-3;  ///< the same with stiffness, which flattens corners roughly
+constexpr double kInset = 7e-4;      ///< inset of the loop around the counted zeros, in diagonals
+constexpr double kSoftInset = 5e-3;  ///< the same with stiffness, which is less accurate at corners
 constexpr double kRoughlySettled = 1e-2;
 constexpr int kMostRough = 4;
-/// If a start differs from the start of the basis by this fraction of the target's length, another
-/// basis is required.
+/// A new basis is built if the start differs from the one for which the basis was built by more
+/// than this fraction of the target's length.
 constexpr double kFar = 0.02;
 
 /// The shape's own frame: its first vertex is at 0, its first chord is along the real axis, and its

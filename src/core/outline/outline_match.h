@@ -23,9 +23,9 @@ struct OutlineSettings {
   /// between the interiors, which also determines where vertices are needed. It then takes
   /// first-order steps (eq. 13).
   bool published = false;
-  int vertices = 200;        ///< approximate number along the outline, at least the cage's
+  int vertices = 200;        ///< approximate number; at least as many as the cage has
   double smoothness = 0.01;  ///< alpha_h: weight of mean |h^2 f''|^2
-  double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; 0: f_zbar = 0
+  double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; if 0, f_zbar = 0
   double pin_weight = 0.1;   ///< beta
   /// The weight of the picture's squared rotation in the choice of the start, relative to the mean
   /// square of the logarithmic stretch.
@@ -45,14 +45,14 @@ struct OutlineTask {
 struct OutlineMatch {
   Cage basis;  ///< the source cut into more segments
   VectorXc phi, psi;
-  double rms = 0;          ///< of the distances from the source boundary's image to the outline
+  double rms = 0;          ///< root mean square distance from the boundary's image to the outline
   double hausdorff = 0;    ///< two-sided distance between that image and the outline
   double pins_missed = 0;  ///< the largest distance of a pin's image from its target
   int pins_held = 0;       ///< number of pins held just inside because their targets are outside
-  /// The number of zeros of f_z, by the argument principle, that lie inside the shape by at least a
-  /// thousandth of its size (five thousandths with stiffness). The picture folds around each zero,
-  /// and each zero adds one to the turning number. Where a corner is flattened, the exact f_z is 0
-  /// at the corner itself.
+  /// The number of zeros of f_z, by the argument principle, that are inside the shape and at least
+  /// a thousandth of its size away from its boundary (five thousandths with stiffness). The picture
+  /// folds around each zero, and each zero adds one to the turning number. Where a corner is
+  /// flattened, the exact f_z is 0 at the corner itself.
   int zeros = 0;
   int iterations = 0;
   /// Energies before the first iteration and after each one, in units of L^2.
@@ -74,14 +74,14 @@ class OutlineFit {
   /// vertices as necessary. Cost for 200 vertices: 5 ms per iteration, plus 60 ms for a basis if
   /// there are pins. Fitting the conformal map takes 0.1 to 1 s.
   void solve(const Points& pinned);
-  /// Like `solve`, but less accurate: at most four iterations. They begin at a start near the last
-  /// one if there are pins, else at the last solution.
+  /// Like `solve`, but less accurate: makes at most four iterations. If there are pins, they begin
+  /// at a start near the last one; otherwise, they begin at the last solution.
   void follow(const Points& pinned);
 
   const Cage& basis() const { return now_.given_basis; }
   /// How many bases have been built. Pins that move far require another basis.
   int builds() const { return builds_; }
-  /// The number of iterations of the last call.
+  /// The number of iterations in the last call of `solve` or `follow`.
   int iterations() const {
     return static_cast<int>(before_.iterates.size() + now_.iterates.size()) - 1;
   }
@@ -144,13 +144,13 @@ class OutlineFit {
   std::unique_ptr<ConformalStart> start_;
   std::vector<BoundaryPoint> samples_, middles_;
   std::vector<double> sizes_;
-  std::vector<double> cut_lengths_;  ///< arc lengths of a graded basis' vertices
+  std::vector<double> cut_lengths_;  ///< arc lengths of the vertices of a graded basis
   std::vector<Index> hints_;
   Correspondence built_;  ///< the correspondence for which the basis was built
   int builds_ = 0;
   bool refined_ = false;  ///< whether the basis is graded
   std::optional<AlternatingFit> fit_;
-  /// A basis, and the maps found over it.
+  /// A basis, and the maps found with it.
   struct Stage {
     Cage basis, given_basis;             ///< the cut source, in its own frame and as given
     MatrixXc at_samples;                 ///< C at the samples
@@ -159,7 +159,7 @@ class OutlineFit {
     std::vector<double> energies;
   };
   Stage now_;
-  Stage before_;  ///< the usual fit, if a graded basis has replaced it; else empty
+  Stage before_;  ///< the usual fit if a graded basis has replaced it, else empty
 };
 
 /// Solves a task from scratch.

@@ -30,8 +30,8 @@ OutlineFit::Misses OutlineFit::misses() const {
   return {match.zeros, match.hausdorff / accepted, match.pins_missed / accepted};
 }
 
-// The iterated map is kept if it is better. Keeping the picture upright is optional: if the upright
-// map fails to match, the least stretched map may still match.
+// The iterative solution is kept if it is better. Keeping the picture upright is optional: if the
+// upright map fails to match, the least stretched map may still match.
 void OutlineFit::refine() {
   const Misses before = misses();
   before_ = now_;
@@ -101,8 +101,8 @@ void OutlineFit::set_up_graded_basis(const Correspondence& start) {
 }
 
 // The correspondence gives the targets. Each error is weighted by the inverse size of the image of
-// the surrounding piece. Where images are small, f' is also small, and it has no zeros if its
-// relative error is small.
+// the surrounding piece. Where images are small, f' is also small, so its relative error must be
+// small for it to have no zeros.
 void OutlineFit::follow_start(const Correspondence& start) {
   built_ = start;
   ++builds_;
@@ -152,7 +152,7 @@ void OutlineFit::add_ridge(MatrixXc& left, VectorXc& right) const {
 
 /// The lengths of the images of the pieces of the basis.
 VectorXd OutlineFit::image_sizes() const {
-  constexpr double kLeast = 1e-13;  // fraction of the target's diagonal; smaller sizes are rounding
+  constexpr double kLeast = 1e-13;  // over the target's diagonal; smaller sizes are rounding errors
   VectorXd sizes(now_.basis.size());
   const auto image = [&](Index e) {
     return target_.at(built_(cut_lengths_[static_cast<size_t>(e)]));

@@ -13,8 +13,8 @@ constexpr double kThicknessFraction =
 
 struct CornerSample {
   double length = 0, sharpness = 0;  ///< |pi / interior angle - 1|
-  /// At distances from a convex corner below this fraction of the length, the corner's power law is
-  /// lost to rounding.
+  /// At distances from a convex corner below this fraction of the length, rounding hides the
+  /// corner's power law.
   double least = 0;
 };
 

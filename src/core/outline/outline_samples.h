@@ -31,7 +31,7 @@ class Thickness {
 
 /// Increasing arc lengths from `start`, once around a closed, simple, counter-clockwise polyline.
 /// The spacing is at most the polyline's length divided by `count`, and less than half the local
-/// thickness of the inside and the outside. It decreases geometrically towards the corners, but not
+/// thickness of the inside and the outside. It decreases geometrically toward the corners, but not
 /// below `least` times the length. Corners are always included. Cost: a million operations.
 std::vector<double> graded_lengths(const Polyline& outline, double start, Index count,
                                    double least);

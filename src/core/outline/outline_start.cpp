@@ -188,8 +188,8 @@ double hyperbolic_square(Complex z, Complex w) {
 struct ConformalStart::Search {
   MappedOutline source, target;
   double upright = 0;                 ///< weight of the squared rotation
-  Points given_pins;                  ///< in the plane
-  std::vector<Complex> pins, pinned;  ///< in the disks of source and target
+  Points given_pins;                  ///< positions in the plane
+  std::vector<Complex> pins, pinned;  ///< positions in the disks of source and target
 
   /// Three arc lengths of the source and their images on the target.
   struct Pairs {

@@ -37,12 +37,12 @@ struct Correspondence {
 /// Riemann maps of both interiors and an automorphism of the disk between them.
 class ConformalStart {
  public:
-  /// Both outlines must be closed, simple and counter-clockwise, and must outlive this. The pins
-  /// are inside the source. The cost to be minimized has three terms: the mean square of ln of the
-  /// relative stretch along both outlines, `upright` times the squared angle by which the picture
-  /// is rotated, and 1000 times the squared hyperbolic distances of the pins' images from their
-  /// targets. If `upright` is 0, the orientation of the drawings does not matter. Throws Error when
-  /// an outline touches itself. Cost: about 20 ms.
+  /// Both outlines must be closed, simple and counter-clockwise, and must outlive this object. The
+  /// pins are inside the source. The cost to be minimized has three terms: the mean square of ln of
+  /// the relative stretch along both outlines, `upright` times the squared angle by which the
+  /// picture is rotated, and 1000 times the squared hyperbolic distances of the pins' images from
+  /// their targets. If `upright` is 0, the orientation of the drawings does not matter. Throws
+  /// Error when an outline touches itself. Cost: about 20 ms.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
   ~ConformalStart();
@@ -65,8 +65,8 @@ class ConformalStart {
   bool sharpen();
   /// The last correspondence, recomputed with the current maps to the disk. Cost: 1 ms.
   Correspondence last(const Points& pinned = {});
-  /// The correspondence with the least stretch, ignoring pins and the picture's rotation. Cost: as
-  /// for `best`.
+  /// The correspondence with the least stretch, ignoring pins and the picture's rotation. Cost: the
+  /// same as for `best`.
   Correspondence least_stretched();
   /// Like `best`, but continues from the last correspondence, which must exist. Cost: about 4 ms.
   Correspondence follow(const Points& pinned);

@@ -1,5 +1,5 @@
 // Boundary points become real when their arc is opened. The side of the arc that faces the interior
-// goes to the negative real axis.
+// is mapped to the negative real axis.
 #include "core/outline/riemann.h"
 
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 /// The root in the upper half-plane; for a positive number, the root with the sign of `side`. The
 /// overflow handling of std::sqrt takes twice as long as everything else, so std::sqrt is called
-/// only where this matters.
+/// only where overflow or underflow is possible.
 Complex upper_root(Complex w, double side) {
   const double size = std::sqrt(w.real() * w.real() + w.imag() * w.imag()),
                larger = std::sqrt(0.5 * (size + std::abs(w.real())));

@@ -15,7 +15,7 @@ namespace holomorph {
 
 class RiemannMap {
  public:
-  /// For the interior of a simple polygon in counter-clockwise order with at least three vertices.
+  /// Maps the interior of a simple polygon in counter-clockwise order with at least three vertices.
   /// Each edge is replaced by one arc. The finer the polygon, the closer the result is to the
   /// Riemann map of a smooth curve through the vertices. `center` is the interior point that is
   /// mapped to 0. Throws Error if vertices of the polygon coincide. Cost: vertices^2 / 2 square
@@ -27,8 +27,7 @@ class RiemannMap {
   /// Arguments of the vertices' images on the unit circle, in increasing order. The first is in
   /// (-pi, pi]; the last exceeds the first by less than 2 pi.
   const VectorXd& angles() const { return angles_; }
-  /// The differences between the angles of each vertex and the next vertex, accurate however small
-  /// they are.
+  /// The differences between the angles of consecutive vertices, accurate even if they are tiny.
   const VectorXd& steps() const { return steps_; }
 
  private:
