@@ -2,7 +2,6 @@
 #include "edit/tools/tool.h"
 #include "edit/actions/actions.h"
 
-
 #include "edit/edits/curve_edits.h"
 
 namespace holomorph {

@@ -3,7 +3,6 @@
 #include "scene/formats/scene_json.h"
 
 #include "core/error.h"
-#include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/deformation_json.h"
 #include "scene/formats/pose_json.h"
