@@ -164,12 +164,13 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             time.sleep(0.3)
             self.screenshot(editor, "keys-waiting")
-            editor.key("m")  # belongs to the mesh: a single press does not reassign it
+            editor.key("m")  # the key of the mesh view: a single press does not reassign it
             time.sleep(0.3)
             self.screenshot(editor, "keys-taken")
             editor.key("j")
             time.sleep(0.3)
-            editor.key("Return")  # again, and Escape leaves it: a held key is one press (without Return, letters go to the search)
+            # Waits for a key again. A held key counts as one press, and Escape cancels.
+            editor.key("Return")
             time.sleep(0.3)
             editor.xdotool("keydown", "m")
             time.sleep(1.2)
@@ -225,7 +226,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
 
     def test_a_press_acts_where_the_pointer_was(self):
-        """Even if the pointer has moved on before the program reads the press: by twenty pixels, in one request."""
+        """A press acts where it happened, even if the pointer has moved 20 pixels before the program reads it."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
         with Editor(PROGRAM, [scene]) as editor:

@@ -274,7 +274,7 @@ class WindowTest(WindowCase):
         self.assertLessEqual(report["max_k"], 0.7)
         self.assertGreaterEqual(report["min_sigma"], 0.2)
         self.assertLessEqual(report["max_sigma"], 5)
-        # Without the bounds, the same pins fold it, so the test is not trivial.
+        # Without the bounds, the same pins fold the picture, so the test is not trivial.
         scene = load(path)
         scene["method"] = {"id": "pins"}
         with open(os.path.join(self.work, "free.json"), "w") as file:
@@ -432,7 +432,7 @@ class WindowTest(WindowCase):
             lines = open(textured).read().split("\n")
             uv = numpy.array([[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vt ")])
             self.assertTrue(len(uv) > 1000 and uv.min() > 0 and uv.max() < 1)
-            # Closes and shows the surface; saves and reopens the scene.
+            # Closes the surface, shows it again, and saves the scene.
             action(editor, "surface in space")
             editor.wait(lambda s: not s["on_surface"] and s["width"] == whole["width"], "the whole canvas")
             action(editor, "surface in space")
@@ -490,7 +490,7 @@ class WindowTest(WindowCase):
             editor.key("i")
             editor.wait(lambda s: s["keys"] == 2 and s["shows_time"], "another key")
             bent = self.screenshot(editor, "second-key")
-            # Scrubbing on the ruler, which is two seconds long; it snaps to frames.
+            # Scrubs on the ruler, which is two seconds long and snaps to frames.
             left, top = state["left"] + 18, state["top"] + state["height"] + 60
             width = state["width"] - 36
             editor.xdotool("mousemove", round(left + width / 2), round(top))
@@ -565,7 +565,7 @@ class WindowTest(WindowCase):
             self.assertLess(symmetric[0][0], 45)
             editor.key("ctrl+z")
             editor.key("x")
-            # With soft selection.
+            # With soft selection, nearby points follow.
             editor.key("o")
             editor.key("bracketright")
             editor.key("ctrl+d")
@@ -727,7 +727,7 @@ class WindowTest(WindowCase):
             x, y = load(scene)["cage"]["pose"][0][0]
             editor.click(x, y)
             editor.wait(lambda s: s["selected"] == 1, "a selected point")
-            self.type_into_inspector(editor, 1, "321.5")  # method `cage` has no numbers before x
+            self.type_into_inspector(editor, 1, "321.5")  # with method `cage`, x is the first number field
             editor.wait(lambda s: s["step"] == 1 and s["modified"], "the typed position")
             path = os.path.join(self.work, "typed.json")
             self.save_as(editor, path)

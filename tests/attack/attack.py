@@ -26,7 +26,7 @@ def arguments(text, **options):
 
 
 class Outcome:
-    """How a run of the program ended: its status, or minus the signal; processor seconds, MB, and its error output."""
+    """How a run of the program ended: exit status (or minus the signal), processor seconds, MB and error output."""
 
     def __init__(self, status, seconds, megabytes, said, hung):
         self.status, self.seconds, self.megabytes, self.said, self.hung = status, seconds, megabytes, said, hung

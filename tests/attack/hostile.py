@@ -97,7 +97,7 @@ class Round:
             self.scene(f"{name} of {len(content)} bytes", refused=name not in ("text.png", "profile.png"), image={"file": name})
         flat = zlib.compressobj(9)
         rows = b"".join(flat.compress(bytes(1 + 4 * 12000)) for _ in range(12000)) + flat.flush()
-        for i in range(3):  # each of them may be opened, but not all
+        for i in range(3):  # each can be opened alone, but not all three together
             self.write(f"flat{i}.png", PNG_START + chunk(b"IHDR", struct.pack(">IIBBBBB", 12000, 12000, 8, 6, 0, 0, 0))
                        + chunk(b"IDAT", rows) + chunk(b"IEND", b""))
         self.scene("three pictures of 144 megapixels", version=2, refused=True,
@@ -125,7 +125,7 @@ class Round:
             self.add(f"{name}, without area", "new", "p.png", "--outline", name, "--out", "o.json", "--force", refused=True)
 
     def claims(self):
-        """Scenes that require much work."""
+        """Scenes that require a lot of work."""
         keys = ",".join(f'"k{i}":{i}' for i in range(100000))
         self.write("keys.json", '{"format":"holomorph","version":1,"cage":{"rest":%s},%s}' % (json.dumps(SQUARE), keys))
         self.add("100,000 unknown keys", "info", "keys.json")

@@ -52,7 +52,7 @@ def is_table(name):
 
 with open(path("many.csv"), "w") as points:
     points.write("".join(f"{400 + i % 200},{300 + i // 200}\n" for i in range(40000)))
-# The command that writes, the file to check, and the test that it is complete.
+# The command that writes, the file to check, and the function that tells whether it is complete.
 jobs = [(["new", "fish.png", "--force", "--out", "out.json"], "out.json", is_json),
         (["render", "fish.json", "--out", "out.png"], "out.png", is_png),
         (["export", "fish.json", "--format", "svg", "--out", "out.svg"], "out.svg", is_svg),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random clicks, drags, keys and commands in the window: it keeps running, responds, and does not grow."""
+"""Random clicks, drags, keys and commands: the window keeps running and responding, and its memory does not grow."""
 import os
 import random
 import shutil
@@ -128,7 +128,7 @@ while time.time() - start < 60 * options.minutes and not bad:
             monkey.step()
             if not monkey.settle():
                 bad.append(f"no response for {STUCK} s")
-            if editor.process.poll() == 0:  # it has quit the program
+            if editor.process.poll() == 0:  # the monkey has quit the program
                 quits += 1
                 break
             if editor.process.poll() is not None:

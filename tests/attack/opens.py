@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scenes opened one after another in one window: memory at the end is as it was after the first tenth."""
+"""Opens scenes one after another in one window: memory use at the end is the same as after the first tenth."""
 import os
 import shutil
 import sys

@@ -145,8 +145,8 @@ class CommandLine(Case):
         path = self.write("scene.json", scene)
         report = json.loads(self.good("info", path, "--json").stdout)
         self.assertIn("met to", report["note"])
-        # At a corner of 90 degrees, f behaves like z^2. A triangle of size h at the distance r from it can
-        # flip where h |f''| / |f'| = h / r is 1 or more, so only triangles that touch a corner can.
+        # At a corner of 90 degrees, f behaves like z^2. A triangle of size h at distance r from it can
+        # flip only if h |f''| / |f'| = h / r is at least 1, so only triangles that touch a corner can.
         vertices, triangles = self.obj_of(path)
         rest = dict(scene, method={"id": "cage"})
         del rest["outline"]

@@ -80,7 +80,7 @@ class Files(Case):
                     self.assertEqual(self.bytes_of(far), wanted)
                     for name in (link, near, far):
                         os.remove(name)
-                # Circular links stay, and a full device is reported.
+                # Circular links are not replaced, and a full device is reported.
                 os.symlink(link, near)
                 os.symlink(near, link)
                 self.bad(*words, "--out", link, says="symbolic links", status=1, env=self.paths)
@@ -249,7 +249,7 @@ class Files(Case):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         said = self.good("render", path, "--frames", "7..7", "--out", self.path("a.png")).stderr
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 10)
-        # Other frames can be given the same rectangle, or any other.
+        # Other frames can be rendered in the same rectangle or in any other.
         shared = said.split("(--rect ")[1].split(")")[0]
         again = self.good("render", path, "--frames", "9..9", "--rect", shared, "--out", self.path("a.png")).stderr
         self.assertEqual(again.split(" frames of ")[1].split(":")[0], said.split(" frames of ")[1].split(":")[0])
@@ -258,7 +258,7 @@ class Files(Case):
             self.assertEqual(Image.open(self.path("b.png")).size, (40, 20))
         for wrong in ("1,2,3", "0,0,0,5", "nan,0,1,1", "0,0,1,1x"):
             self.bad("render", path, "--rect", wrong, "--out", self.path("b.png"), says="X,Y,WIDTH,HEIGHT")
-        # All frames are more than the limit against accidents allows.
+        # Rendering all frames exceeds the limit that guards against accidents.
         self.bad("render", path, "--frames", "all", "--out", self.path("a.png"), says="--max-frames")
         self.bad("export", path, "--format", "gif", "--out", self.path("a.gif"), says="--max-frames")
 

@@ -1,6 +1,6 @@
 # An independent check of rendered pictures. The commands map and inverse map marked points of a scene
 # one by one. From their images, numpy computes how large the picture's opaque part is, where the marks
-# are in the picture and what color it has there. No code that draws takes part.
+# are in the picture and what color it has there. No drawing code is involved.
 import csv
 import functools
 import io
@@ -14,7 +14,7 @@ from PIL import Image
 VIRIDIS = ("440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", "addc30", "fde725")
 BLUE_RED = ("2166ac", "4393c3", "92c5de", "d1e5f0", "f7f7f7", "fddbc7", "f4a582", "d6604d", "b2182b")
 CELL, DARK, BRIGHT = 16, (70, 90, 120), (235, 235, 235)  # the checker, in pixels of the source
-MARKS = 3000  # about as many in the box around the cage
+MARKS = 3000  # approximate number in the box around the cage
 
 
 def premultiplied(picture):
@@ -50,7 +50,7 @@ def checker(z):
 
 
 def shifted(grid, reach):
-    """A grid, shifted by up to `reach` rows and columns in all directions."""
+    """Copies of a grid, shifted by up to `reach` rows and columns in all directions."""
     steps = range(-reach, reach + 1)
     return numpy.array([numpy.roll(grid, (down, right), (0, 1)) for down in steps for right in steps])
 
@@ -90,13 +90,13 @@ class Marks:
 
     @functools.cache
     def small(self, scale):
-        """The source, averaged over areas as large as the pixels of a picture of this scale."""
+        """The source, averaged over areas as large as a picture's pixels at this scale."""
         size = [round(length * scale) for length in self.source.size]
         channels = numpy.moveaxis(premultiplied(self.source).astype(numpy.float32), 2, 0)
         return numpy.stack([Image.fromarray(channel).resize(size, Image.BOX) for channel in channels], axis=2)
 
     def colors(self, view, scale, z=None):
-        """What a picture of this view should show at the marks, or an image at rest points z."""
+        """The colors that this view should have at the marks or, for the view `image`, at rest points z."""
         if view == "image":
             z, small, (width, height) = self.z if z is None else z, self.small(scale), self.source.size
             return sampled(small, z.real * small.shape[1] / width, (height - z.imag) * small.shape[0] / height)
@@ -122,11 +122,13 @@ class Marks:
         opaque = wanted[:, 3] / 255 * self.most * self.least * (self.step * scale) ** 2
         areas = numpy.zeros(self.inside.shape)
         areas[self.inside] = opaque / self.count
-        # A cell of the grid that the boundary crosses at random is wrong by 0.29 of its area, root mean
-        # square: a uniform distribution between -1/2 and 1/2. Such a cell differs from a neighbor.
+        # The area of a grid cell that the boundary crosses at random has a root-mean-square error of
+        # 0.29 of the cell: a uniform distribution between -1/2 and 1/2. Such a cell differs from a
+        # neighbor.
         around = numpy.array([numpy.roll(areas, by, (0, 1)) for by in ((0, 0), (0, 1), (1, 0), (1, 1))])
         error = 5 * 0.29 * (numpy.ptp(around, axis=0) ** 2).sum() ** 0.5
-        # Where the picture overlaps itself, it hides between none and all of what is opaque below.
+        # Where the picture overlaps itself, the upper part hides none, some or all of the opaque
+        # part below.
         least, most, found = areas.sum() - error, opaque.sum() + error, pixels[..., 3].sum() / 255
         return [] if least <= found <= most else [f"area: {found:.0f} pixels, not {least:.0f} to {most:.0f}"]
 
@@ -138,7 +140,7 @@ class Marks:
         return [] if best == (0, 0) else [f"place: the marks fit better when moved by {best}"]
 
     def color_complaints(self, pixels, wanted, x, y, view, scale):
-        """The colors at marks that are well inside, shown once and moderately stretched."""
+        """The colors are right at marks that are well inside, shown once and moderately stretched."""
         surrounded = shifted(self.inside, 1).all(axis=0)[self.inside]
         inner = surrounded & (self.count == 1) & (self.least > 0.6) & (self.most < 1.7)
         off = (sampled(pixels, x, y) - wanted)[inner]
@@ -151,7 +153,8 @@ class Marks:
             around = numpy.array([self.colors(view, scale, z) for z in ring])
             tolerance += abs(around - wanted).max(axis=0)[inner]
         wrong = (abs(off) > tolerance).any(axis=1).mean()
-        # Means of the source and of its means agree. Five standard errors, and half a level of rounding.
+        # Averaging does not change the mean color. Allow five standard errors and half a level of
+        # rounding.
         tint, error = off.mean(axis=0), off.std(axis=0) / len(off) ** 0.5
         return (([f"color: {100 * wrong:.1f} % of {len(off)} marks are wrong"] if wrong > 0.1 else [])
                 + ([f"color: tinted by {tint.round(2)}"] if (abs(tint) > 0.5 + 5 * error).any() else []))

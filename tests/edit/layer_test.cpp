@@ -24,7 +24,8 @@ struct TwoLayers : TestWorkspace {
 
 }  // namespace
 
-TEST_CASE("Edits change only the edited layer, and undo goes back through both layers") {
+TEST_CASE(
+    "Edits change only the edited layer, and undo steps back through the edits of both layers") {
   TwoLayers desk;
   desk.drag({0, 0}, {-20, 0});
   CHECK(desk.corner(1) == Complex(-20, 0));
@@ -44,7 +45,7 @@ TEST_CASE("Edits change only the edited layer, and undo goes back through both l
   CHECK(desk.corner(1) == Complex(0, 0));
 }
 
-TEST_CASE("Several changes of the edited layer in a row are one step of the history") {
+TEST_CASE("Consecutive switches of the edited layer are a single undo step") {
   TwoLayers desk;
   const size_t steps = desk.steps();
   for (int i = 0; i < 3; ++i) {
@@ -125,7 +126,7 @@ TEST_CASE(
   CHECK(desk.workspace.actions.named("time.play").enabled(w));
 }
 
-TEST_CASE("Next fold goes to the worst fold, then to the others, and starts again") {
+TEST_CASE("Next fold visits the worst fold first, then the others, and then starts over") {
   // Two corners of the square cross the opposite side, one of them farther than the other.
   TestWorkspace desk({{0, 0}, {100, 0}, {200, 0}, {200, 200}, {100, 200}, {0, 200}});
   Workspace& w = desk.workspace;
@@ -148,7 +149,7 @@ TEST_CASE("Next fold goes to the worst fold, then to the others, and starts agai
   }
 }
 
-TEST_CASE("A box around a picture moves all of it, and the view follows") {
+TEST_CASE("A box around a picture moves the whole picture, and its bounds follow") {
   TestWorkspace desk(Points{});
   ImageReference reference = reference_in("/nowhere/blank.png");
   const Picture blank{std::make_shared<const Image>(100, 80), "", {}};

@@ -43,13 +43,13 @@ TEST_CASE("Timeline: between two keyframes, the blended picture is displayed") {
   CHECK(desk.workspace.shown.timeline.visible);
   go_to(desk, 0.5);
   CHECK(desk.deformation().pose.vertex(0).real() == Approx(20).margin(1e-3));
-  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);  // the scene's own pose stays
+  CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);  // the scene's own pose is unchanged
   CHECK(desk.workspace.map().map().f[0].real() -
             desk.workspace.map().prepared()->mesh->vertices[0].real() ==
         Approx(20).margin(1e-2));
 }
 
-TEST_CASE("Timeline: an edit of the pose leaves the displayed time, and undo returns to it") {
+TEST_CASE("Timeline: editing the pose stops displaying a time, and undo displays it again") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0.5);
@@ -89,7 +89,8 @@ TEST_CASE("Timeline: with auto-key, edits of the pose set keyframes") {
   REQUIRE(desk.deformation().keyframes.size() == 3);
   CHECK(desk.deformation().keyframes[1].time == 0.5);
   CHECK(std::abs(desk.deformation().pose.vertex(2) - Complex(400, 200)) < 1e-3);
-  CHECK(desk.workspace.shown.own().pose.vertex(2) == Complex(340, 100));  // the own pose stays
+  CHECK(desk.workspace.shown.own().pose.vertex(2) ==
+        Complex(340, 100));  // the scene's own pose is unchanged
   act(desk, "edit.undo");
   CHECK(desk.deformation().keyframes.size() == 2);
   // The time is still displayed, so the next edit starts from the pose at this time.
@@ -107,7 +108,7 @@ TEST_CASE("Timeline: Delete removes the keyframe that was clicked, not points") 
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
   CHECK(desk.workspace.shown.own().rest.size() == 4);
   act(desk, "edit.undo");
-  go_to(desk, 0.5);  // at another time, no keyframe is chosen
+  go_to(desk, 0.5);  // at another time, no keyframe is selected
   CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
 }
 
@@ -116,7 +117,8 @@ TEST_CASE("Timeline: an edit whose result is the scene's own pose is not lost") 
     TestWorkspace desk(kBar);
     set_two_keys(desk);
     desk.workspace.shown.timeline.auto_key = auto_key;
-    // The own pose is that of the second keyframe. Copy it there and paste it at the first one.
+    // The scene's own pose equals the second keyframe's. Copy the pose there and paste it at the
+    // first keyframe.
     go_to(desk, 1);
     act(desk, "time.copy");
     go_to(desk, 0);
@@ -132,8 +134,7 @@ TEST_CASE("Timeline: an edit whose result is the scene's own pose is not lost") 
   }
 }
 
-TEST_CASE(
-    "Timeline: while the picture at a time is being prepared, no keyframe gets another pose") {
+TEST_CASE("Timeline: while the picture at a time is being prepared, no keyframe is changed") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   go_to(desk, 0);
@@ -142,7 +143,7 @@ TEST_CASE(
   CHECK_FALSE(desk.workspace.shown.knows_pose());
   act(desk, "time.key");
   CHECK(desk.workspace.shown.own().keyframes.size() == 2);
-  // At the same time the handles stay known when the method changes.
+  // If only the method changes, the handles at the displayed time are still known.
   desk.settle();
   go_to(desk, 1);
   desk.workspace.commit("Method", with_method(desk.deformation(), "mean_value"));
@@ -294,7 +295,7 @@ TEST_CASE("Timeline: the onion skin shows the keyframes before and after") {
   const double rest = desk.workspace.map().prepared()->mesh->vertices[0].real();
   CHECK(skins[0].f[0].real() == Approx(rest).margin(1e-3));
   CHECK(skins[1].f[0].real() == Approx(rest + 40).margin(1e-3));
-  // With the own pose on display, the onion skin shows the current keyframes.
+  // While the scene's own pose is displayed, the onion skin shows the current keyframes.
   Deformation deformation = desk.workspace.shown.own();
   for (Points& segment : deformation.keyframes[1].pose.cage.segments) segment[0] += 7.0;
   desk.workspace.commit("Key", deformation, EditBase::document);
@@ -351,7 +352,7 @@ TEST_CASE("Timeline: a Ctrl-drag records motion in few keyframes") {
   CHECK(deformation.keyframes.size() <= 15);
   CHECK(deformation.keyframes.front().time == 0);
   CHECK(length_of(desk.workspace.document.scene()) == 2);
-  CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // the own pose stays
+  CHECK(deformation.pose.vertex(2) == Complex(300, 100));  // the scene's own pose is unchanged
   CHECK(desk.workspace.shown.timeline.active);
   for (const double time : {0.3, 0.77, 1.31, 1.9}) {
     go_to(desk, time);
@@ -374,11 +375,12 @@ TEST_CASE("Timeline: a straight motion is recorded as it was drawn") {
   CHECK(length_of(desk.workspace.document.scene()) == 2);
 }
 
-TEST_CASE("Timeline: a recording keeps keyframes that do not play, and the whole turns of others") {
+TEST_CASE(
+    "Timeline: a recording keeps keyframes that do not play and other keyframes' whole turns") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();
-  deformation.keyframes[0].pose.pins.push_back({{5, 5}});  // another structure
+  deformation.keyframes[0].pose.pins.push_back({{5, 5}});  // a different structure
   deformation.keyframes.push_back({3, deformation.keyframes[1].pose});
   deformation.keyframes.back().turns = 1;
   desk.workspace.commit("Hollow", deformation, EditBase::document);
@@ -423,7 +425,7 @@ TEST_CASE("Timeline: tangents that do not exist in all keyframes are not recorde
   CHECK(desk.steps() == steps);
   CHECK_FALSE(desk.workspace.shown.timeline.recording);
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
-  // Its vertex is recorded and moves the tangents that exist.
+  // The tangent's vertex is recorded, and it moves the tangents that exist.
   desk.workspace.selection.clear();
   const Complex vertex = desk.deformation().pose.vertex(0);
   desk.press(vertex, kCtrl);
@@ -454,7 +456,7 @@ TEST_CASE("Timeline: a document that is opened during a recording keeps its own 
 TEST_CASE("Timeline: existing motion continues during a recording") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
-  act(desk, "edit.reset");  // the recording starts from the own pose
+  act(desk, "edit.reset");  // the recording starts from the scene's own pose
   CHECK_FALSE(desk.workspace.shown.timeline.active);
   desk.workspace.shown.timeline.time = 0;
   record(desk);

@@ -1,4 +1,5 @@
-// Films: unfinished films leave no file, and existing files stay until a film is finished.
+// Films: an unfinished film leaves no file behind, and existing files are kept until a film is
+// finished.
 #include "film/film.h"
 
 #include <catch2/catch.hpp>
@@ -31,7 +32,7 @@ Image gray() {
 
 }  // namespace
 
-TEST_CASE("A canceled film leaves no file, and existing files stay") {
+TEST_CASE("A canceled film leaves no file and does not touch existing ones") {
   const Image image = gray();
   for (const char* kind : {".webp", ".gif", ".apng", ".png"}) {
     INFO(kind);
@@ -83,7 +84,7 @@ TEST_CASE("A folder with the name of a frame is reported before any frame is rep
       Catch::Contains("50 frames per second"));
 }
 
-TEST_CASE("A film on its own thread reports its progress, and ends when it is canceled") {
+TEST_CASE("A film rendered on its own thread reports its progress and stops when canceled") {
   const Folder folder;
   const Path out = folder.path / "film.apng";
   const Image image = gray();

@@ -1,5 +1,6 @@
-// Runs the function of a fuzz target on files, and on the files in folders, without a fuzzer: for
-// corpora, and under a memory checker. `--mutate N SEED` also runs N mutations of these files.
+// Runs the function of a fuzz target without a fuzzer, on given files and on the files in given
+// folders: to replay corpora, or under a memory checker. `--mutate N SEED` also runs it on N
+// mutations of these files.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,6 @@
-// Runs every method of the installed library on triangles from the mesher and on its own triangles.
-// Each method must give the identity at rest, and follow a translation of all handles.
+// Runs every method of the installed library on triangles from the mesher and on triangles that it
+// builds itself. Each method must give the identity at rest, and follow a translation of all
+// handles.
 #include <holomorph/deformer.h>
 #include <holomorph/flatten.h>
 #include <holomorph/mesher.h>

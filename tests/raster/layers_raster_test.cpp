@@ -120,7 +120,7 @@ TEST_CASE("The background shows through where no layer is") {
   two.scene.background.fill = Background::Fill::original;
   CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // the undeformed picture
   CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
-  // The same in a scene with one layer.
+  // The same holds in a scene with one layer.
   Scene alone = moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0});
   alone.background = {Background::Fill::original};
   const Image both = picture_of(alone, &two.blue).image;

@@ -261,7 +261,7 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
         REQUIRE(on.texture.at(c, r)[1] == 40);
       }
     }
-    // The coordinates are one similarity of the plane, so texture pixels are not stretched.
+    // The coordinates are a similarity transform of the plane, so texture pixels are not stretched.
     const FlattenedSurface laid = flattened_surface_of(deformation);
     const Complex first = on.coordinates[0], last = on.coordinates.back();
     CHECK_THAT((last - first).real() * w,

@@ -28,7 +28,7 @@ bool is_refused(const std::function<void()>& act) {
   }
 }
 
-/// A scene with a part of every kind.
+/// A scene with every kind of part.
 Scene full_scene() {
   Deformation deformation = with_cage({}, shapes::l_shape());
   deformation.pins = {{{20, 20}, {25, 22}, 0.5, {}}, {{40, 20}, {40, 20}, {}, {}, 1, -3}};
@@ -48,12 +48,12 @@ Scene full_scene() {
   return scene_of(std::move(layer));
 }
 
-/// The nearest whole number within a million; 0 for what is not a number.
+/// The nearest whole number within a million; 0 for NaN.
 int whole(double x) {
   return std::isnan(x) ? 0 : static_cast<int>(std::clamp(x, -1e6, 1e6));
 }
 
-/// One change of a scene by a number that may or may not be allowed there.
+/// A change that puts a number into a scene, where it may or may not be allowed.
 using Change = std::function<void(Layer&, double)>;
 
 const std::vector<std::pair<const char*, Change>> kNumbersChanged{
@@ -120,7 +120,7 @@ const std::vector<std::pair<const char*, Change>> kNumbersChanged{
      [](Layer& l, double x) { l.deformation.keyframes[0].pose.corners[1].after = x; }},
     {"name", [](Layer& l, double x) { l.name = x > 0 ? "b\xff" : "b\xc3\xa4r"; }},
     {"file", [](Layer& l, double x) { l.image->file = x > 0 ? "" : "caf\xe9.png"; }}};
-/// Those that take parts away: one of them alone, because others need the parts.
+/// Changes that remove parts. Each is applied alone, because the other changes need these parts.
 const std::vector<std::pair<const char*, Change>> kPartsChanged{
     {"short stroke", [](Layer& l, double) { l.deformation.strokes[0].rest.resize(1); }},
     {"surface alone", [](Layer& l, double) { l.deformation.outline.clear(); }},
@@ -176,7 +176,7 @@ TEST_CASE("A scene is refused exactly when its file could not be read again") {
       compare(changed);
     }
   }
-  CHECK(refused > all / 5);  // both kinds are many
+  CHECK(refused > all / 5);  // many scenes are refused, and many are accepted
   CHECK(refused < 4 * all / 5);
 }
 
@@ -196,7 +196,7 @@ TEST_CASE("A scene that would be larger than the budget is refused, with its siz
 TEST_CASE("Unknown keys that are too large or too deep for a file are refused") {
   Scene scene = full_scene();
   CHECK_NOTHROW(check_scene(scene));
-  // Readers accept 200 levels: this is allowed in a layer, and too deep one level further down.
+  // Readers accept 200 levels, so 300 levels are too deep.
   std::string deep = "0";
   for (int i = 0; i < 300; ++i) deep = "[" + deep + "]";
   change_layer(scene, [&](Layer& layer) { layer.extra = "{\"deep\":" + deep + "}"; });
@@ -222,7 +222,7 @@ TEST_CASE("The frame rate, choices and the number of the edited layer are checke
   }
 }
 
-TEST_CASE("What is wrong with one layer of several is said with its number") {
+TEST_CASE("An error in one of several layers gives the layer's number") {
   Scene scene = full_scene();
   scene.layers.insert(scene.layers.begin(), scene_of(with_cage({}, shapes::l_shape())).layers[0]);
   scene.edited = 1;

@@ -81,7 +81,7 @@ TEST_CASE("Errors in a keyframe name the JSON pointer") {
   CHECK_THAT(complaint(R"([{"pose": {}}])"), Catch::Contains("time"));
 }
 
-TEST_CASE("Corners must be sorted, without duplicates, and at least three") {
+TEST_CASE("Corners must be sorted and distinct, and there must be at least three") {
   const auto with_corners = [](const std::string& corners) {
     std::string text = json_of(scene_of(bar()));
     text.insert(text.rfind('}'), ", \"corners\": " + corners);
@@ -180,7 +180,9 @@ TEST_CASE("Maps at a time pass through the keyframes, and so do the handles") {
   CHECK((map.map().f[0] - map.prepared()->mesh->vertices[0]).real() == Approx(40).margin(1e-3));
 }
 
-TEST_CASE("Holds do not move, linear keys have constant speed, and other structures do not play") {
+TEST_CASE(
+    "Holds do not move, linear keys have constant speed, and keys of another structure do not "
+    "play") {
   Deformation deformation = keyed();
   deformation.keyframes[0].ease = Ease::hold;
   deformation.keyframes[1].ease = Ease::linear;

@@ -173,7 +173,7 @@ TEST_CASE("Errors in a layer name its position in the file") {
 }
 
 TEST_CASE(
-    "The film is as long as the keys of the longest layer, and plays if one of the layers does") {
+    "The film lasts as long as the keyframes of the longest layer, and plays if any layer does") {
   Scene scene = layer("bottom", 100);
   change(scene, [](Deformation& deformation) {
     deformation = with_key(with_key(std::move(deformation), 0), 3);

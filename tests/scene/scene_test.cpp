@@ -283,7 +283,7 @@ TEST_CASE("The autosave exists exactly while there are unsaved changes") {
   CHECK(kept() == 0);
 }
 
-TEST_CASE("History: undo and redo step through the scenes, and a commit discards what was undone") {
+TEST_CASE("History: undo and redo step through the scenes, and a commit discards undone steps") {
   Scene scene;
   History history(scene);
   for (int i = 1; i <= 3; ++i) {
@@ -329,7 +329,7 @@ TEST_CASE(
   CHECK_FALSE(map.has_map());
 }
 
-TEST_CASE("Mesh and map belong together for any order of requests") {
+TEST_CASE("Mesh and map match, whatever the order of requests") {
   LiveMap map({400});
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   for (int i = 0; i < 60; ++i) {
@@ -399,7 +399,7 @@ TEST_CASE("Files that are not pictures are rejected") {
   CHECK(decode_image(png, "x") == Image(20, 20));
 }
 
-TEST_CASE("A scene reaches its own folder, the allowed folders, and nothing else") {
+TEST_CASE("A scene can read its own folder, the allowed folders, and nothing else") {
   const Folder folder;
   const Path home = folder.path / "scenes", away = folder.path / "away";
   fs::create_directories(home / "deep");
@@ -445,7 +445,7 @@ TEST_CASE("A scene reaches its own folder, the allowed folders, and nothing else
   write_file(away / "deep" / "c.png", png);
   names("../away/deep/c.png");
   CHECK_FALSE(Document::open(home / "s.json", {false, {away}}).image());
-  // The target of a link counts, even in allowed folders and if the target does not exist.
+  // A link is judged by its target, even in allowed folders and even if the target does not exist.
   fs::create_symlink(folder.path / "elsewhere.png", away / "link.png");
   fs::create_symlink(folder.path / "nowhere.png", home / "dangling.png");
   write_file(folder.path / "elsewhere.png", png);
@@ -510,7 +510,7 @@ TEST_CASE("A change of the scene file by another program is detected") {
   CHECK_FALSE(third.changed_on_disk());
 }
 
-TEST_CASE("The next write removes what a killed one has left, and nothing that is in use") {
+TEST_CASE("The next write removes what a killed one left behind, and nothing that is in use") {
   const Folder folder;
   const auto leftovers = [&] {
     const std::vector<std::string> names = folder.names();
@@ -526,11 +526,11 @@ TEST_CASE("The next write removes what a killed one has left, and nothing that i
     }
     ::waitpid(child, nullptr, 0);
   }
-  CHECK(leftovers() == 2);  // of the last one; each write has removed what the one before had left
+  CHECK(leftovers() == 2);  // from the last one; each write removed the leftovers of the one before
   fs::create_symlink(folder.path / "precious", folder.path / ".holomorph-00000000");
-  write_file(folder.path / "precious", "x");  // removes what was left
+  write_file(folder.path / "precious", "x");  // removes the leftovers
   CHECK(leftovers() == 1);                    // a planted link is neither followed nor removed
-  // Folders that have a similar name or other content stay.
+  // Folders with similar names or with other content are kept.
   fs::create_directories(folder.path / ".holomorph-settings");
   fs::create_directories(folder.path / ".holomorph-0badcafe" / "mine");
   fs::permissions(folder.path / ".holomorph-0badcafe", fs::perms::owner_all);
@@ -540,7 +540,7 @@ TEST_CASE("The next write removes what a killed one has left, and nothing that i
     const NewFolder full(folder.path / "c.png");
     busy.write("b");
     const pid_t child = ::fork();
-    if (child == 0) {  // another program, which has not cleaned this folder yet
+    if (child == 0) {  // another program, which has not cleaned up this folder yet
       ::setenv("HOLOMORPH_TEST_FOLDER", folder.path.c_str(), 1);
       ::execl("/proc/self/exe", "test_scene", "[cleaner]", nullptr);
       ::_exit(1);
@@ -617,8 +617,8 @@ TEST_CASE("JSON is read in linear time and little memory, and unknown keys are k
     for (int i = 0; i < count; ++i) text += ",\"k" + std::to_string(i) + "\":0";
     return text + "}";
   };
-  // In linear time, ten times as many keys take about ten times as long; in quadratic time, 100
-  // times.
+  // In linear time, ten times as many keys take about ten times as long. In quadratic time, they
+  // take 100 times as long.
   const double few = seconds(with_keys(10000)), many = seconds(with_keys(100000));
   CHECK(many < 40 * std::max(few, 0.01));
   const Scene odd = scene_from_json(

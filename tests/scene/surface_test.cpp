@@ -221,7 +221,7 @@ TEST_CASE("A scene's surface is found wherever the scene is saved, and errors sa
     CHECK(flattened_surface_of(again).plane.size() == sample("mask.obj").vertices.size());
   }
   CHECK(portable(scene_of(deformation), {}).deformation().surface ==
-        deformation.surface);  // as an autosave has it
+        deformation.surface);  // as in an autosave
   Deformation other = deformation;
   other.surface->flattening = Flattening::lscm;
   CHECK_THROWS_WITH(flattened_surface_of(other),

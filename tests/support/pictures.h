@@ -112,7 +112,7 @@ inline std::string jpeg_file(const Image& image, const JpegOptions& options) {
   jpeg_set_defaults(&jpeg);
   jpeg.write_Adobe_marker = options.kind == JpegKind::adobe_inks;
   jpeg_set_quality(&jpeg, 95, TRUE);
-  for (int c = 0; c < jpeg.num_components; ++c)  // colors in full resolution
+  for (int c = 0; c < jpeg.num_components; ++c)  // colors at full resolution
     jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
   if (options.progressive) jpeg_simple_progression(&jpeg);
   std::vector<jpeg_scan_info> scans;

@@ -16,7 +16,7 @@ inline Points l_shape() {
   return {{0, 0}, {200, 0}, {200, 100}, {100, 100}, {100, 200}, {0, 200}};
 }
 
-/// A star-shaped polygon around (200, 200) with `n` vertices and radii in 100 (1 +- ripple).
+/// A star-shaped polygon around (200, 200) with `n` vertices and radii within 100 (1 +- ripple).
 inline Points star(int n, double ripple, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> radius(1 - ripple, 1 + ripple);
@@ -28,7 +28,7 @@ inline Points star(int n, double ripple, unsigned seed) {
 }
 
 /// A star whose edges are curves of the given degree. Their control points are off the chord by up
-/// to `bulge` of its length.
+/// to `bulge` times its length.
 inline Cage curved_star(int n, int degree, double bulge, unsigned seed) {
   const Points polygon = star(n, 0.15, seed);
   std::mt19937 random(seed + 1);

@@ -1,4 +1,5 @@
-// Loops on all cores: each number once, progress on the calling thread, errors thrown there.
+// Parallel loops: each index is visited once, progress is reported on the calling thread, and
+// exceptions reach the caller.
 #include "system/parallel.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +11,7 @@
 
 using namespace holomorph;
 
-TEST_CASE("A parallel loop visits each number once, with any number of threads") {
+TEST_CASE("A parallel loop visits each index once, with any number of threads") {
   for (const int threads : {0, 1, 2, 7})
     for (const int count : {0, 1, 5, 1000}) {
       INFO(threads << " threads, " << count << " numbers");
@@ -21,7 +22,7 @@ TEST_CASE("A parallel loop visits each number once, with any number of threads")
     }
 }
 
-TEST_CASE("A parallel loop reports its progress on the calling thread, never backwards") {
+TEST_CASE("A parallel loop reports its progress on the calling thread, and it never decreases") {
   const auto caller = std::this_thread::get_id();
   int last = 0;
   bool elsewhere = false, backwards = false;
@@ -36,7 +37,8 @@ TEST_CASE("A parallel loop reports its progress on the calling thread, never bac
   CHECK_FALSE(backwards);
 }
 
-TEST_CASE("What a parallel loop's body or progress throws ends it and reaches the caller") {
+TEST_CASE(
+    "An exception from a parallel loop's body or progress report ends it and reaches the caller") {
   std::atomic<int> visits = 0;
   const auto body = [&](int i) {
     ++visits;

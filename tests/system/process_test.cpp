@@ -9,7 +9,8 @@ using namespace holomorph;
 
 TEST_CASE("A program gets all of its input, and its output comes back complete") {
   std::string input;
-  for (int i = 0; i < 300000; ++i) input += static_cast<char>(i * 7);  // more than a socket holds
+  for (int i = 0; i < 300000; ++i)
+    input += static_cast<char>(i * 7);  // more than a socket can buffer
   const auto finished = run_program({"cat"}, input);
   REQUIRE(finished);
   CHECK(finished->status == 0);
@@ -34,7 +35,7 @@ TEST_CASE("A program that is missing, does not end or writes too much gives no r
       {"cat", "/dev/zero"}, "", [] { return true; }, 1 << 20));
 }
 
-TEST_CASE("A helper that a program leaves behind is not waited for") {
+TEST_CASE("The caller does not wait for a helper that a program leaves behind") {
   const double start = now_ms();
   const auto finished = run_program({"sh", "-c", "echo here; sleep 60 & exit 0"});
   REQUIRE(finished);

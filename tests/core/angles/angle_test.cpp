@@ -71,7 +71,7 @@ double size_of(const VectorXc& f) {
   return box_of(Points(f.begin(), f.end())).diagonal();
 }
 
-/// The boundary angles that take a polygon's edges to those of another polygon.
+/// The boundary angles that rotate a polygon's edges to the directions of another polygon's edges.
 VectorXd angles_between(const Points& from, const Points& to) {
   const size_t n = from.size();
   const auto way = [n](const Points& p, size_t i) { return p[(i + 1) % n] - p[i % n]; };
@@ -108,7 +108,7 @@ TEST_CASE("Hilbert coordinates: real parts are linear between corners and jump a
   }
 }
 
-TEST_CASE("Hilbert coordinates: real parts are also met on curved boundaries") {
+TEST_CASE("Hilbert coordinates: real parts also match on curved boundaries") {
   Cage cage = polygon_cage(shapes::l_shape());
   for (Points& segment : cage.segments) segment.resize(3);
   cage = elevated_to(polygon_cage(shapes::l_shape()), cage);

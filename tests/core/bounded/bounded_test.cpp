@@ -16,8 +16,8 @@ using known_maps::KnownMap;
 using known_maps::Projection;
 
 TEST_CASE("Bounded: the energies of the specification's maps") {
-  // The specification measures nu on the boundary. Its sampling differs, and so does the last
-  // percent.
+  // The specification measures nu on the boundary at other samples, so the energies agree only to
+  // one percent.
   struct Row {
     KnownMap known;
     double l2, l2_digit, l1, l1_digit;  ///< energies, each with half a unit of its last digit
@@ -55,7 +55,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Bounded: a map that keeps the bounds is its own projection") {
+TEST_CASE("Bounded: a map within the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
   for (const double shear : {0.0, 0.3}) {
     const KnownMap known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
@@ -120,7 +120,7 @@ TEST_CASE(
   CHECK_FALSE(certifier.certify(map, {0.99, 1 - between, 20}).holds);
   CHECK_FALSE(certifier.certify(map, {0.99, 0.01, 1 + between}).holds);
   CHECK(certifier.certify(map, {peak + 0.01, 0.99 - peak, 1.01 + peak}).holds);
-  // The same with the map scaled and rotated.
+  // The same holds with the map scaled and rotated.
   for (const Complex factor : {Complex(2), std::polar(0.5, 1.1)}) {
     const double s = std::abs(factor);
     const LogMap turned = scaled(map, factor);
@@ -130,8 +130,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Bounded: a certificate of Psi' accounts for |f_z| lying below its chord") {
-  // l grows so steeply along the square that e^l is far below its chord between two samples. Psi'
-  // is nearly as large as it may be at both.
+  // l grows so steeply along the square that e^l is far below its chord between two samples. At
+  // both samples, Psi' is nearly as large as allowed.
   const auto basis = std::make_shared<const BoundaryBasis>(
       polygon_cage(Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}}), 25, 50);
   const Certifier certifier(*basis);
@@ -204,7 +204,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Boundary argument: it is continuous and closes, with listed zeros and without") {
+TEST_CASE("Boundary argument: it is continuous and closes, with and without listed zeros") {
   const Mesh mesh = domain_mesh(known_maps::circle(40), {600});
   const Points samples = known_maps::circle(200);
   const auto two = [](Complex z) { return (z - 0.3) * (z - 0.3) * (z + Complex(0.2, 0.5)); };
@@ -231,7 +231,7 @@ TEST_CASE("Boundary argument: it is continuous and closes, with listed zeros and
   CHECK_THROWS_AS(boundary_argument(samples, VectorXc::Zero(200), {}), Error);
 }
 
-TEST_CASE("Boundary argument: around a zero, a part of the domain turns the shorter way") {
+TEST_CASE("Boundary argument: past a zero, the far part of the domain turns the shorter way") {
   // From the bar's left to its right, the argument grows by 100 degrees below the zero and falls by
   // 260 degrees above it. The zero is nearer to the lower side.
   const double bend = 80 * kPi / 180;

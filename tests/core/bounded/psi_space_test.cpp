@@ -13,7 +13,7 @@ using known_maps::Projection;
 
 namespace {
 
-/// The two steps for a reference, without pins.
+/// Both projection steps for a reference, without pins.
 BoundedMap two_steps(const PsiSpace& space, const BoundedReference& reference) {
   return space.nearest(space.conformal(reference), reference, {});
 }
@@ -48,7 +48,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("L_psi and H: a map that keeps the bounds is its own projection") {
+TEST_CASE("L_psi and H: a map within the bounds is its own projection") {
   const Complex slope = std::polar(1.3, 0.7);
   const KnownMap known{"affine", shapes::l_shape(), [=](Complex) { return slope; },
                        [=](Complex) { return 0.3 * std::conj(slope); }};
@@ -59,7 +59,7 @@ TEST_CASE("L_psi and H: a map that keeps the bounds is its own projection") {
         two_steps(space, convex ? space.convexified(projection.reference) : projection.reference);
     const MatrixXc c = projection.basis->values(projection.mesh.vertices);
     const auto [phi, psi] = derivatives_of(map.map, c * map.map.l, c * map.map.w);
-    // To the accuracy with which the programs are solved.
+    // The derivatives agree to the accuracy with which the programs are solved.
     CHECK((phi.array() - slope).abs().maxCoeff() <= 5e-3);
     CHECK((psi.array() - 0.3 * slope).abs().maxCoeff() <= 5e-3);
   }
@@ -98,7 +98,9 @@ TEST_CASE("H: its convex distance is at most that of every map within the bounds
   CHECK(nearer);
 }
 
-TEST_CASE("L_psi: pins reach their targets where the bounds allow it, closer with more weight") {
+TEST_CASE(
+    "L_psi: pins reach their targets where the bounds allow it, and more closely with more "
+    "weight") {
   // f = z + conj(0.3 z + 0.1 z^2) takes the pins to their targets. The reference is z.
   const KnownMap identity{"z", shapes::l_shape(), [](Complex) { return Complex(1); },
                           [](Complex) { return Complex(0); }};

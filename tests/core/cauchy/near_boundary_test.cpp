@@ -1,4 +1,4 @@
-// Compares maps with 50-digit values on the boundary, and within rounding of it and of its
+// Compares maps with 50-digit values on the boundary, and within rounding error of it and of its
 // vertices.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,8 +39,8 @@ Case random_case(std::mt19937& random) {
     vertices.push_back(offset + made.size * uniform(0.4, 1.0) * std::polar(1.0, angle));
     moves.push_back(anywhere());
   }
-  // Some edges have further vertices on them, as the finer boundaries of methods do, up to
-  // rounding. Their displacements are linear along the edge or arbitrary.
+  // Some edges have extra vertices on them, up to rounding, like the finer boundaries that methods
+  // use. The displacements of these vertices are linear along the edge or arbitrary.
   for (size_t i = 0; i < vertices.size(); ++i) {
     const size_t next = (i + 1) % vertices.size();
     made.polygon.push_back(vertices[i]);
@@ -64,8 +64,8 @@ Complex after(Complex z, int x, int y) {
   return {after(z.real(), x), after(z.imag(), y)};
 }
 
-/// Doubles around vertices and midpoints of edges, and at decreasing distances from vertices along
-/// edges and inwards.
+/// Doubles around vertices and midpoints of edges, and points at decreasing distances from
+/// vertices, along edges and inward.
 Points near_points(const Points& polygon, std::mt19937& random) {
   std::uniform_int_distribution<int> ulps(-4, 4);
   Points points;
@@ -98,7 +98,7 @@ Points near_points(const Points& polygon, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("Maps next to the boundary agree with 50-digit values, by every path") {
+TEST_CASE("Maps next to the boundary agree with 50-digit values, by every code path") {
   for (const unsigned seed : seeds_of("near boundary", {1, 2, 3})) {
     std::mt19937 random(seed);
     for (int round = 0; round < 4; ++round) {
@@ -126,7 +126,7 @@ TEST_CASE("Maps next to the boundary agree with 50-digit values, by every path")
         double change = 0, slope_change = 0;
         const double largest = std::max(std::abs(z.real()), std::abs(z.imag())),
                      ulp = after(largest, 1) - largest;
-        // Within rounding of a vertex the derivative is not bounded.
+        // Within rounding error of a vertex, the derivative is unbounded.
         const bool at_vertex = std::ranges::any_of(
             made.polygon, [&](Complex v) { return std::abs(z - v) <= 32 * ulp; });
         if (off > 1e-9 * made.size || slope_off > 1e-9) {
@@ -142,8 +142,8 @@ TEST_CASE("Maps next to the boundary agree with 50-digit values, by every path")
         }
         INFO("seed " << seed << " round " << round << " size " << made.size << " point " << i
                      << " z " << z.real() << " " << z.imag());
-        // An image is z plus a displacement: where the map compresses, the distance of z itself
-        // from the boundary remains.
+        // An image is z plus a displacement. If z lies just outside, its distance from the boundary
+        // therefore remains, even where the map compresses.
         CHECK(off <= 1e-9 * made.size + std::max(change, 16 * ulp));
         CHECK(is_finite(slopes[row]));
         if (!at_vertex) CHECK(slope_off <= 1e-9 + slope_change);
@@ -278,7 +278,8 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point makes th
         const Points corners = vertices_of(made.rest.cage);
         std::uniform_int_distribution<int> ulps(-3, 3);
         std::uniform_real_distribution<double> part(0.02, 0.98);
-        // Points that rounding can hardly distinguish. The first of them is well inside.
+        // Points so close together that rounding hardly distinguishes them. The first of them is
+        // well inside.
         std::vector<size_t> firsts;
         const auto cluster = [&](Complex z, Complex inwards) {
           firsts.push_back(made.rest.samples.size());
@@ -305,8 +306,8 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point makes th
         for (size_t k = 0; k + 1 < firsts.size(); ++k) {
           const bool corner = k % 5 == 0;
           const Index first = static_cast<Index>(firsts[k]);
-          // The points are a few roundings apart, and so are their images. At corners, maps and
-          // their derivatives may be powers of the distance.
+          // The points are a few rounding errors apart, and so are their images. At corners, maps
+          // and their derivatives may be powers of the distance.
           constexpr double kUlps = 64;
           const double rounding = kUlps * std::numeric_limits<double>::epsilon() *
                                   std::abs(made.rest.samples[static_cast<size_t>(first)]);

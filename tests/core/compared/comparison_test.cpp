@@ -153,7 +153,7 @@ TEST_CASE(
     CHECK(worst_outside(t->apply(map.x), bounds) <= 1e-3);
     CHECK(distance(map.x, wild_g) < distance(t->similarity(1), wild_g));
   }
-  // Conformal maps of a mesh are similarities, which leave a barrier no interior.
+  // Conformal maps of a mesh are similarities, so there is no interior for a barrier method.
   const Projected conformal = by_local_frames(*t, wild_g, {{0, 0.5, 2}});
   CHECK(worst_outside(t->apply(conformal.x), {0.001, 0.5, 2}) <= 1e-9);
 }
@@ -172,7 +172,7 @@ TEST_CASE("Comparison: all methods unfold a folded picture, and each row measure
     CHECK(row.max_k <= 0.7 + 0.05);
     CHECK(row.max_tau <= 5 + 0.05);
   }
-  // Our map and those by local frames have no branch points either.
+  // Our map and the maps by local frames have no branch points.
   for (const size_t i : {1, 2, 3}) CHECK(std::abs(rows[i].turning_number - 1) <= 1e-9);
   CHECK(rows[1].settled);
   CHECK(rows[1].max_k <= 0.7);

@@ -47,8 +47,8 @@ TEST_CASE("Inserting a vertex keeps the loop, and erasing it restores the segmen
   const Points curve = before.controls(1);
   CHECK(std::abs(bezier_point(cage.controls(1), 0.5) - bezier_point(curve, 0.15)) < 1e-12);
   CHECK(std::abs(bezier_point(cage.controls(2), 0.5) - bezier_point(curve, 0.65)) < 1e-12);
-  // The split rounds coordinates below 128 to 2^-47 = 7e-15 a few times, and the lengths whose
-  // ratio this is are 6 or more.
+  // The split rounds coordinates below 128 to 2^-47 = 7e-15 a few times. The parameter is a ratio
+  // of lengths that are 6 or more.
   CHECK_THAT(joint_parameter(cage, 2), Catch::WithinAbs(0.3, 1e-14));
   erase_vertex(cage, 2, joint_parameter(cage, 2));
   REQUIRE(cage.size() == 4);
@@ -61,13 +61,13 @@ TEST_CASE("Inserting a vertex keeps the loop, and erasing it restores the segmen
   CHECK(straight == polygon_cage(shapes::rectangle(100, 60)));
 }
 
-TEST_CASE("A reversed cage is the same loop from the same vertex") {
+TEST_CASE("A reversed cage is the same loop, starting at the same vertex") {
   Cage cage = polygon_cage(shapes::l_shape());
   cage.segments[2].push_back({150, 130});
   const Cage back = reversed(cage);
   CHECK(back.vertex(0) == cage.vertex(0));
   CHECK(reversed(back) == cage);
-  CHECK(signed_area(vertices_of(back)) == -signed_area(vertices_of(cage)));  // of integers
+  CHECK(signed_area(vertices_of(back)) == -signed_area(vertices_of(cage)));  // exact for integers
 }
 
 TEST_CASE("A self-crossing is found with its position, and a simple polygon has none") {

@@ -86,7 +86,7 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
       f[i] = a * z + b * std::conj(z) + Complex(3, -2);
     }
     const Injectivity found = injectivity_of(mesh, f);
-    // Positions below 128 are rounded to 2^-47 = 7e-15, and the triangles are a tenth or more high.
+    // Positions below 128 are rounded to 2^-47 = 7e-15, and the triangles are at least 0.1 high.
     CHECK_THAT(found.least_stretch, Catch::WithinAbs(std::abs(a) - std::abs(b), 1e-12));
     CHECK(found.folds() == (std::abs(a) < std::abs(b)));
     CHECK_THAT(found.turning_number, Catch::WithinAbs(found.folds() ? -1 : 1, kTurnRounding));

@@ -103,7 +103,7 @@ TEST_CASE("Inverse: no preimage outside, and all preimages where the picture ove
   for (int i = 40; i >= 0; --i) bar.push_back({20.0 * i, 40});
   for (const Complex& z : bar)
     bent.push_back(std::polar(150 + z.imag(), z.real() / 800 * 400 / 180 * kPi));
-  std::reverse(bent.begin(), bent.end());  // orientation: radius grows outwards
+  std::reverse(bent.begin(), bent.end());  // orientation: radius grows outward
   std::reverse(bar.begin(), bar.end());
   for (Complex& z : bent) z = std::conj(z);
   const Warp warp(polygon_cage(bar), polygon_cage(bent), 3000);
@@ -172,7 +172,7 @@ std::optional<int> wound(const Warp& warp, Complex w) {
   for (Index e = 0; e < warp.rest.size(); ++e) {
     Complex last = warp.map->at(warp.rest.vertex(e)).f;
     for (int k = 1; k <= kSteps; ++k) {
-      // Denser towards the vertices, where the derivative is unbounded.
+      // Denser toward the vertices, where the derivative is unbounded.
       const double x = static_cast<double>(k) / kSteps, t = x * x * x * (10 - 15 * x + 6 * x * x);
       const Complex next =
           warp.map->at(k == kSteps ? warp.rest.vertex(e + 1) : position_of(warp.rest, {e, t})).f;
@@ -187,7 +187,7 @@ std::optional<int> wound(const Warp& warp, Complex w) {
 }  // namespace
 
 TEST_CASE("Inverse: a sheet that lies within a triangle at the boundary is found") {
-  // The bottom edge runs backwards.
+  // The bottom edge runs backward.
   const Warp warp(polygon_cage(Points{{0, 0}, {100, 0}, {100, 100}, {0, 100}}),
                   polygon_cage(Points{{0, 0}, {150, 60}, {-50, 60}, {0, 100}}), 8000);
   const Complex z(48, 0.01);

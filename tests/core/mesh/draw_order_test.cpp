@@ -1,4 +1,4 @@
-// The triangles that are nearest to the highest point, through the mesh, are drawn last.
+// The triangles nearest to the highest point, as measured through the mesh, are drawn last.
 #include "core/mesh/draw_order.h"
 #include "core/mesh/mesher.h"
 
@@ -15,7 +15,7 @@ Complex middle(const Mesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
 }
 
-/// The position of each triangle in the order.
+/// The position of each triangle in the draw order.
 std::map<Triangle, size_t> positions_of(const std::vector<Triangle>& order) {
   std::map<Triangle, size_t> positions;
   for (size_t i = 0; i < order.size(); ++i) positions[order[i]] = i;
@@ -24,7 +24,7 @@ std::map<Triangle, size_t> positions_of(const std::vector<Triangle>& order) {
 
 }  // namespace
 
-TEST_CASE("The draw order has each triangle once, and keeps the mesh's order among equals") {
+TEST_CASE("The draw order contains each triangle once and keeps the mesh's order among equals") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
   CHECK(draw_order(mesh, {}) == mesh.triangles);
   const std::vector<Depth> level{{{50, 50}, 3}, {{250, 50}, 3}}, away{{{900, 900}, 7}};

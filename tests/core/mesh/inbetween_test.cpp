@@ -53,7 +53,7 @@ double largest_nu(const Inbetween& between, const VectorXc& f) {
 
 }  // namespace
 
-TEST_CASE("In-betweens: a bar bent by 270 degrees keeps its area and length in between") {
+TEST_CASE("In-betweens of a bar bent by 270 degrees keep its area and length") {
   const auto mesh = bar_mesh();
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 1.5 * kPi);
@@ -65,17 +65,17 @@ TEST_CASE("In-betweens: a bar bent by 270 degrees keeps its area and length in b
     between.blend({a, b}, u, f);
     const VectorXc exact = rolled(*mesh, 1.5 * kPi * u), linear = (1 - u) * flat + u * bent;
     INFO("at " << u);
-    // The bent bar is 10.6 % larger. In between, the area goes from one value to the other.
+    // The bent bar is 10.6 % larger. In between, the area grows geometrically.
     const double wanted = std::pow(area(*mesh, bent), u) * std::pow(area(*mesh, flat), 1 - u);
     CHECK(std::abs(area(*mesh, f) / wanted - 1) <= 0.025);
     CHECK(std::abs(area(*mesh, f) / area(*mesh, exact) - 1) <= 0.002);
     CHECK(std::abs(length(*mesh, f) / length(*mesh, exact) - 1) <= 0.01);
-    // The result is the bar bent by part of the angle, up to its position.
+    // Except for its position, the result is the bar bent by part of the angle.
     const VectorXc off = (f.array() - f.mean()) - (exact.array() - exact.mean());
     CHECK(off.cwiseAbs().maxCoeff() <= 0.01 * 600);
     least_linear = std::min(least_linear, area(*mesh, linear) / area(*mesh, flat));
   }
-  CHECK(least_linear < 0.45);  // blending the vertices loses more than half
+  CHECK(least_linear < 0.45);  // blending the vertices loses more than half of the area
 }
 
 TEST_CASE("In-betweens: ends are exact, and a fixed point stays fixed") {
@@ -95,10 +95,10 @@ TEST_CASE("In-betweens: ends are exact, and a fixed point stays fixed") {
   for (Index i = 0; i < f.size(); ++i)
     REQUIRE(std::abs(f[i] - (pivot + std::polar(1.0, 1.0) * (flat[i] - pivot))) <= 6);
   const VectorXd sizes = between.shape_of(f).logarithm.real();
-  CHECK(sizes.cwiseAbs().maxCoeff() <= 1e-9);  // a rotation between rotations
+  CHECK(sizes.cwiseAbs().maxCoeff() <= 1e-9);  // the in-between of two rotations is a rotation
 }
 
-TEST_CASE("In-betweens: whole turns go as expected") {
+TEST_CASE("In-betweens: the expected turn decides the number of whole turns") {
   const auto mesh = bar_mesh(600);
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 5 * kPi);
@@ -110,7 +110,8 @@ TEST_CASE("In-betweens: whole turns go as expected") {
   };
   CHECK(std::abs(turn_at_start({Complex(2, 50), 0})) < 0.3);
   CHECK(turn_at_start({Complex(2, 50), 2 * kPi}) == Approx(2 * kPi).margin(0.3));
-  CHECK(turn_at_start({{}, 2.5 * kPi}) == Approx(0).margin(0.3));  // the average
+  CHECK(turn_at_start({{}, 2.5 * kPi}) ==
+        Approx(0).margin(0.3));  // without a point, the average turn is expected
   VectorXc f;
   const Inbetween::Shape b = between.shape_of(bent, &a, {{}, 2.5 * kPi});
   between.blend({a, b}, 0.5, f);
@@ -148,7 +149,8 @@ TEST_CASE("In-betweens: bounded distortion stays bounded") {
   }
 }
 
-TEST_CASE("In-betweens: smooth motion passes keys without stopping, and rests at its ends") {
+TEST_CASE(
+    "In-betweens: smooth motion passes through keys without stopping, and is at rest at its ends") {
   const auto mesh = bar_mesh(300);
   const Inbetween between(mesh);
   const Inbetween::Shape a = between.shape_of(rolled(*mesh, 0)),

@@ -19,7 +19,7 @@ double triangle_area(const Mesh& mesh, const Triangle& t) {
 }
 
 /// The properties of every domain mesh: positive triangles whose areas sum to the polygon's, one
-/// closed boundary with the polygon's length, every cage vertex among the vertices, Euler's
+/// closed boundary with the polygon's length, every cage vertex among the vertices, and Euler's
 /// formula.
 void check_partition(const Points& polygon, const MeshOptions& options) {
   const Mesh mesh = domain_mesh(polygon, options);

@@ -275,7 +275,7 @@ TEST_CASE("Angles: bad corners and poses are refused") {
   CHECK(run(at_corner, {rest.cage, {{{620, 90}, 0.3, 1}}, {}, {{}, {}, {}, {}}}).f.allFinite());
 }
 
-TEST_CASE("Angles: the map is continuous, also along curves that bend inwards") {
+TEST_CASE("Angles: the map is continuous, also along curves that bend inward") {
   for (const unsigned seed : seeds_of("angles in curves", {505, 1, 7})) {
     std::mt19937 random(seed);
     std::normal_distribution<double> by(0, 15);

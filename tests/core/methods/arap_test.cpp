@@ -104,7 +104,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("As rigid as possible: without pins, the vertices of curved and clockwise cages hold") {
+TEST_CASE(
+    "As rigid as possible: without pins, maps follow the vertices of curved and clockwise cages") {
   for (const Cage& cage : {polygon_cage(shapes::l_shape()), shapes::curved_star(7, 3, 0.2, 2),
                            reversed(polygon_cage(shapes::l_shape()))})
     for (const char* id : {"arap", "har_arap"}) {

@@ -319,7 +319,7 @@ TEST_CASE("Bounded method: degenerate input gives an error or a map") {
     try {
       const SampledMap map = setting.map();
       CHECK(map.f.allFinite());
-      // A map that the mesh is too coarse for must not have the status certified.
+      // A map for which the mesh is too coarse must not have the status certified.
       CHECK((setting.flipped_triangle_count(map) == 0) ==
             (map.status == SampledMap::Status::certified));
     } catch (const Error& error) {

@@ -127,8 +127,8 @@ TEST_CASE("Curved rest: raising the degree of rest and pose does not change the 
   CHECK((low - high).cwiseAbs().maxCoeff() <= 1e-13 * 300);
 }
 
-TEST_CASE("Curved rest: a straight segment with an uneven parameter gives the same map") {
-  // The line from 0 to 200 with a parameter of uneven speed, at rest and posed.
+TEST_CASE("Curved rest: a straight segment with an uneven parametrization gives the same map") {
+  // The line from 0 to 200, parametrized with uneven speed, at rest and posed.
   Cage uneven = polygon_cage(shapes::l_shape()), even = uneven;
   uneven.segments[0] = {{0, 0}, {30, 0}, {150, 0}};
   const Points points{{40, 40}, {10, 190}, {199, 1}, {120, 3}};

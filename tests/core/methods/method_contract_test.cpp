@@ -51,7 +51,8 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
       for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
-        // Other methods compute in double anyway, and raised edges give them the same polygon.
+        // Other methods always compute in double precision, and raised edges give them the same
+        // polygon.
         if (precision == Precision::single && shape != Shape::straight && !is_linear(method))
           continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
@@ -91,7 +92,7 @@ TEST_CASE("Contract: a similarity of the pose gives that similarity") {
   for_every_method([](const Method& method, const Setup& s, double tolerance) {
     Complex a{0.4, 1.1};
     const Complex b{30, -12};
-    if (!method.similar) a /= std::abs(a);  // at least a rotation
+    if (!method.similar) a /= std::abs(a);  // then only a rotation
     const SampledMap map = run(method, s.rest, mapped(s.rest, a, b));
     const VectorXc exact = (a * samples_of(s.rest)).array() + b;
     CHECK((map.f - exact).cwiseAbs().maxCoeff() <= tolerance);
@@ -410,7 +411,7 @@ TEST_CASE("Pins: a single pin moves everything, and ignored pins are named") {
   Pose pose = mapped(s.rest, 1, 0);
   pose.pins[0].position += Complex(7, 9);
   SampledMap map = run(pins, s.rest, pose);
-  // A translation, with the accuracy of the derivative below.
+  // The map is a translation, to the same accuracy as the derivative below.
   CHECK_THAT((map.f - samples_of(s.rest)).cwiseAbs().minCoeff(),
              Catch::WithinAbs(std::abs(Complex(7, 9)), 1e-9));
   CHECK((map.fz.array() - Complex(1)).abs().maxCoeff() < 1e-9);

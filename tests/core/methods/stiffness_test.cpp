@@ -1,4 +1,4 @@
-// Painted stiffness: how dabs add up, and that stiff parts keep their shape better.
+// Painted stiffness: dabs add up, and stiff parts keep their shape better.
 #include "core/geometry/stiffness.h"
 
 #include <catch2/catch.hpp>

@@ -153,7 +153,7 @@ TEST_CASE("Strokes: each weight has the intended effect") {
   CHECK(area_rms(soft) < area_rms(usual));
 }
 
-TEST_CASE("Strokes: pins hold together with strokes, also pins with frames") {
+TEST_CASE("Strokes: pins are met together with strokes, including pins with frames") {
   Rest rest = rest_of(bar(), {Points{{250, 40}, {370, 40}}}, {{"pin_weight", 100}});
   rest.pins = {{{40, 40}, true}};
   Pose pose = pose_of(rest, {Points{{250, 40}, {340, 110}}});

@@ -3,11 +3,11 @@
 //   outline_pairs random SEED COUNT: random smooth shapes onto random outlines, some with limbs
 //   outline_pairs stars SEED COUNT: random star-shaped polygons with 4 to 13 corners
 //   outline_pairs hard FOLDER [NAME]: all pairs of hard shapes, with animals from the folder
-//   outline_pairs check FOLDER: some of each kind with fresh seeds, as a test
+//   outline_pairs check FOLDER: a few pairs of each kind with fresh seeds, as a test
 //
 // The exit status is 1 when more than one pair in a hundred misses by 1 % of the diameter or folds.
-// Pairs are exempt when some hundredth of a boundary has a harmonic measure below 1e-12 from the
-// deepest point.
+// A pair is exempt if some hundredth of a boundary has a harmonic measure below 1e-12 as seen from
+// the deepest point.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -147,7 +147,7 @@ Judged judge(const OutlineMatch& match, const Points& source, const Points& targ
   return result;
 }
 
-/// The smallest harmonic measure of a hundredth of the boundary, from the deepest point.
+/// The smallest harmonic measure of a hundredth of the boundary, as seen from the deepest point.
 double least_measure(const Points& polygon) {
   const Polyline line(polygon, true);
   constexpr int kCount = 3000, kWindow = kCount / 100;

@@ -1,4 +1,4 @@
-// Maps of outlines onto outlines: the parts of the method, and the whole.
+// Maps of outlines onto outlines: the parts of the method, and the whole method.
 #include <Eigen/QR>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -186,7 +186,7 @@ TEST_CASE("Polyline: it is resampled at equal lengths and in short steps") {
   CHECK(one_sided_distance(square, open) == std::hypot(1, 4));  // from (4, 4) to (3, 0)
 }
 
-TEST_CASE("Correspondence: an outline goes to a moved copy of itself") {
+TEST_CASE("Correspondence: an outline is mapped to a moved copy of itself") {
   for (const unsigned seed : {1u, 2u, 7u}) {
     const Points outline = outlines::random(seed, seed % 2, 300);
     const Complex factor = std::polar(1.5, 2.2), shift(100, 20);
@@ -196,7 +196,7 @@ TEST_CASE("Correspondence: an outline goes to a moved copy of itself") {
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
             0.01 * target.diagonal());
-    // One turn goes to one turn. The argument is rounded to 2^-53 of a length, which the
+    // One turn corresponds to one turn. The argument is rounded to 2^-53 of a length, which the
     // correspondence stretches by less than a thousand.
     CHECK_THAT(pairs(5 + source.length()),
                Catch::WithinAbs(pairs(5) + target.length(), 1e-12 * target.length()));
@@ -211,15 +211,15 @@ TEST_CASE("Correspondence: a square is not rotated when it is mapped to a circle
     std::rotate(round.begin(), round.begin() + 77, round.end());
     const Polyline target(round, true);
     const Correspondence pairs = ConformalStart(square, target, 1).best();
-    // The middle of the right side goes to the right.
+    // The middle of the right side stays on the right.
     const Complex to = target.at(pairs(600));
     CHECK(std::abs(std::arg(to)) <= 0.2);
   }
 }
 
 TEST_CASE(
-    "Alternating fit: fixed targets give the least squares solution, moving ones decreasing "
-    "energies") {
+    "Alternating fit: fixed targets give the least squares solution, and moving targets give "
+    "decreasing energies") {
   const Cage cage = polygon_cage(outlines::random(4, false, 40));
   std::vector<BoundaryPoint> boundary_points;
   for (Index e = 0; e < cage.size(); ++e)
@@ -274,7 +274,7 @@ TEST_CASE("Outline: random shapes are mapped onto random outlines without folds"
     const Cage cage = polygon_cage(outlines::random(seed, seed % 2, 50));
     const Points outline = outlines::random(seed + 100, seed % 3 == 0, 400);
     INFO("seed " << seed);
-    // Dense samples of the boundary itself: the mesh's boundary is coarse where limbs are
+    // Sample the boundary itself densely, because the mesh's boundary is coarse where limbs are
     // stretched.
     const OutlineMatch match = matched({cage, outline, {}, {}}, {});
     CHECK(match.zeros == 0);
@@ -326,7 +326,7 @@ TEST_CASE(
                 inner, moved(inner, factor, shift), 1, 0) <= kRounding);
   CHECK(differs(matched({polygon_cage(moved(shape, 4, 0)), moved(outline, 4, 0), {}, {}}, settings),
                 inner, moved(inner, 4, 0), 4, 0) <= 1e-12);
-  // Both moved together, with the default settings.
+  // Both shapes are moved together, with the default settings.
   const Points pin{{10, 20}}, pinned{{40, -30}};
   for (const bool with_pin : {false, true}) {
     const auto both = [&](Complex turn, Complex move) {
@@ -382,7 +382,7 @@ TEST_CASE("Outline: the map of a shape onto a circle is its Riemann map") {
         1e-2);
 }
 
-TEST_CASE("Outline: soft maps give up angles to get closer, and their derivatives are correct") {
+TEST_CASE("Outline: soft maps trade angles for a closer fit, and their derivatives are correct") {
   const Cage cage = polygon_cage(Points{{-200, -100}, {200, -100}, {200, 100}, {-200, 100}});
   const Points outline = circle(0, 200, 200);
   const Onto hard(cage, outline), soft(cage, outline, {{"softness", 1}});
@@ -440,7 +440,8 @@ TEST_CASE("Outline: pins guide the map, and cages may be curved or clockwise") {
 }
 
 TEST_CASE("Outline: a pin selects one of the conformal maps, and nothing folds") {
-  // Onto a disk there is one map for each target and rotation, however near to the boundary.
+  // For each target and rotation there is one map onto a disk, however near the target is to the
+  // boundary.
   const Points outline = circle({20, 10}, 150, 80);
   const Complex pin(30, 0);
   OutlineFit fit(polygon_cage(circle(0, 100, 60)), outline, {pin}, {});
@@ -600,8 +601,8 @@ TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees o
     // Alternating minimization never raises the energy.
     const std::vector<double>& energies = onto.map.energies;
     for (size_t i = 1; i < energies.size(); ++i) CHECK(energies[i] <= energies[i - 1] + kRounding);
-    // The last energy is that of the map itself. With a softness of 0, the conformal map is
-    // followed in the end, and only its distances from the outline count.
+    // The last energy is the energy of the map itself. With a softness of 0, the last step follows
+    // the conformal map, and only its distances from the outline count.
     OutlineSettings settings;
     settings.stiffness = stiffness_of(softness);
     const Energy energy = energy_of(matched({curved, around, {}, {}}, settings), curved, around);

@@ -169,7 +169,7 @@ double ipopt_energy(const Instance& instance) {
   solver->Options()->SetIntegerValue("max_iter", 400);
   REQUIRE(solver->Initialize() == Ipopt::Solve_Succeeded);
   const auto status = solver->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(program)));
-  // It sometimes stops at the tips of the cones, where derivatives jump.
+  // Ipopt sometimes stops at the tips of the cones, where derivatives jump.
   if (status != Ipopt::Solve_Succeeded) return std::numeric_limits<double>::quiet_NaN();
   return energy_of(instance.system, instance.target, program->solution);
 }

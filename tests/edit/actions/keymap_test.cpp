@@ -1,4 +1,4 @@
-// Keys: names of keys can be parsed again, and only the user's changes are stored.
+// Keys: key names can be parsed back, and only the user's changes are stored.
 #include "edit/actions/keymap.h"
 
 #include <catch2/catch.hpp>
@@ -55,7 +55,9 @@ TEST_CASE("A key that is assigned to an action is removed from all others") {
   CHECK_FALSE(actions.has_own_keys(actions.named("edit.undo")));
 }
 
-TEST_CASE("Keys survive a file; unknown actions and keys are skipped and reported") {
+TEST_CASE(
+    "Key assignments survive writing and reading; unknown actions and keys are skipped and "
+    "reported") {
   ActionTable actions;
   actions.set_keys("tool.pen", {'J'});
   const KeyNames keys = actions.all_keys();
@@ -87,7 +89,7 @@ TEST_CASE("The list of keys contains every key") {
   for (const Gesture& gesture : gestures()) CHECK(list.find(gesture.what) != std::string::npos);
 }
 
-TEST_CASE("Only the topmost part of the window gets the keys") {
+TEST_CASE("Only the topmost part of the window receives key presses") {
   const std::vector<std::pair<bool WindowFocus::*, KeyFocus>> from_top{
       {&WindowFocus::assigns_key, KeyFocus::assignment},
       {&WindowFocus::edits_field, KeyFocus::field},
@@ -113,7 +115,7 @@ TEST_CASE("Only the topmost part of the window gets the keys") {
   }
 }
 
-TEST_CASE("A panel keeps the keys that move through it or type into it") {
+TEST_CASE("A panel keeps the keys that navigate it or type into it") {
   const ActionTable actions;
   const Action &undo = actions.named("edit.undo"), &next = actions.named("view.next_panel");
   for (const Shortcut key : {Shortcut('Z'), Shortcut(Key::left), Shortcut(Key::enter),
@@ -126,7 +128,7 @@ TEST_CASE("A panel keeps the keys that move through it or type into it") {
     CHECK(acts_from_panel(key, undo));
 }
 
-TEST_CASE("Actions that run during a gesture change only the view") {
+TEST_CASE("Only view actions run during a gesture") {
   const ActionTable actions;
   int count = 0;
   for (const Action& action : actions.rows()) {

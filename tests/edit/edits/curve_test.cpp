@@ -38,14 +38,14 @@ TEST_CASE("Smooth points have tangents on one line; corners do not") {
   CHECK_FALSE(is_smooth(corner, 1, EditMode::pose));
   CHECK(is_smooth(corner, 0, EditMode::pose));
   const Selection two{{Handle::Kind::cage, 0, 0}, {Handle::Kind::cage, 1, 0}};
-  corner = toggled_corners(corner, two, EditMode::pose);  // one is a corner: makes both smooth
+  corner = toggled_corners(corner, two, EditMode::pose);  // one is a corner, so both become smooth
   CHECK(is_smooth(corner, 1, EditMode::pose));
   corner = toggled_corners(corner, two, EditMode::pose);
   CHECK_FALSE(is_smooth(corner, 0, EditMode::pose));
 }
 
 TEST_CASE(
-    "Moving a tangent rotates the opposite one and keeps its length, unless Alt breaks them") {
+    "Moving a tangent rotates the opposite one and keeps its length, unless Alt breaks the pair") {
   const Deformation deformation = smooth_square();
   const auto [before, after] = tangents_of(deformation, 1, EditMode::pose);
   const Complex z = deformation.pose.vertex(1);
@@ -92,7 +92,7 @@ TEST_CASE("Dragging a tangent is one step; Ctrl-click and C toggle smooth points
   CHECK(desk.steps() == steps + 1);
   CHECK(is_smooth(desk.deformation(), 1, EditMode::pose));
   const Complex there = position_of(desk.deformation(), tangent, EditMode::pose);
-  desk.drag(there, there + Complex(-80, 30), {false, false, true});  // Alt breaks
+  desk.drag(there, there + Complex(-80, 30), {false, false, true});  // Alt breaks the pair
   CHECK_FALSE(is_smooth(desk.deformation(), 1, EditMode::pose));
   desk.click({200, 0});
   CHECK(desk.workspace.selection.size() == 1);
@@ -150,7 +150,7 @@ TEST_CASE("Pins can be applied to the posed cage, which gives the same map") {
   CHECK((desk.workspace.map().map().f - before).cwiseAbs().maxCoeff() < 1e-2);  // single precision
 }
 
-TEST_CASE("Curves of the rest shape are edited like posed ones, and the pose stays") {
+TEST_CASE("Curves of the rest shape are edited like posed ones, and the pose does not change") {
   TestWorkspace desk(shapes::rectangle(200, 200));
   run("cage.rest", desk.workspace);
   desk.click({200, 0}, {true, false, false});
@@ -159,7 +159,7 @@ TEST_CASE("Curves of the rest shape are edited like posed ones, and the pose sta
   const Handle tangent = *tangents_of(desk.deformation(), 1, EditMode::rest).after;
   const Complex from = position_of(desk.deformation(), tangent, EditMode::rest);
   const size_t steps = desk.steps();
-  desk.drag(from, {-900, 100});  // through the other side
+  desk.drag(from, {-900, 100});  // past the opposite side
   CHECK(desk.steps() == steps);  // refused
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
 }

@@ -42,7 +42,7 @@ TEST_CASE(
   CHECK(desk.deformation().pose.vertex(1) == Complex(100, 0));
 }
 
-TEST_CASE("Symmetry: the other side makes the mirrored move, and points on the axis stay on it") {
+TEST_CASE("Symmetry: the other side mirrors the move, and points on the axis stay on it") {
   TestWorkspace desk({{0, 0}, {200, 0}, {200, 200}, {100, 240}, {0, 200}});
   Deformation deformation = desk.deformation();
   deformation.method = "pins";
@@ -70,7 +70,7 @@ TEST_CASE("Symmetry: the other side makes the mirrored move, and points on the a
   CHECK(displacement_of.at(other) == Complex(-displacement_of.at(pin).real(), 0));
 }
 
-TEST_CASE("Symmetry: where the rest shape is not symmetric, a drag moves one side") {
+TEST_CASE("Symmetry: if the rest shape is not symmetric, a drag moves only one side") {
   TestWorkspace desk({{0, 0}, {200, 0}, {230, 170}, {0, 200}});
   run("edit.symmetry", desk.workspace);
   desk.drag({230, 170}, {260, 200});
@@ -97,7 +97,7 @@ TEST_CASE("Snap: drags stop where they line up with columns and rows") {
   run("edit.snap", desk.workspace);
   desk.drag({100, 60}, {197, 205});
   CHECK(desk.deformation().pose.vertex(1) == Complex(197, 205));
-  // The picture's edges and middle.
+  // Snapping to the picture's edges and middle.
   std::vector<Guide> guides;
   const Complex by = snapped(desk.deformation(), {vertex(0)}, vertex(0), {497, 303}, EditMode::pose,
                              {6, Box{0, 0, 1000, 600}}, guides);
@@ -114,7 +114,7 @@ TEST_CASE("The box scales about the opposite side, and corner grips scale unifor
   const auto plane = [&](int grip) {
     return desk.workspace.display.viewport.plane_at_px(mark->grip(grip));
   };
-  // The right side, to twice the width.
+  // Drag the right side to twice the width.
   const Complex right = plane(3);
   desk.drag(right, right + Complex(200, 0));
   CHECK(desk.deformation().pose.vertex(0) == desk.deformation().rest.vertex(0));
@@ -124,7 +124,8 @@ TEST_CASE("The box scales about the opposite side, and corner grips scale unifor
   CHECK_THAT(desk.deformation().pose.vertex(2).imag(), Catch::WithinAbs(200, kRounding));
   run("edit.undo", desk.workspace);
   CHECK(desk.deformation().pose == desk.deformation().rest);
-  // A corner scales uniformly about the opposite one; freely with Shift; about the center with Alt.
+  // A corner scales uniformly about the opposite corner, freely with Shift, and about the center
+  // with Alt.
   const Complex corner = plane(4), half(100, 100);
   desk.drag(corner, corner - half);
   CHECK_THAT(desk.deformation().pose.vertex(2).real() - desk.deformation().pose.vertex(0).real(),
@@ -156,7 +157,7 @@ TEST_CASE("A drag inside the box moves the selection, and a click there clears i
   desk.drag({60, 70}, {90, 80}, kShift);
   CHECK(desk.deformation().pose.vertex(0) - desk.deformation().rest.vertex(0) == Complex(30, 0));
   run("edit.undo", desk.workspace);
-  desk.draw({{60, 70}, {90, 80}}, kShift);  // with Shift held from the start, it selects
+  desk.draw({{60, 70}, {90, 80}}, kShift);  // if Shift is held from the start, the drag selects
   CHECK(desk.deformation().pose == desk.deformation().rest);
   CHECK(desk.workspace.selection == all);
   const size_t steps = desk.workspace.document.history().index();

@@ -1,5 +1,5 @@
-// The tool Angles (key A): selecting, turning and opening corners, tensions of edges, and corners
-// after edits of the structure.
+// The Angles tool (key A): selecting, turning and opening corners, edge tensions, and corners after
+// points are inserted or deleted.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -43,7 +43,7 @@ TEST_CASE("Tool A: the ring turns its corner by more than a full turn") {
   CHECK_THAT(corner_at(desk.deformation(), 1).before, Catch::WithinAbs(14 * kPi / 6, kRounding));
   CHECK_THAT(corner_at(desk.deformation(), 1).after, Catch::WithinAbs(14 * kPi / 6, kRounding));
   CHECK(corner_at(desk.deformation(), 2) == PoseCorner{});
-  CHECK(desk.steps() == 3);  // cage, and one turn
+  CHECK(desk.steps() == 3);  // the cage and one turn
 }
 
 TEST_CASE("Tool A: a drag of an arm opens all selected corners on both sides") {
@@ -57,7 +57,7 @@ TEST_CASE("Tool A: a drag of an arm opens all selected corners on both sides") {
   REQUIRE(overlay.corner->vertex == 1);
   const auto plane = [&](Complex px) { return desk.workspace.display.viewport.plane_at_px(px); };
   const Complex arm = plane(overlay.corner->after), center(300, 0);
-  // Along the edge that starts there.
+  // The arm points along the edge that starts at the corner.
   CHECK_THAT(std::arg(arm - center), Catch::WithinAbs(kPi / 2, kRounding));
   desk.press(arm);
   desk.move(center + std::polar(46.0, kPi / 2 - 0.1));
@@ -84,7 +84,7 @@ TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
             .isZero(0));  // without turns, the map is still the identity
 }
 
-TEST_CASE("Tool A: clicks make points corners or plain points, but three corners stay") {
+TEST_CASE("Tool A: clicks make points corners or plain points, but at least three corners remain") {
   TestWorkspace desk(kBar);
   choose_angle_tool(desk);
   desk.click({300, 0}, {false, false, true});
@@ -98,13 +98,14 @@ TEST_CASE("Tool A: clicks make points corners or plain points, but three corners
   CHECK(is_corner(desk.deformation(), 1));
 }
 
-TEST_CASE("Corners: an added corner gets the turn of its edge, so that nothing moves") {
+TEST_CASE("Corners: an added corner gets the turn of its edge, and nothing moves") {
   Deformation deformation = with_method(with_cage(Deformation{}, kBar), "angles");
   deformation = without_corner(deformation, 1);
   deformation = corner_turned(deformation, 0, 0.3);
   deformation = corner_turned(deformation, 2, 0.9);
   const Deformation more = with_corner(deformation, 1);
-  // After 300 of 400. Four operations on angles below 1, each rounded to 2^-54 = 6e-17.
+  // At 300 of the 400 px between its neighbors. Four operations on angles below 1, each rounded to
+  // 2^-54 = 6e-17.
   CHECK_THAT(corner_at(more, 1).before, Catch::WithinAbs(0.3 + 0.75 * 0.6, 1e-15));
   const auto posed = [](const Deformation& s) {
     Rest rest = rest_of(s, Precision::full);
@@ -116,7 +117,7 @@ TEST_CASE("Corners: an added corner gets the turn of its edge, so that nothing m
   CHECK((posed(deformation) - posed(more)).cwiseAbs().maxCoeff() <= 0.3);
 }
 
-TEST_CASE("Corners: numbers of corners are updated after inserting and deleting points") {
+TEST_CASE("Corners: corner indices are updated when points are inserted or deleted") {
   Deformation deformation = with_all_corners(with_method(with_cage(Deformation{}, kBar), "angles"));
   deformation = corner_turned(deformation, 2, 0.5);
   deformation = inserted(deformation, 0, 0.5);

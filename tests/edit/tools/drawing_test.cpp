@@ -339,7 +339,7 @@ TEST_CASE(
   CHECK(std::ranges::count(outline, Complex(150, 280)) == 0);
   CHECK(desk.workspace.playback.playing);
 
-  // Closed with Enter. A path that crosses itself is refused and stays, so that it can be
+  // Closed with Enter. A path that crosses itself is refused but not discarded, and can be
   // corrected.
   for (const Complex z : {Complex(60, 50), {280, 180}, {280, 50}, {60, 180}}) desk.click(z);
   CHECK(desk.tool().key(Key::enter, desk.workspace));

@@ -60,7 +60,8 @@ TEST_CASE("Orbit: the initial view shows all of a surface from its front") {
 }
 
 TEST_CASE(
-    "Orbit: a drag rotates the front with the pointer, and panning keeps it under the pointer") {
+    "Orbit: a drag turns the front with the pointer, and panning keeps the target under the "
+    "pointer") {
   OrbitCamera camera = OrbitCamera::around(slope(), 1);
   camera.yaw = 0.4;
   camera.pitch = 0.3;
@@ -72,7 +73,7 @@ TEST_CASE(
   turned.turn_px({10, 0}, height);
   CHECK(shown(turned, 1, nearest).x() > before.x());
   turned = camera;
-  turned.turn_px({0, 10}, height);  // window px have y down
+  turned.turn_px({0, 10}, height);  // y points down in window pixels
   CHECK(shown(turned, 1, nearest).y() < before.y());
   turned.turn_px({0, 1e5}, height);
   CHECK(turned.pitch < kPi / 2);

@@ -17,11 +17,12 @@ constexpr Modifiers kAlt{false, false, true}, kShift{false, true, false};
 }  // namespace
 
 TEST_CASE(
-    "Viewport: window and plane conversions are inverse, and zoom keeps the point at the pointer") {
+    "Viewport: window and plane conversions are inverses, and zooming keeps the point under the "
+    "pointer") {
   Viewport view{{30, 40}, 2.5, 10, 20, 800, 600};
   const Complex z{12, 99}, px{333, 222};
   CHECK(std::abs(view.plane_at_px(view.px_at_plane(z)) - z) < 1e-12);
-  CHECK(view.px_at_plane(z + kI).imag() < view.px_at_plane(z).imag());  // y is up in the plane
+  CHECK(view.px_at_plane(z + kI).imag() < view.px_at_plane(z).imag());  // y points up in the plane
   const Complex under = view.plane_at_px(px);
   view.zoom_at(px, 3);
   CHECK(std::abs(view.plane_at_px(px) - under) < 1e-12);
@@ -29,7 +30,8 @@ TEST_CASE(
   for (const Complex& v : shapes::l_shape()) CHECK(view.contains_px(view.px_at_plane(v)));
 }
 
-TEST_CASE("Select: a drag is one step, follows exactly, and Shift keeps it on one axis") {
+TEST_CASE(
+    "Select: a drag is one step and follows the pointer exactly; Shift keeps it on one axis") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   CHECK(desk.deformation().pose.vertex(2) == Complex(230, 90));
@@ -103,7 +105,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Pen: points can be taken back; the first point, Enter and a double-click close the cage") {
+    "Pen: Backspace removes points; the first point, Enter and a double-click close the cage") {
   for (const int closing : {0, 1, 2}) {
     TestWorkspace desk;
     desk.workspace.tools.active = ToolId::pen;
@@ -131,7 +133,7 @@ TEST_CASE("Each method keeps its own parameters") {
   CHECK(with_method(with_method(soft, "bounded"), "outline").parameters == soft.parameters);
 }
 
-TEST_CASE("Pen: Escape cancels only the drawing; a self-crossing drawing stays for correction") {
+TEST_CASE("Pen: Escape cancels only the drawing; a self-crossing drawing is kept for correction") {
   TestWorkspace desk(shapes::l_shape());
   desk.drag({200, 100}, {230, 90});
   const Deformation before = desk.deformation();
@@ -259,7 +261,7 @@ TEST_CASE("Drawing another cage over a bent picture switches to the rest shape")
   CHECK(desk.workspace.mode == EditMode::rest);
 }
 
-TEST_CASE("Consecutive nudges of a selection merge into one step, and not into other steps") {
+TEST_CASE("Consecutive nudges of a selection merge into one step, but not with other steps") {
   TestWorkspace desk(shapes::l_shape());
   Workspace& w = desk.workspace;
   desk.click({0, 0});
@@ -323,7 +325,7 @@ TEST_CASE("Nudging, resetting and switching methods change the scene as expected
   CHECK(with_method(deformation, "cage").parameters.empty());
 }
 
-TEST_CASE("Tools that show no ring leave the wheel to zooming, with a pin selected") {
+TEST_CASE("With a pin selected, the wheel still zooms in tools that show no ring") {
   TestWorkspace desk(shapes::rectangle(200, 200));
   Workspace& w = desk.workspace;
   w.commit("Pin", with_pin(desk.deformation(), {100, 100}, {100, 100}));

@@ -5,7 +5,7 @@
 #include <webp/mux.h>
 
 #include <cstdio>  // before jpeglib.h
-// These stay together, in this order.
+// These headers must stay in this order.
 #include <jpeglib.h>
 #include <lcms2.h>
 #include <png.h>
@@ -47,7 +47,7 @@ Image marked(int width, int height) {
 Image stored_with_orientation(const Image& image, int exif_orientation) {
   const bool turned = exif_orientation >= 5;
   Image stored(turned ? image.height : image.width, turned ? image.width : image.height);
-  // Exif: the sides of the upright picture where row 0 and column 0 of the stored picture lie.
+  // Exif states which sides of the upright picture become row 0 and column 0 of the stored picture.
   for (int r = 0; r < stored.height; ++r)
     for (int c = 0; c < stored.width; ++c) {
       const int row = turned ? c : r, column = turned ? r : c;
@@ -63,7 +63,7 @@ Image stored_with_orientation(const Image& image, int exif_orientation) {
   return stored;
 }
 
-/// Exif data with only an orientation, in alternating byte orders 'II' and 'MM'.
+/// Exif data with only an orientation. Odd orientations use byte order 'II', even ones 'MM'.
 std::string exif_of(int exif_orientation) {
   const char w = static_cast<char>(exif_orientation);
   const char little[] = {'I', 'I', 42, 0, 8, 0, 0, 0, 1, 0, 0x12, 1, 3,
@@ -82,8 +82,8 @@ int largest_difference(const Image& a, const Image& b) {
   return most;
 }
 
-/// A profile of linear light with the primaries of Adobe RGB. The function after it converts its
-/// colors to sRGB by the definition of both instead of with a library.
+/// A linear-light profile with the primaries of Adobe RGB. The next function converts its colors to
+/// sRGB directly from the two definitions, without a library.
 std::string linear_adobe() {
   cmsCIExyY white{0.3127, 0.3290, 1};
   cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 1}};
@@ -242,7 +242,7 @@ TEST_CASE("A picture that is cut off anywhere gives an error that says so") {
       }
     }
   }
-  // A table of rows that have no data.
+  // A row table without any row data.
   std::string rows = psd_file(Image(64, 48), true);
   rows.resize(26 + 12 + 2 + 2 * 4 * 48);
   std::fill(rows.begin() + 26 + 12 + 2, rows.end(), '\0');

@@ -8,7 +8,7 @@
 
 using namespace holomorph;
 
-TEST_CASE("SVG paths: all commands, absolute and relative, mean the same loop") {
+TEST_CASE("SVG paths: all commands, absolute and relative, give the same loop") {
   const auto loop = [](const std::string& d) {
     return cage_of_svg("<svg height='100'><g><path d='" + d + "'/></g></svg>", "p.svg", 0);
   };
@@ -109,7 +109,7 @@ TEST_CASE(
     "Curves of high degree are written as cubics, with as many pieces at rest as in the pose") {
   Deformation deformation = with_cage(Deformation{}, polygon_cage(shapes::l_shape()));
   deformation.pose.segments[0] = {{0, 0}, {0, -60}, {50, -90}, {130, -60}};
-  // Equal to its cubic at a quarter, a half and three quarters, and far from it between.
+  // Equal to its cubic at a quarter, a half and three quarters, and far from it in between.
   Points bent;
   for (int m = 0; m < 7; ++m) bent.push_back({200.0, 100.0 * m / 7});
   const double off[] = {0, 0, -89.285714, 232.142857, -232.142857, 89.285714, 0};
@@ -121,7 +121,7 @@ TEST_CASE(
   REQUIRE(rest.size() == pose.size());
   CHECK(vertices_of(rest).front() == vertices_of(deformation.rest).front());
   const Points fine = outline_of(pose, 256);
-  constexpr double kChord = 1e-3;  // of the fine outline
+  constexpr double kChord = 1e-3;  // how far the chords of the fine outline are off
   const double allowed = 1e-4 * box_of(controls_of(deformation.pose)).diagonal() + kChord;
   for (const Complex& z : outline_of(deformation.pose, 500))
     CHECK(nearest_on_polygon(fine, z).distance < allowed);
