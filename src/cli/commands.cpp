@@ -105,9 +105,8 @@ void run(const BenchCommand& command) {
         if (shows_progress) std::cerr << line;
       });
   if (results.empty())
-    throw Error(ErrorKind::bad_input, "--filter: no benchmark has a name that contains '" +
-                                          command.filter +
-                                          "'; 'holomorph bench' without --filter runs all of them");
+    throw Error(ErrorKind::bad_input, "--filter: no benchmark name contains '" + command.filter +
+                                          "'; omit --filter to run all benchmarks");
   if (command.json) write_standard_output(bench::json_of(results));
 }
 

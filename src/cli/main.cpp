@@ -273,7 +273,7 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   if (!unknown.empty())
     what = unknown[0] + ": unknown option or argument";
   else if (what.starts_with(kUnread))
-    what = what.substr(kUnread.size()) + ": this is not a number that the option accepts";
+    what = what.substr(kUnread.size()) + ": the option does not accept this value";
   std::cerr << "holomorph: " << what << "\n"
             << "See 'holomorph --help' or 'holomorph COMMAND --help'.\n";
   return 2;

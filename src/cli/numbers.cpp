@@ -29,8 +29,10 @@ class NonFinitePoints {
   void say() const {
     if (count_ > 0)
       std::cerr << "holomorph: " << count_
-                << " rows of points inside the cage are nan, because the map "
-                << "or its derivative is not finite there, first at point " << first_ << "\n";
+                << " of the points inside the cage gave nan because the map or its derivative is "
+                   "not finite "
+                   "there; the first is point "
+                << first_ << "\n";
   }
 
  private:

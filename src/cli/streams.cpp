@@ -70,8 +70,9 @@ void check_out(const Path& out, bool force, const std::vector<Path>& inputs) {
   std::error_code ignored;
   for (const Path& input : inputs)
     if (is_file(out) && std::filesystem::equivalent(out, input, ignored))
-      throw Error(ErrorKind::bad_input,
-                  out.string() + ": this file is read by the same command; choose another name");
+      throw Error(
+          ErrorKind::bad_input,
+          out.string() + ": this file is also an input of the command; choose another name");
   if (!force && is_read_only(out))
     throw Error(ErrorKind::failed,
                 out.string() + ": the file is read-only; use --force to replace it");

@@ -15,7 +15,7 @@ std::string what_of(const std::exception& error) {
 
 void check(bool condition, const char* what) {
   if (condition) return;
-  std::fprintf(stderr, "holomorph: this is a bug: %s\n", what);
+  std::fprintf(stderr, "holomorph: internal error; this condition failed: %s\n", what);
   std::abort();
 }
 

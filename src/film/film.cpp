@@ -13,7 +13,7 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
                                       const Pictures& others) {
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
-    throw Error(ErrorKind::bad_input, "the scene has no keyframes, and a film needs them");
+    throw Error(ErrorKind::bad_input, "a film needs keyframes, and the scene has none");
   const int last = options.last < 0 ? last_frame_of(scene) : options.last,
             frames = last - options.first + 1;
   if (options.first < 0 || frames < 1 || last > last_frame_of(scene))

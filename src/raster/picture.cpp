@@ -6,6 +6,7 @@
 #include "raster/compose.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
+#include "scene/motion.h"
 
 namespace holomorph {
 

@@ -21,7 +21,7 @@ std::string numbered(const char* what, size_t i) {
   return std::string(what) + " " + std::to_string(i + 1);
 }
 
-void check_count(const char* what, size_t count, size_t most) {
+void check_count(const std::string& what, size_t count, size_t most) {
   if (count > most)
     fail("there are " + std::to_string(count) + " " + what + "; at most " + std::to_string(most) +
          " are allowed");
@@ -38,18 +38,18 @@ void check_point(const std::string& what, Complex z) {
 }
 
 void check_cage(const std::string& what, const Cage& cage) {
-  check_count("cage segments", cage.segments.size(), kMaxSegments);
+  check_count("segments in " + what, cage.segments.size(), kMaxSegments);
   for (const Points& segment : cage.segments) {
     if (segment.empty()) fail(what + " has a segment without control points");
     if (segment.size() > kHighestDegree)
-      fail(what + " has a segment of a degree above " + std::to_string(kHighestDegree));
+      fail(what + " has a segment whose degree is above " + std::to_string(kHighestDegree));
     for (const Complex& z : segment) check_point(what, z);
   }
 }
 
 void check_curve(const std::string& what, const Points& curve,
                  void (*check)(std::span<const Complex>)) {
-  check_count("points in a curve", curve.size(), kMaxCurvePoints);
+  check_count("points in " + what, curve.size(), kMaxCurvePoints);
   for (const Complex& z : curve) check_point(what, z);
   try {
     check(curve);
@@ -74,7 +74,9 @@ void check_handles(const Deformation& deformation) {
   check_cage("the cage", deformation.rest);
   check_cage("the posed cage", deformation.pose);
   if (deformation.rest.size() != deformation.pose.size())
-    fail("the cage has another number of segments posed than at rest");
+    fail("the posed cage has " + std::to_string(deformation.pose.size()) +
+         " segments, but the rest cage has " + std::to_string(deformation.rest.size()) +
+         "; they must agree");
   if (deformation.has_cage()) check_rest_cage(deformation.rest);
   check_count("pins", deformation.pins.size(), kMaxPins);
   for (size_t i = 0; i < deformation.pins.size(); ++i) {
@@ -92,12 +94,12 @@ void check_handles(const Deformation& deformation) {
   for (size_t i = 0; i < deformation.corners.size(); ++i) {
     const Corner& corner = deformation.corners[i];
     if (corner.vertex <= last || corner.vertex >= deformation.rest.size())
-      fail("the corners are not sorted by vertices of the cage");
+      fail("the corners must be sorted by vertex, and their vertices must exist");
     last = corner.vertex;
     check_corner(numbered("corner", i), corner.pose);
   }
   if (!deformation.corners.empty() && deformation.corners.size() < 3)
-    fail("there must be at least three corners, or none: all vertices");
+    fail("there must be at least three corners, or none to use all vertices");
 }
 
 void check_paint_and_outline(const Deformation& deformation) {
@@ -135,11 +137,11 @@ void check_keyframes(const Deformation& deformation) {
     last = key.time;
     check_range(what, key.turns, -kMaxTurns, kMaxTurns);
     check_cage(what, key.pose.cage);
-    check_count("pins", key.pose.pins.size(), kMaxPins);
+    check_count(std::string("pins in ") + what, key.pose.pins.size(), kMaxPins);
     for (const PosePin& pin : key.pose.pins) check_pin(what, pin.position, pin.angle, pin.scale);
-    check_count("strokes", key.pose.strokes.size(), kMaxStrokes);
+    check_count(std::string("strokes in ") + what, key.pose.strokes.size(), kMaxStrokes);
     for (const Points& stroke : key.pose.strokes) check_curve(what, stroke, check_stroke);
-    check_count("corners", key.pose.corners.size(), kMaxSegments);
+    check_count(std::string("corners in ") + what, key.pose.corners.size(), kMaxSegments);
     for (const PoseCorner& corner : key.pose.corners) check_corner(what, corner);
   }
 }
@@ -195,7 +197,7 @@ double largest_size(const Scene& scene) {
 
 void check_scene(const Scene& scene) {
   check_count("layers", scene.layers.size(), kMaxLayers);
-  if (scene.edited >= scene.layers.size()) fail("no layer is edited");
+  if (scene.edited >= scene.layers.size()) fail("the edited layer does not exist");
   check_range("the frame rate", scene.animation.frames_per_second, kMinFrameRate, kMaxFrameRate);
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];

@@ -41,4 +41,9 @@ class Mirror {
   double axis_ = 0, tolerance_ = 0;
 };
 
+/// The mirror image of a pose about the vertical line through the middle of the rest cage. Each
+/// handle takes the mirrored pose of its counterpart, the handle at the mirrored rest position.
+/// Throws Error if the rest state deviates from this symmetry by more than 2 % of its size.
+Pose mirrored(const Deformation& deformation, const Pose& pose);
+
 }  // namespace holomorph

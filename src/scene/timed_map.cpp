@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
 #include "scene/keyframes.h"
 

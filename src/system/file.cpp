@@ -42,7 +42,7 @@ std::string unreadable(const Path& path, int reason) {
     return "this is a link to " + std::filesystem::read_symlink(path, error).string() +
            ", which does not exist";
   if (reason == ENOENT || reason == ENOTDIR) return "no such file";
-  if (reason == ELOOP) return "this is a link that leads to itself";
+  if (reason == ELOOP) return "this link leads back to itself";
   if (reason == ENAMETOOLONG) return "the name is too long";
   return std::string("cannot be read: ") + std::strerror(reason);
 }

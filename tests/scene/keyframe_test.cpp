@@ -7,6 +7,7 @@
 #include "core/mesh/mesher.h"
 #include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
+#include "scene/mirror.h"
 #include "support/complaint.h"
 
 using namespace holomorph;

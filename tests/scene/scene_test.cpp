@@ -566,7 +566,7 @@ TEST_CASE("Names of 255 bytes are written, and longer ones are an error") {
   fs::create_symlink("nowhere", folder.path / "dangling");
   CHECK_THROWS_WITH(read_file(folder.path / "dangling"), Catch::Contains("link to nowhere"));
   fs::create_symlink("round", folder.path / "round");
-  CHECK_THROWS_WITH(read_file(folder.path / "round"), Catch::Contains("leads to itself"));
+  CHECK_THROWS_WITH(read_file(folder.path / "round"), Catch::Contains("leads back to itself"));
 }
 
 TEST_CASE("Autosaves can be read only by their owner") {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/arithmetic.h"
+#include "core/geometry/deepest_point.h"
 #include "core/mesh/antiderivative.h"
-#include "core/outline/outline_start.h"
 
 namespace holomorph {
 namespace {

@@ -93,7 +93,7 @@ Points part_of(const Points& controls, double from, double to) {
 RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
   if (corners.size() < 3)
     throw Error(ErrorKind::bad_input,
-                "angles need at least three corners; make more of the cage's vertices corners");
+                "this method needs at least three corners; turn more cage vertices into corners");
   check(std::ranges::is_sorted(corners) && corners.front() >= 0 && corners.back() < cage.size(),
         "corner values: corners are vertices, in order");
   const Index p = static_cast<Index>(corners.size());

@@ -50,7 +50,8 @@ void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basi
 void ReferenceSampler::deform(const Pose& pose, bool draft) {
   map_ = deformer_->deform(used_by(method_, pose), {true, draft});
   if (!map_.f.allFinite())
-    throw Error(ErrorKind::failed, "the reference map is not finite; move its handles apart");
+    throw Error(ErrorKind::failed,
+                "the reference map has values that are not finite; move its handles apart");
 }
 
 bool ReferenceSampler::is_identity() const {

@@ -145,8 +145,7 @@ Surrounding surrounding(const Cage& domain, int wanted, double distance) {
   }
   throw Error(
       ErrorKind::bad_input,
-      "no smooth boundary fits around the cage for this method: parts of it nearly touch each "
-      "other; move them apart");
+      "this method cannot be used with this cage: parts of the cage nearly touch; move them apart");
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ class Comparison {
   }
 
   ComparedMap reference() const {
-    ComparedMap row{"Followed map", "As it is, without limits"};
+    ComparedMap row{"Followed map", "The reference itself, without limits"};
     measure(mesh_operator(mesh_)->apply(stacked(reference_)), row);
     finish(reference_, row);
     return row;

@@ -51,9 +51,9 @@ VectorXc controls_of(const Cage& cage) {
 
 Cage elevated_to(const Cage& cage, const Cage& other) {
   if (cage.size() != other.size())
-    throw Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
-                                          " segments and the posed one " +
-                                          std::to_string(other.size()) + "; they must agree");
+    throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(other.size()) +
+                                          " segments, but the rest cage has " +
+                                          std::to_string(cage.size()) + "; they must agree");
   Cage raised;
   for (Index i = 0; i < cage.size(); ++i) {
     Points curve = elevated(cage.controls(i), std::max(cage.degree(i), other.degree(i)));
@@ -304,7 +304,7 @@ std::optional<Error> tip_fault(const Cage& cage) {
       return Error(ErrorKind::bad_input,
                    "the rest cage has a cusp at point " + std::to_string(i + 1) + ", " +
                        point_text(z) +
-                       ": its two segments leave it in the same direction; spread them apart",
+                       ": both of its segments start in the same direction; spread them apart",
                    z);
   }
   return {};
@@ -317,13 +317,13 @@ std::optional<Error> numbers_fault(const Cage& cage) {
     return Error(ErrorKind::bad_input, "rest cage segment " + std::to_string(i + 1) + " " + what);
   };
   for (Index i = 0; i < cage.size(); ++i) {
-    if (cage.degree(i) < 1) return fault(i, "has no control point");
+    if (cage.degree(i) < 1) return fault(i, "has no control points");
     if (cage.degree(i) > kHighestDegree)
       return fault(i, "has degree " + std::to_string(cage.degree(i)) + "; the highest degree is " +
                           std::to_string(kHighestDegree));
     for (const Complex& z : cage.segments[i]) {
       if (!is_finite(z)) return fault(i, "has a coordinate that is not a finite number");
-      if (!is_moderate(z)) return fault(i, "has a coordinate above 1e70");
+      if (!is_moderate(z)) return fault(i, "has a coordinate that is too large (more than 1e70)");
     }
   }
   return {};

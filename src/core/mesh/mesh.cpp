@@ -24,7 +24,7 @@ int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
   const auto away = [&](int v) { return std::abs(mesh.vertices[v] - corner); };
   const int nearest = *std::ranges::min_element(mesh.boundary, {}, away);
   if (away(nearest) > tolerance)
-    refuse("no boundary vertex is at the cage's vertex " + point_text(corner));
+    refuse("there is no boundary vertex at cage vertex " + point_text(corner));
   mesh.vertices[nearest] = corner;
   return nearest;
 }

@@ -27,8 +27,8 @@ std::vector<int> disk_boundary(const Surface& surface) {
 std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
                                const std::string& what) {
   const auto refuse = [&what](const std::string& why) {
-    throw Error(ErrorKind::bad_input,
-                what + " is not a disk: " + why + "; it must be one piece with one boundary");
+    throw Error(ErrorKind::bad_input, what + " is not a disk: " + why +
+                                          "; it must be a single piece with a single boundary");
   };
   if (triangles.empty()) refuse("it has no triangles");
   std::map<Edge, int> directed;

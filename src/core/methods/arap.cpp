@@ -217,9 +217,9 @@ Method arap_method() {
       .id = "arap",
       .label = "As rigid as possible",
       .hint =
-          "Pins hold; everything else keeps its size and shape as far as possible. Paint "
-          "stiffness (B) on parts that should keep theirs best. Without pins, the cage points "
-          "hold.",
+          "Pins stay where you put them, and everything else keeps its size and shape as far as "
+          "possible. Paint stiffness (B) on parts that should change least. Without pins, the cage "
+          "points stay where you put them.",
       .uses_pins = true,
       .uses_stiffness = true,
       .harmonic = false,

@@ -226,7 +226,7 @@ class BoundedDeformer final : public Deformer {
     std::string text = "No folds" + pin_note(pose);
     if (!reference_->note().empty()) text += ". " + reference_->note();
     if (solution_.solution.status != ConeSolution::Status::solved)
-      text += ". Not quite the nearest such map";
+      text += ". A nearer map may exist";
     if (flipped_triangles_ > 0)
       return "No folds, but the mesh is too coarse for this map: " +
              std::to_string(flipped_triangles_) + " inverted triangles";
@@ -280,11 +280,11 @@ std::unique_ptr<Deformer> make_bounded(const Rest& rest, const Deformer*) {
 
 }  // namespace
 
-Method bounded_method(const std::vector<Method>& references) {
+Method bounded_method(const std::vector<Method>& references, const std::string& usual_id) {
   std::vector<ParameterSpec::Option> followed;
   size_t usual = 0;
   for (const Method& method : references) {
-    if (method.id == "pins") usual = followed.size();
+    if (method.id == usual_id) usual = followed.size();
     followed.push_back({method.id, method.label});
   }
   return {
@@ -296,12 +296,13 @@ Method bounded_method(const std::vector<Method>& references) {
       .parameters = {one_of("reference", "Follows",
                             "The method whose map is kept within the limits", followed, usual),
                      one_of("space", "Prefer",
-                            "What to keep first where the limits do not allow everything",
+                            "What to preserve first if the limits rule out preserving everything",
                             {{"nu", "shape"}, {"psi", "pins"}, {"h", "size"}}),
                      number("k", "Max shear", "0 keeps all angles; near 1, circles may become flat",
                             0.7, 0, 0.99),
                      number("sigma", "Smallest size",
-                            "No length shrinks to less than this fraction", 0.2, 0.01, 0.99),
+                            "No length shrinks below this fraction of its original", 0.2, 0.01,
+                            0.99),
                      by_decades("Sigma", "Max growth", "No length grows by more than this factor",
                                 5, 1.01, 100),
                      used_with(

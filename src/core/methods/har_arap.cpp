@@ -191,8 +191,8 @@ Method har_arap_method() {
       .id = "har_arap",
       .label = "Rigid and smooth",
       .hint =
-          "As rigid as a smooth map can be: pins pull no spikes. Without pins, the cage points "
-          "hold.",
+          "As rigid as a smooth map can be, without spikes at the pins. Without pins, the cage "
+          "points stay where you put them.",
       .uses_pins = true,
       .similar = false,
       .needs_mesh = true,

@@ -51,21 +51,20 @@ PointMap::Value SumMap::at(Complex z) const {
 void check_pose(const Rest& rest, const Pose& pose) {
   if (pose.cage.size() != rest.cage.size())
     throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.cage.size()) +
-                                          " segments and the rest cage " +
+                                          " segments, but the rest cage has " +
                                           std::to_string(rest.cage.size()) + "; they must agree");
   for (Index i = 0; i < pose.cage.size(); ++i)
     if (pose.cage.degree(i) < 1 || pose.cage.degree(i) > rest.cage.degree(i))
-      throw Error(ErrorKind::bad_input,
-                  "posed segment " + std::to_string(i + 1) + " must have from 1 to " +
-                      std::to_string(rest.cage.degree(i)) +
-                      " control points, as the rest was prepared for, but has " +
-                      std::to_string(pose.cage.degree(i)));
+      throw Error(ErrorKind::bad_input, "posed segment " + std::to_string(i + 1) + " has " +
+                                            std::to_string(pose.cage.degree(i)) +
+                                            " control points; the rest allows 1 to " +
+                                            std::to_string(rest.cage.degree(i)));
   if (pose.pins.size() != rest.pins.size())
-    throw Error(ErrorKind::bad_input, "there must be as many posed pins as pins at rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many pins as the rest");
   if (pose.strokes.size() != rest.strokes.size())
-    throw Error(ErrorKind::bad_input, "there must be as many posed strokes as strokes at rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many strokes as the rest");
   if (pose.corners.size() != rest.corners.size())
-    throw Error(ErrorKind::bad_input, "there must be as many posed corners as corners at rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many corners as the rest");
   for (const Points& stroke : pose.strokes) check_stroke(stroke);
   for (const PoseCorner& corner : pose.corners)
     if (!std::isfinite(corner.before) || !std::isfinite(corner.after) || !(corner.tension >= 0) ||

@@ -11,7 +11,7 @@ const std::vector<Method>& methods() {
     std::vector<Method> rows{cage_method(),     pins_method(),     arap_method(),
                              har_arap_method(), outline_method(),  strokes_method(),
                              angles_method(),   harmonic_method(), mean_value_method()};
-    rows.push_back(bounded_method(rows));
+    rows.push_back(bounded_method(rows, "pins"));
     return rows;
   }();
   return table;

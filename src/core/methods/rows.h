@@ -36,7 +36,7 @@ Method harmonic_method();
 Method mean_value_method();
 
 /// `bounded`: finds the locally injective map of bounded distortion that is nearest to another
-/// method's map (Levi, Weber 2016).
-Method bounded_method(const std::vector<Method>& references);
+/// method's map (Levi, Weber 2016). By default, it follows the method `usual_id`.
+Method bounded_method(const std::vector<Method>& references, const std::string& usual_id);
 
 }  // namespace holomorph

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/cauchy/cauchy.h"
+#include "core/geometry/deepest_point.h"
 #include "core/outline/arc_length_start.h"
 #include "core/outline/inner_loop.h"
 #include "core/outline/outline_basis.h"

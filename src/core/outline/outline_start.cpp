@@ -10,6 +10,8 @@
 #include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/geometry/curve.h"
+#include "core/geometry/deepest_point.h"
+#include "core/outline/disk_map.h"
 #include "core/outline/outline_samples.h"
 #include "core/outline/riemann.h"
 
@@ -51,41 +53,6 @@ struct MappedOutline {
     return std::polar(kInside, angle_at(line->length_at(at.segment, at.parameter)));
   }
 };
-
-/// The interior point that maximizes a function of the point and its distance from the outline.
-/// Searches successively finer grids.
-template <class Merit>
-Complex best_inside(const Polyline& outline, const Merit& merit) {
-  const Box box = box_of(outline.points());
-  const Complex corner(box.left, box.bottom), size(box.width(), box.height());
-  constexpr int kFirstCells = 24, kCells = 12;
-  Complex best;
-  double most = -1;
-  for (double reach = 1; reach > 1e-13; reach /= kCells / 4.0) {
-    const int cells = reach == 1 ? kFirstCells : kCells;
-    const Complex from = most < 0 ? corner : best - 0.5 * reach * size, step = reach / cells * size;
-    for (int i = 0; i < cells; ++i)
-      for (int j = 0; j < cells; ++j) {
-        const Complex z = from + Complex((i + 0.5) * step.real(), (j + 0.5) * step.imag());
-        const double here = merit(z, outline.nearest(z).distance);
-        if (here > most && winding_number(outline.points(), z) != 0) most = here, best = z;
-      }
-  }
-  if (most < 0) throw Error(ErrorKind::bad_input, "the outline encloses no area");
-  return best;
-}
-
-/// The centroid of a polygon's area.
-Complex centroid(const Points& polygon) {
-  Complex sum = 0;
-  double area = 0;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Complex a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
-    sum += cross(a, b) * (a + b) / 3.0;
-    area += cross(a, b);
-  }
-  return polygon[0] + sum / area;
-}
 
 /// The arc length of the boundary point nearest to z. A deepest point has several nearest points.
 /// The first of these is taken, which makes the choice independent of rounding.
@@ -137,50 +104,6 @@ MappedOutline mapped_outline(const Polyline& outline, Sampling sampling) {
     result.on_circle.push_back(std::polar(1.0, angle_at(length)));
   }
   return result;
-}
-
-/// The automorphism of the disk that takes three points of the circle to three other points. All
-/// points are given by their angles.
-class DiskMap {
- public:
-  DiskMap(const std::array<double, 3>& from, const std::array<double, 3>& to) {
-    const Eigen::Matrix2cd a = to_line(from), b = to_line(to);
-    Eigen::Matrix2cd inverse;
-    inverse << b(1, 1), -b(0, 1), -b(1, 0), b(0, 0);
-    m_ = inverse * a;
-  }
-  Complex operator()(Complex z) const {
-    return (m_(0, 0) * z + m_(0, 1)) / (m_(1, 0) * z + m_(1, 1));
-  }
-  /// The angle of the image of a point of the circle.
-  double angle(Complex z) const {
-    const Complex above = m_(0, 0) * z + m_(0, 1), below = m_(1, 0) * z + m_(1, 1);
-    return std::arg(above * std::conj(below));
-  }
-  DiskMap inverse() const {
-    DiskMap other = *this;
-    other.m_ << m_(1, 1), -m_(0, 1), -m_(1, 0), m_(0, 0);
-    return other;
-  }
-
- private:
-  /// Takes three points of the circle to 0, 1 and infinity.
-  static Eigen::Matrix2cd to_line(const std::array<double, 3>& angles) {
-    const Complex p = std::polar(1.0, angles[0]), q = std::polar(1.0, angles[1]),
-                  r = std::polar(1.0, angles[2]);
-    Eigen::Matrix2cd m;
-    m << (q - r), -p * (q - r), (q - p), -r * (q - p);
-    return m;
-  }
-  Eigen::Matrix2cd m_;
-};
-
-/// The squared hyperbolic distance between two points of the unit disk.
-double hyperbolic_square(Complex z, Complex w) {
-  constexpr double kFarthest = 1 - 1e-9;
-  const double rho = std::abs((z - w) / (1.0 - std::conj(w) * z));
-  const double distance = 2 * std::atanh(std::min(rho, kFarthest));
-  return distance * distance;
 }
 
 }  // namespace
@@ -461,18 +384,6 @@ Correspondence ConformalStart::follow(const Points& pinned) {
   search_->chosen = search_->refined(*std::ranges::min_element(
       starts, {}, [&](const Search::Pairs& pairs) { return search_->cost(pairs); }));
   return search_->correspondence();
-}
-
-Complex middle_point(const Polyline& outline) {
-  constexpr double kCentral = 0.2;
-  const Complex center = centroid(outline.points());
-  return best_inside(outline, [&](Complex z, double depth) {
-    return depth * std::max(1 - kCentral * std::abs(z - center) / outline.length(), 0.0);
-  });
-}
-
-Complex deepest_point(const Polyline& outline) {
-  return best_inside(outline, [](Complex, double depth) { return depth; });
 }
 
 }  // namespace holomorph

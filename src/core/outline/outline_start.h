@@ -12,13 +12,6 @@
 
 namespace holomorph {
 
-/// The interior point farthest from a closed polyline, accurate to rounding where it is unique.
-Complex deepest_point(const Polyline& outline);
-
-/// A central point among those that are almost as deep as the deepest point. (All points on the
-/// axis of a strip are equally deep.)
-Complex middle_point(const Polyline& outline);
-
 /// An increasing map from the arc lengths of one closed curve to those of another. One turn around
 /// the source corresponds to one turn around the target.
 struct Correspondence {

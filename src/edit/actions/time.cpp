@@ -1,6 +1,7 @@
 // Menu Time: playback, keyframes and poses.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
+#include "scene/mirror.h"
 
 namespace holomorph {
 namespace {

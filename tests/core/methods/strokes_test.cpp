@@ -175,7 +175,7 @@ TEST_CASE(
              Catch::Contains("Stroke 1 leaves the cage") && Catch::Contains("Stroke 2 is outside"));
   CHECK(std::abs(map.f[0] - rest.samples[0] - Complex(0, 20)) < 1e-3);
   const Rest one = rest_of(bar(), {middle()});
-  CHECK_THROWS_WITH(run(one, pose_of(one, {})), Catch::Contains("as many posed strokes"));
+  CHECK_THROWS_WITH(run(one, pose_of(one, {})), Catch::Contains("as many strokes as the rest"));
   CHECK_THROWS_WITH(run(one, pose_of(one, {Points{{5, 5}, {5, 5}}})), Catch::Contains("no length"));
   CHECK_THROWS_AS(run(one, pose_of(one, {Points{{5, 5}, {NAN, 5}}})), Error);
   CHECK_THROWS_AS(method_named("strokes").prepare(rest_of(bar(), {Points{{5, 5}}}), nullptr),

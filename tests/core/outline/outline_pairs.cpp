@@ -22,6 +22,7 @@
 #include "bench/hard_outlines.h"
 #include "bench/outlines.h"
 #include "core/cauchy/cauchy_array.h"
+#include "core/geometry/deepest_point.h"
 #include "core/outline/outline_match.h"
 #include "core/outline/outline_start.h"
 #include "core/outline/riemann.h"

@@ -1,10 +1,9 @@
-// The mirror image of a pose: each handle takes the mirrored pose of its counterpart at rest.
+#include "scene/mirror.h"
+
 #include <algorithm>
 
 #include "core/error.h"
 #include "core/geometry/polyline.h"
-#include "scene/keyframes.h"
-#include "scene/mirror.h"
 
 namespace holomorph {
 namespace {
