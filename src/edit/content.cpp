@@ -12,7 +12,7 @@ std::optional<Cage> solved_cage(const Workspace& workspace) {
   if (!map.has_map() || !map.posed()) return {};
   const std::optional<Deformation>& posed = map.timed() ? map.timed() : map.posed();
   if (map.timed() && key_at(*posed, workspace.shown.timeline.time) == posed->keyframes.size())
-    return {};  // no single cage gives the map between keyframes
+    return {};  // between keyframes, no single cage produces the map
   return map.prepared()->deformer->solved_cage(pose_of(*posed));
 }
 

@@ -1,11 +1,11 @@
-// What the canvas shows as a whole.
+// Everything that the canvas shows, taken as a whole.
 #pragma once
 
 #include "edit/workspace.h"
 
 namespace holomorph {
 
-/// The posed cage that reproduces the displayed map without any pins; none if the method cannot
+/// The posed cage that reproduces the displayed map without using pins. None if the method cannot
 /// compute one.
 std::optional<Cage> solved_cage(const Workspace& workspace);
 

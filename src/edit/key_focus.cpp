@@ -1,4 +1,4 @@
-// The parts are tested in stacking order, from the topmost one down to the canvas.
+// Tests the parts of the window in stacking order, from the topmost one down to the canvas.
 #include "edit/key_focus.h"
 
 namespace holomorph {

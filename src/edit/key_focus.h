@@ -12,7 +12,7 @@ struct WindowFocus {
   bool palette = false;        ///< the command palette is open
   bool dialog = false;         ///< a dialog or the keys window is open
   bool menu = false;           ///< a menu is open
-  bool menu_was_open = false;  ///< in the last frame; this key press may have closed it
+  bool menu_was_open = false;  ///< state in the last frame; this key press may have closed the menu
   bool panel = false;          ///< a panel has the keyboard focus
 };
 

@@ -1,4 +1,4 @@
-// Pins are on top of points, and points are on top of strokes.
+// Pins are picked before points, and points before strokes.
 #include "edit/picking.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What lies under a point of the canvas.
+// Finds what is under a point of the canvas.
 #pragma once
 
 #include "edit/workspace.h"

@@ -1,5 +1,4 @@
-// A document has a pose of its own and keyframes. An edit while a time is displayed changes one or
-// the other.
+// A document has its own pose and keyframes. While a time is displayed, an edit may change either.
 #include "edit/shown.h"
 
 #include <algorithm>

@@ -9,12 +9,12 @@
 
 namespace holomorph {
 
-/// What an edit starts from: the displayed deformation, which keyframes may pose, or the document's
-/// own. An edit of the document's own deformation is committed unchanged.
+/// What an edit starts from: the displayed deformation, whose pose may come from keyframes, or the
+/// document's own deformation. An edit of the document's own deformation is committed unchanged.
 enum class EditBase { shown, document };
 
-/// The displayed deformation. It is the document's own, the same with its handles posed by the
-/// keyframes at some time, or the preview of a drag.
+/// The displayed deformation. It is the document's own deformation, possibly with its handles posed
+/// by the keyframes at some time, or the preview of a drag.
 class Shown {
  public:
   explicit Shown(const Document& document) : document_(&document) {}
@@ -23,7 +23,7 @@ class Shown {
   Timeline timeline;
 
   const Deformation& deformation() const { return preview ? *preview : base(); }
-  /// The displayed deformation without a preview: what edits start from.
+  /// The displayed deformation, ignoring any preview. Edits start from it.
   const Deformation& base() const { return timed_ && timeline.active ? *timed_ : own(); }
   /// The document's own deformation.
   const Deformation& own() const { return document_->scene().deformation(); }
@@ -44,13 +44,13 @@ class Shown {
 
   /// Whether base() has the displayed pose. False while the map at another time is being prepared.
   bool knows_pose() const { return !time() || timed_ || playing_keys(own()).empty(); }
-  /// Whether going to a time leaves a pose that has no keyframe: keyframes play, none of them has
-  /// the document's own pose, and there is a step to undo.
+  /// Whether going to a time would hide a pose that has no keyframe. This is the case if keyframes
+  /// play, none of them has the document's own pose, and there is a step to undo.
   bool leaves_a_pose() const;
 
   /// Displays the scene at a time.
   void go_to_time(double seconds);
-  /// Sets the deformation whose handles are posed as in the map at the displayed time; none if
+  /// Sets the deformation with its handles posed as in the map at the displayed time. Pass none if
   /// these positions are not known yet.
   void set_timed(std::optional<Deformation> timed) { timed_ = std::move(timed); }
   /// Sets the handles at the displayed time from a pose that fits the document's structure.
@@ -61,17 +61,17 @@ class Shown {
   struct Entry {
     bool moves = false;       ///< the edit changes the displayed pose
     bool sets_key = false;    ///< the pose becomes a keyframe at the current time (auto-key)
-    Pose shown;               ///< the pose on display after the edit
-    Deformation deformation;  ///< the deformation to enter, before a keyframe is set
+    Pose shown;               ///< the displayed pose after the edit
+    Deformation deformation;  ///< the deformation to commit, before a keyframe is set
   };
   /// Classifies an edit. With EditBase::shown, there are three cases:
-  /// - With auto-key, an edit of the pose becomes a keyframe. Otherwise it becomes the document's
-  ///   own pose, and the timeline leaves the displayed time.
+  /// - With auto-key, an edit of the pose becomes a keyframe. Without auto-key, it becomes the
+  ///   document's own pose, and the canvas shows that pose.
   /// - An edit of the structure makes the displayed pose the document's own pose.
   /// - Any other edit keeps the document's own pose.
   Entry entry_of(Deformation edited, EditBase base) const;
-  /// Updates the display after an entry has been made in the document. `same_layer`: whether the
-  /// document still has the same edited layer.
+  /// Updates the display after an entry has been added to the document's history. `same_layer` is
+  /// whether the same layer is still being edited.
   void follow(const Entry& entry, bool same_layer);
 
  private:

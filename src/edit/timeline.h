@@ -16,7 +16,7 @@ struct Timeline {
   bool auto_key = false;                ///< edits of the pose set keyframes
   bool onion = false;                   ///< onion skin: show the keyframes before and after `time`
   bool visible = false;                 ///< the panel is open
-  std::optional<double> clock_ms = {};  ///< the clock when `time` last advanced
+  std::optional<double> clock_ms = {};  ///< clock time when `time` last advanced
 
   /// Goes to a time, clamped to 0 ... kMaxTime, and displays it.
   void go_to(double seconds) {

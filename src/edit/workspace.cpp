@@ -24,7 +24,7 @@ bool advance(Playback& playback, const LiveMap& map, double now_ms) {
     playback = {};
     return true;
   }
-  // 2.5 seconds in all, but no iteration is displayed for longer than a third of a second.
+  // Playback takes at most 2.5 seconds, and shows no iteration for longer than a third of a second.
   constexpr double kAll = 2500, kLongest = 330;
   if (!playback.due_ms) playback.due_ms = now_ms + std::min(kLongest, kAll / last);
   if (now_ms < *playback.due_ms) return false;
@@ -92,7 +92,7 @@ bool Workspace::require_open_layer() {
 }
 
 /// Whether a scene changes the contents of the edited layer although that layer is locked or
-/// hidden, both before and after the change.
+/// hidden, and remains so.
 bool Workspace::changes_closed_layer(const Scene& scene) const {
   const Layer& before = document.scene().layer();
   if (!before.locked && before.visible) return false;
@@ -100,7 +100,7 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
   if (number == scene.layers.size()) return false;
   const Layer& after = *scene.layers[number];
   if (after.locked != before.locked || after.visible != before.visible) return false;
-  // Finding a missing picture does not count as a change.
+  // Locating a missing picture does not count as a change.
   const bool is_missing = before.image && !document.image(),
              other_image = !is_missing && after.image != before.image;
   return other_image || after.deformation != before.deformation;
@@ -127,7 +127,7 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   return true;
 }
 
-/// Resets the state that belongs to the edited layer only.
+/// Resets the state that belongs only to the edited layer.
 void Workspace::leave_layer() {
   shown.preview.reset();
   shown.set_timed({});
@@ -144,15 +144,15 @@ void Workspace::choose_layer(size_t number) {
   chosen.edited = number;
   leave_layer();
   const History& history = document.history();
-  // Choosing several layers in a row is one step.
+  // Selecting several layers in a row counts as one step.
   const bool merges = history.can_undo() && history.entries()[history.index()].label == kLabel &&
                       !history.can_redo();
   if (merges) document.undo();
   commit_layers(kLabel, std::move(chosen));
 }
 
-/// Stores the deformation's pose as the keyframe at the current time, and then gives the
-/// deformation the document's own pose.
+/// Stores the deformation's pose as the keyframe at the current time, then sets the deformation's
+/// pose to the document's own.
 Deformation Workspace::keyed(Deformation deformation) {
   const Deformation& before = shown.own();
   const double time = shown.timeline.time;
@@ -224,7 +224,7 @@ bool Workspace::update_map(EvalOptions options) {
   // While another method is being prepared, the handles keep their positions at this time.
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());
-  prune_selection();  // degrees of posed segments vary with time
+  prune_selection();  // the degrees of posed segments may vary with time
   return changed;
 }
 
@@ -335,7 +335,8 @@ void Workspace::open(Document opened) {
   display.split.reset();
   display.view = View::image;
   tools.active = shown.own().has_cage() ? ToolId::select : ToolId::pen;
-  // No message for missing pictures: the window offers to find them as long as they are missing.
+  // Missing pictures need no message, because the window offers to find them as long as they are
+  // missing.
   if (document.layers_without_picture().empty()) messages.complain(document.warning());
 }
 

@@ -1,4 +1,4 @@
-// The data that tools and actions work on and that the window draws.
+// The data that tools and actions modify and the window draws.
 #pragma once
 
 #include <functional>
@@ -48,11 +48,11 @@ enum class Request {
 
 /// Playback of the iterations of a method that reports an energy for each.
 struct Playback {
-  std::optional<int> iteration = {};  ///< the iteration on display; none: the last one
+  std::optional<int> iteration = {};  ///< the displayed iteration; none means the last one
   bool playing = false;
   std::optional<double> due_ms = {};  ///< when the next iteration is due
 };
-/// Steps to the next iteration when it is due. Returns whether it took a step or ended the
+/// Advances to the next iteration when it is due. Returns whether it took a step or ended the
 /// playback.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
@@ -63,7 +63,7 @@ struct DisplayOptions {
   Viewport viewport;
   View view = View::image;
   bool automatic_range = false, show_mesh = false, show_cage = true, show_surface = true;
-  bool hide_overlays = false, show_original = false;  ///< while a key is held
+  bool hide_overlays = false, show_original = false;  ///< set while a key is held
   std::optional<double> split = {};  ///< left fraction of the canvas that shows the original
   double handle_px = 10;             ///< picking distance in window px, scaled with the display
 };
@@ -99,9 +99,9 @@ struct Workspace {
   Messages messages;
   ActionTable actions;
   Playback playback;
-  std::optional<Pose> copied;  ///< by Copy pose
+  std::optional<Pose> copied;  ///< set by Copy pose
   Request request = Request::none;
-  /// Runs long work on another thread, then calls `then` on this thread. Set by the window.
+  /// Runs a long task on another thread, then calls `then` on this thread. Set by the window.
   std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>
       run_in_background;
 
@@ -110,7 +110,7 @@ struct Workspace {
   const LiveMap& map() const { return maps.of(document.scene().layer().id); }
   /// Brings the maps up to date with `shown`. Returns whether any of them changed.
   bool update_map(EvalOptions options);
-  /// Whether the canvas displays the picture at rest.
+  /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return mode == EditMode::rest || display.show_original; }
   /// Whether the method uses an outline that is currently drawn.
   bool shows_outline() const;
@@ -119,11 +119,11 @@ struct Workspace {
     return display.show_surface && document.scene().deformation().surface.has_value();
   }
 
-  /// Adds an undo step. Refuses a scene that cannot be saved and opened again or that has an
-  /// invalid rest cage; a toast then shows where the problem is. Shown::entry_of says how an edit
-  /// changes poses and keyframes. Returns whether the step was added.
+  /// Adds an undo step. Rejects a scene that cannot be saved and opened again or that has an
+  /// invalid rest cage; a toast then shows where the problem is. See Shown::entry_of for how an
+  /// edit changes poses and keyframes. Returns whether the step was added.
   bool commit(const std::string& label, Deformation deformation, EditBase base = EditBase::shown);
-  /// Replaces the result of the last undo step. Refuses the same scenes as commit.
+  /// Replaces the result of the last undo step. Rejects the same scenes as commit.
   bool amend(Deformation deformation, EditBase base = EditBase::shown);
   /// Merges small edits into one step: amends the last step if it has the same label and the
   /// selection has not changed since, else adds a step.
@@ -140,7 +140,7 @@ struct Workspace {
   bool require_open_layer();
   /// Whether the displayed pose is known. If not, a toast says that it is being prepared.
   bool require_pose();
-  /// Makes another layer the edited one.
+  /// Makes another layer the edited layer.
   void choose_layer(size_t number);
   /// Goes to another entry of the history. If the number of cage vertices, pins or strokes differs
   /// there, deselects all handles of that kind.
@@ -155,8 +155,8 @@ struct Workspace {
   /// The maps at the keyframes before and after the current time. Empty if the onion skin is off,
   /// the timeline plays, the picture is shown at rest or no map is available yet.
   std::vector<OnionSkin> onion_skins() const;
-  /// Does long work, then calls `then`. Runs in the background if the window has set
-  /// run_in_background; otherwise runs immediately and throws the errors of the work.
+  /// Runs a long task, then calls `then`. The task runs in the background if the window has set
+  /// run_in_background; otherwise it runs immediately, and its exceptions reach the caller.
   void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
   /// Centers the canvas on a fold of the picture: first on the worst one, then on the others in
   /// turn.
@@ -164,7 +164,7 @@ struct Workspace {
   /// Deletes handles in one step and clears the selection. If fewer than three cage points would
   /// remain, deletes nothing and says so in a toast.
   void erase(const Selection& handles, Refit refit = Refit::curve);
-  /// Deselects handles that do not exist any more.
+  /// Deselects handles that no longer exist.
   void prune_selection();
   /// Replaces the document and resets selection, preview, mode, tool and view.
   void open(Document opened);

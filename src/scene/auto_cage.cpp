@@ -46,7 +46,7 @@ size_t root_of(std::vector<Run>& runs, size_t run) {
   return run;
 }
 
-/// Clears all ones except the largest 8-connected set.
+/// Clears all ones outside the largest 8-connected set.
 void keep_largest_part(Grid<std::uint8_t>& mask) {
   std::vector<Run> runs = runs_of(mask);
   size_t above = 0;  // the first run of the previous row that may touch this one
@@ -227,8 +227,8 @@ Levels levels_of(const Image& image, double margin) {
   return levels;
 }
 
-/// The cage rounded to 1/16 px, which keeps numbers in files short. This is too small a change to
-/// reach the content, which is at least 0.7 cells away.
+/// The cage rounded to 1/16 px, which keeps numbers in files short. Rounding cannot move the cage
+/// into the content, which is at least 0.7 cells away.
 Cage rounded(Cage cage) {
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};

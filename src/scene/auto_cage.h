@@ -16,11 +16,11 @@ struct AutoCageOptions {
 };
 
 /// A simple counter-clockwise cage around the largest connected part of a picture's content
-/// (8-neighbors). The cage contains every pixel of that part at a distance of about `margin`. It
-/// has about the requested number of vertices, or more if fewer would cut the content. A picture
-/// without transparency, or without content, gets a rectangle around it. Throws Error for options
-/// out of range. Cost: a few ns per pixel, plus about 50 ms for the outline on a grid of at most
-/// 768 cells per side.
+/// (8-neighbors). The cage encloses all pixels of that part at a distance of about `margin`. It has
+/// about the requested number of vertices, or more if fewer would cut into the content. If the
+/// picture has no transparency or no content, the cage is a rectangle around the picture. Throws
+/// Error for options out of range. Cost: a few ns per pixel, plus about 50 ms for the outline on a
+/// grid of at most 768 cells per side.
 Cage auto_cage(const Image& image, const AutoCageOptions& options = {});
 
 /// The largest connected part of the content, as a mask of width x height bytes with 1 inside.

@@ -1,4 +1,4 @@
-// One table contains the names of all limits, for error messages and the command line.
+// A single table names all limits, for error messages and the command line.
 #include "scene/budget.h"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// Limits on what is read and prepared. Each can be raised on the command line.
+/// Limits on the data that is read and prepared. Each can be raised on the command line.
 struct Budget {
   double pixels = 256e6;      ///< total pixels of all pictures in a scene
   double coordinates = 50e6;  ///< control points (twice for curves) times sample points

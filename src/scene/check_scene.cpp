@@ -158,7 +158,7 @@ bool has_extras(const Deformation& deformation) {
          std::ranges::any_of(deformation.keyframes, kept_in_pose);
 }
 
-/// Whether the scene contains unknown keys from its file.
+/// Whether the scene contains keys from its file that this version does not know.
 bool has_extras(const Scene& scene) {
   return !scene.extra.empty() || !scene.animation_extra.empty() ||
          std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {

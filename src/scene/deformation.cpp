@@ -42,7 +42,8 @@ Pose pose_of(const Deformation& deformation) {
   return used_by(method_named(deformation.method), whole_pose_of(deformation));
 }
 
-// A pose without corners predates the list of corners. All corners are then at rest.
+// If a pose has no corners, it was stored before the list of corners existed. All corners are then
+// at rest.
 bool fits(const Deformation& deformation, const Pose& pose) {
   return pose.cage.size() == deformation.rest.size() &&
          pose.pins.size() == deformation.pins.size() &&

@@ -31,7 +31,7 @@ struct Pin {
   std::optional<double> angle;
   Extra extra;
   double scale = 1;  ///< has an effect only with an angle
-  int depth = 0;     ///< the picture near a pin with a greater depth is drawn on top
+  int depth = 0;     ///< the picture near pins with greater depth is drawn on top
   bool operator==(const Pin&) const = default;
 };
 
@@ -51,12 +51,12 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-/// The motion from a keyframe to the next one. Smooth: starts and ends at rest, but passes through
-/// keys between smooth intervals without stopping. Linear: constant speed. Hold: the pose does not
-/// change until the next key.
+/// The motion from a keyframe to the next one. Smooth motion starts and ends at rest, but does not
+/// stop at keys between smooth intervals. Linear motion has constant speed. Hold keeps the pose
+/// until the next key.
 enum class Ease { smooth, linear, hold };
 
-/// A pose at a time.
+/// A pose at a given time.
 struct Keyframe {
   double time = 0;  ///< seconds
   Pose pose = {};
@@ -75,12 +75,13 @@ struct Deformation {
   Points outline = {};  ///< closed; the target shape of the cage for method `outline`
   std::optional<SurfaceReference> surface = {};
   std::vector<Corner> corners = {};      ///< sorted by vertex
-  std::vector<BrushDab> stiffness = {};  ///< painted, for methods that use it
+  std::vector<BrushDab> stiffness = {};  ///< painted dabs, for methods that use them
   /// Sorted by time. Keyframes whose poses do not fit the handles are kept but do not play.
   std::vector<Keyframe> keyframes = {};
   std::string method = usual_method(MethodUse::cage).id;
   Parameters parameters = {};
-  std::map<std::string, Parameters> other_parameters = {};  ///< of other methods used before, by id
+  /// The parameters of previously used methods, by method id.
+  std::map<std::string, Parameters> other_parameters = {};
   Extra cage_extra = {}, method_extra = {};
 
   bool has_cage() const { return rest.size() > 0; }
@@ -95,8 +96,8 @@ bool fits(const Deformation& deformation, const Pose& pose);
 /// The deformation with this pose, which must fit the handles.
 Deformation posed_as(Deformation deformation, const Pose& pose);
 
-/// The rest state, without samples, that the deformation's method uses for its precomputation. The
-/// degrees of its segments are high enough for all keyframes.
+/// The rest state, without samples, from which the deformation's method does its precomputation.
+/// Its segments have degrees high enough for all keyframes.
 Rest rest_of(const Deformation& deformation, Precision precision);
 /// The pose of the handles that the method uses.
 Pose pose_of(const Deformation& deformation);

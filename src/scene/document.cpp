@@ -68,7 +68,7 @@ bool Document::changed_on_disk() {
   } catch (const Error&) {
     return true;
   }
-  stamp_.time = time;  // touched but unchanged
+  stamp_.time = time;  // new time, same content
   return false;
 }
 
@@ -158,7 +158,7 @@ bool Document::autosave(const Path& folder) {
   std::error_code ignored;
   if (!lock_) {
     fs::create_directories(folder, ignored);
-    fs::permissions(folder, fs::perms::owner_all, ignored);  // for this user alone
+    fs::permissions(folder, fs::perms::owner_all, ignored);  // accessible only to this user
   }
   try {
     if (!lock_) lock_ = std::make_shared<FileLock>(lock_path(path));

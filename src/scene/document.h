@@ -10,7 +10,7 @@
 namespace holomorph {
 
 /// A scene being edited. A scene that was opened counts as saved, and a recovered scene as unsaved.
-/// A commit makes the document modified.
+/// A commit marks the document as modified.
 class Document {
  public:
   Document();  ///< an empty scene without unsaved changes
@@ -20,11 +20,12 @@ class Document {
   /// A new document that starts as a copy of a scene. It has no file and no unsaved changes. Throws
   /// Error.
   static Document copy_of(const Path& scene);
-  /// The scene that an interrupted session left in an autosave file. Throws Error.
+  /// The scene from an autosave file that an interrupted session left behind. Throws Error.
   static Document recover(const Path& autosave);
 
   const Scene& scene() const { return history_.current(); }
-  const Image* image() const { return pictures_.of(scene().layer()); }  ///< the edited layer's
+  /// The picture of the edited layer; null if it has none.
+  const Image* image() const { return pictures_.of(scene().layer()); }
   const Pictures& pictures() const { return pictures_; }
   const History& history() const { return history_; }
   const Path& path() const { return path_; }  ///< empty if the scene was never saved
@@ -40,8 +41,8 @@ class Document {
   /// The files that the scene names outside its reach. They have not been accessed.
   std::vector<Path> withheld() const;
   const std::string& warning() const { return warning_; }
-  /// Whether another program has changed the file since it was read or saved. False if the file is
-  /// gone.
+  /// Whether another program has changed the file since it was read or saved. False if the file no
+  /// longer exists.
   bool changed_on_disk();
   /// The name of the document's file. Without a file: the name of first_picture() without its
   /// extension, or "Untitled".
@@ -60,7 +61,7 @@ class Document {
   }
   /// Stores all pictures of another scene.
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
-  /// Allows the files that are out of reach to be read.
+  /// Allows reading the files that are out of reach.
   void allow_withheld() { pictures_.release(); }
 
   /// Marks the scene as saved. `read` is a document that was just read from the same file.
@@ -69,7 +70,7 @@ class Document {
     unsaved_ = false;
     stamp_ = read.stamp_;
   }
-  /// Marks the scene as unsaved: the file no longer holds it.
+  /// Marks the scene as unsaved because the file no longer contains it.
   void mark_unsaved() { unsaved_ = true; }
 
   /// Adds a step to the history, unless the scene is unchanged. `at` is the displayed time. Returns
@@ -94,7 +95,8 @@ class Document {
  private:
   Document(LoadedScene loaded, Path path);
 
-  /// The hash of the scene file's last known content, and the file's modification time then.
+  /// The hash of the scene file's last known content, and the file's modification time at that
+  /// point.
   struct Stamp {
     std::filesystem::file_time_type time = {};
     std::string sha256;

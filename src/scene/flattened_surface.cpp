@@ -1,4 +1,4 @@
-// The deformation stores only the boundary. It determines the positions of all other vertices.
+// The deformation stores only the boundary, which determines the positions of all other vertices.
 #include "scene/flattened_surface.h"
 
 #include "core/error.h"

@@ -1,5 +1,5 @@
-// A flattened surface placed in the plane of the picture. The surface's texture is rendered from
-// this placement.
+// A flattened surface, placed in the plane of the picture. This placement is used to render the
+// surface's texture.
 #pragma once
 
 #include "core/mesh/mesh.h"
@@ -18,7 +18,7 @@ struct FlattenedSurface {
 };
 
 /// Flattens a surface, then moves and scales it to give its bounding box the same center and
-/// diagonal as `onto`. Throws the errors of flattened().
+/// diagonal as `onto`. Throws the same errors as flattened().
 FlattenedSurface flattened_onto(const Surface& surface, Flattening how, const Box& onto);
 
 /// Rotates, scales and moves the surface to make its boundary coincide with this outline, within

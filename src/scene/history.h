@@ -31,7 +31,8 @@ class History {
     index_ = entries_.size() - 1;
     return true;
   }
-  /// Replaces the current scene to continue the last step. Discards the scenes that were undone.
+  /// Replaces the current scene, which continues the last step. Discards the scenes that were
+  /// undone.
   void amend(Scene scene) {
     entries_.resize(index_ + 1);
     entries_[index_].scene = std::move(scene);

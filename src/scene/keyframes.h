@@ -1,4 +1,4 @@
-// Edits of a deformation's keyframes, the common timeline of a scene's layers, and the effect of
+// Edits to a deformation's keyframes, the timeline that a scene's layers share, and the effect of
 // structural edits on keyframes.
 #pragma once
 
@@ -6,18 +6,18 @@
 
 namespace holomorph {
 
-/// The index of the keyframe at a time, within a thousandth of a second. keyframes.size() if there
-/// is none.
+/// The index of the keyframe within a thousandth of a second of the given time; keyframes.size() if
+/// there is none.
 size_t key_at(const Deformation& deformation, double time);
 /// Sets the keyframe at a time to the deformation's pose. An existing keyframe keeps its ease. A
-/// new keyframe takes the ease of the keyframe before it.
+/// new keyframe gets the ease of the keyframe before it.
 Deformation with_key(Deformation deformation, double time);
 Deformation without_key(Deformation deformation, size_t key);
 /// Moves a keyframe to another time, clamped to the allowed range. Replaces any keyframe at that
 /// time. Returns the deformation and the new index of the moved keyframe.
 std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t key, double time);
 Deformation with_ease(Deformation deformation, size_t key, Ease ease);
-/// The indices of the keyframes that play. These are the keyframes whose poses fit the deformation.
+/// The indices of the keyframes that play, that is, whose poses fit the deformation.
 std::vector<size_t> playing_keys(const Deformation& deformation);
 /// Whether any layer has keyframes.
 bool has_keyframes(const Scene& scene);
@@ -35,6 +35,14 @@ int last_frame_of(const Scene& scene);
 /// The times of all frames, in seconds.
 std::vector<double> frame_times(const Scene& scene);
 
+<<<<<<< HEAD
+=======
+/// The mirror image of a pose about the vertical line through the middle of the rest cage. Each
+/// handle gets the mirrored pose of its counterpart, the handle at the mirrored rest position.
+/// Throws Error if the rest state deviates from this symmetry by more than 2 % of its size.
+Pose mirrored(const Deformation& deformation, const Pose& pose);
+
+>>>>>>> 6ef3242a7e5fff335b2ebefe007618c6916511f3
 /// Calls `edit` on each keyframe pose that fits the deformation. Before a structural edit of the
 /// deformation, call this function with the same edit to keep the keyframes fitting.
 template <class Edit>

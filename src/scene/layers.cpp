@@ -11,7 +11,8 @@ namespace holomorph {
 
 namespace {
 
-/// An id that was never used before, not even by a deleted layer, which the history may bring back.
+/// An id that has never been used before, not even by a deleted layer, because undo may bring that
+/// layer back.
 int fresh_id() {
   static std::atomic<int> last = 1'000'000;
   return ++last;

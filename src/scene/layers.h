@@ -1,4 +1,4 @@
-// Edits of a scene's stack of layers. Layers are numbered from bottom to top.
+// Edits to a scene's stack of layers. Layers are numbered from bottom to top.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,10 +7,10 @@ namespace holomorph {
 
 /// The index of the layer with this id; the number of layers if there is none.
 size_t layer_index(const Scene& scene, int id);
-/// The layer's name. If it is empty, the name of the layer's picture. Without a picture, "Layer"
-/// and the layer's number, counting from 1.
+/// The layer's name. If it is empty, the name of the layer's picture. If there is no picture
+/// either, "Layer" and the layer's number, counting from 1.
 std::string title_of_layer(const Scene& scene, size_t layer);
-/// Whether the scene is anything other than a single plain layer.
+/// Whether the scene is more than a single plain layer.
 bool has_layers(const Scene& scene);
 
 /// Replaces the layer at this index. The new layer takes over the id of the old one.
@@ -21,7 +21,7 @@ Scene with_layers_added(Scene scene, const Scene& added);
 /// Duplicates the edited layer. The copy is placed above it and becomes the edited layer.
 Scene with_layer_duplicated(const Scene& scene);
 /// Removes the edited layer, which must not be the only one. The layer below it becomes the edited
-/// layer. If the lowest layer is removed, the layer above it becomes the edited layer.
+/// layer, or the layer above it if there is none below.
 Scene without_layer(Scene scene);
 /// Moves the edited layer to another index, which must exist.
 Scene with_layer_moved(Scene scene, size_t to);

@@ -1,4 +1,4 @@
-// Limits on the contents of a scene. Readers and edits refuse larger values.
+// Limits on the contents of a scene. Readers and edits reject larger values.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// There are no dirty flags. Inputs are compared by value, and the worker gets a request when the
-// input of the preparation has changed.
+// There are no dirty flags. Inputs are compared by value, and the worker receives a request when
+// the input of the preparation changes.
 #include "scene/live_map.h"
 
 #include <algorithm>
@@ -31,19 +31,19 @@ LiveMap::~LiveMap() {
 void LiveMap::work() {
   std::unique_lock lock(mutex_);
   constexpr auto kIdle = std::chrono::milliseconds(300);
-  std::shared_ptr<PreparedMap> tried;  ///< the map for which in-betweens were last tried
+  std::shared_ptr<PreparedMap> tried;  ///< the map whose in-betweens were last attempted
   while (true) {
     const auto wanted_now = [this] { return stop_ || waiting_; };
     if (!base_ || base_ == tried || base_->between.load()) {
       changed_.wait(lock, wanted_now);
     } else if (!changed_.wait_for(lock, kIdle, wanted_now)) {
-      // Idle: prepare in advance what playback will need.
+      // The worker is idle, so it prepares what playback will need.
       const std::shared_ptr<PreparedMap> base = tried = base_;
       lock.unlock();
       try {
         inbetween_of(*base);
       } catch (const std::exception&) {
-        // Playback will fail in the same way and report the reason.
+        // Playback will fail for the same reason and report it.
       }
       lock.lock();
       continue;
@@ -192,10 +192,10 @@ void LiveMap::clear() {
   finished_ = false;
 }
 
-/// Whether the maps at keyframes are needed and computing them would block the caller noticeably.
-/// Keys that still have no map after a request have no valid map, so they are not requested again.
+/// Whether the maps at keyframes are needed and computing them would noticeably block the caller.
+/// Keys that still lack a map after a request have no valid map and are not requested again.
 bool LiveMap::needs_worker(const Deformation& deformation) const {
-  constexpr double kNoticed = 50, kShape = 4;  // ms; kShape: logarithms of a key
+  constexpr double kNoticed = 50, kShape = 4;  // ms; kShape is the time for the logarithms of a key
   if (!moment_.time || !prepared_ || busy_ || failed_) return false;
   if (requested_keys_ && requested_->keyframes == deformation.keyframes) return false;
   if (posed_moment_.time && posed_ && posed_->keyframes == deformation.keyframes) return false;

@@ -15,7 +15,7 @@ namespace holomorph {
 
 /// Keeps the map of a deformation up to date. update() never waits. While the worker prepares a
 /// changed rest state or the maps of many keyframes, the previous map remains available. It also
-/// remains after an error, which error() returns.
+/// remains available after an error; error() returns that error.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {});
@@ -50,9 +50,10 @@ class LiveMap {
   /// The image of the rest position of pin `i` of a deformation. None if the map ignores pins, if
   /// the pin lies outside the mesh, or if the map belongs to another rest state.
   std::optional<Complex> pin_image(const Deformation& deformation, size_t i) const;
-  /// The same without the check of the rest state, for a deformation that shares it with posed().
+  /// Like the overload above, but does not check the rest state. Use it for a deformation with the
+  /// same rest state as posed().
   std::optional<Complex> pin_image(size_t i) const;
-  /// The images of the zeros that the map reports.
+  /// The images of the zeros of f_z that the map reports.
   const Points& zero_images() const { return zero_images_; }
   /// The deformation to which map() belongs. It may be an earlier state of the edited deformation.
   const std::optional<Deformation>& posed() const { return posed_; }

@@ -47,7 +47,7 @@ void look_next_to_scene(const Path& scene, ImageReference& reference, const Reac
   try {
     if (files.sha256(moved.string()) == reference.sha256) reference.file = moved.string();
   } catch (const Error&) {
-    // There is no readable file next to the scene either.
+    // There is no readable copy next to the scene.
   }
 }
 
@@ -92,8 +92,8 @@ LoadedScene load_scene(const Path& path, const LoadOptions& options) {
 namespace {
 
 /// Withholds the files that are out of a scene's reach before any of them is accessed. Throws Error
-/// instead if pictures may not be missing. If the same picture also lies next to the scene, it is
-/// used from there.
+/// instead if pictures must not be missing. If a copy of a picture lies next to the scene, the copy
+/// is used.
 void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const LoadOptions& options,
                           PictureFiles& files, Pictures& pictures) {
   const Path folder = scene.parent_path();

@@ -1,4 +1,4 @@
-// Loads scenes, pictures and surfaces from disk, with all files that they refer to.
+// Loads scenes, pictures and surfaces from disk, along with all files that they refer to.
 #pragma once
 
 #include "scene/layers.h"
@@ -13,9 +13,10 @@ struct LoadedScene {
   Scene scene;  ///< with absolute paths
   Pictures pictures;
   std::string warning;  ///< for example, that a picture has changed since the scene was saved
-  std::string sha256;   ///< of the scene's text
+  std::string sha256;   ///< hash of the scene's text
 
-  const Image* image() const { return pictures.of(scene.layer()); }  ///< the edited layer's
+  /// The picture of the edited layer; null if it has none.
+  const Image* image() const { return pictures.of(scene.layer()); }
 };
 /// Options for reading a scene.
 struct LoadOptions {
@@ -24,27 +25,27 @@ struct LoadOptions {
   bool pictures_may_be_missing = false;
   Reach reach = {};
   double open_pixels = 0;     ///< number of pixels in pictures that are already open
-  bool keeps_origin = false;  ///< keep the origin that an autosave records
+  bool keeps_origin = false;  ///< keep the origin recorded in an autosave
 };
 /// Reads a scene file and the pictures that it names by paths relative to the file's folder. Looks
 /// for missing pictures next to the scene file. Throws Error.
 LoadedScene load_scene(const Path& path, const LoadOptions& options = {});
-/// The same with a given text instead of the file's content.
+/// Reads a scene from the given text instead of the file's content.
 LoadedScene scene_of_text(const std::string& text, const Path& path,
                           const LoadOptions& options = {});
-/// Whether a path has a scene's extension: .json, or .holomorph, which desktops recognize.
+/// Whether a path has a scene's extension, .json or .holomorph. Desktops recognize the latter.
 bool is_scene_name(const Path& path);
 
 /// The scene of a pasted picture, which is stored in pasted_folder(). Saving a scene places copies
 /// of such pictures next to the scene file. Throws Error.
 LoadedScene scene_of_pasted(const std::string& png);
 
-/// The scene of a single picture file, without a cage. An OpenRaster file gives one scene layer for
-/// each of its layers.
+/// The scene of a single picture file, without a cage. Each layer of an OpenRaster file becomes a
+/// layer of the scene.
 LoadedScene scene_of_image(const Path& image, double open_pixels = 0);
 
 /// The scene of a textured surface: the texture picture, with the boundary of the texture
-/// coordinates as the cage. Throws Error, also if the picture is out of reach.
+/// coordinates as the cage. Throws Error, for example if the picture is out of reach.
 LoadedScene scene_of_surface(const Path& obj, const Reach& reach = {});
 
 /// The files that a scene consists of. `scene` is empty if the scene has no file.
@@ -56,7 +57,7 @@ struct Sources {
 Sources sources_of(const Scene& scene, const Path& scene_path);
 /// Throws Error if writing to `out` would replace one of the sources.
 void check_not_a_source(const Path& out, const Sources& sources);
-/// The same, and throws Error if `out` is read-only.
+/// Like check_not_a_source(), but also throws Error if `out` is read-only.
 void check_may_write(const Path& out, const Sources& sources);
 
 /// The scene with its paths made relative to this absolute folder, for saving there. If the folder

@@ -1,5 +1,9 @@
+<<<<<<< HEAD:src/scene/mirror.cpp
 #include "scene/mirror.h"
 
+=======
+// Computes the mirror image of a pose: each handle gets the mirrored pose of its counterpart.
+>>>>>>> 6ef3242a7e5fff335b2ebefe007618c6916511f3:src/scene/mirrored.cpp
 #include <algorithm>
 
 #include "core/error.h"
@@ -22,7 +26,7 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   Cage result;
   for (size_t e = 0; e < n; ++e) {
     // The mirrored cage runs in the opposite direction. Therefore the counterpart of segment e
-    // starts at the counterpart of the end of segment e.
+    // starts at the counterpart of the vertex where e ends.
     const size_t start = counterpart(mirror, vertices, vertices[e], "cage point"),
                  end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
     if ((end + 1) % n != start)

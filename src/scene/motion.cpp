@@ -23,7 +23,7 @@ double eased(Ease ease, double u) {
 ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
                                int turns) {
   ExpectedTurn expected;
-  // Slightly less than whole turns, to choose the smaller of two equally near rotations.
+  // Using slightly less than whole turns selects the smaller of two equally close rotations.
   expected.radians = 2 * kPi * turns * (1 - kTie);
   const Method& method = method_named(deformation.method);
   if (method.uses_pins)
@@ -133,7 +133,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   align(deformation);
 }
 
-/// Determines the whole turns of the picture from key to key.
+/// Determines how many whole turns the picture makes from key to key.
 void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
@@ -155,7 +155,7 @@ const Inbetween::Shape& Motion::shape_at(size_t key) {
   constexpr size_t kKept = 12;
   const auto known = shapes_.find(key);
   if (known != shapes_.end()) return known->second;
-  if (shapes_.size() >= kKept) {  // drop the farthest
+  if (shapes_.size() >= kKept) {  // drop the shape farthest from the requested key
     const auto first = shapes_.begin(), last = std::prev(shapes_.end());
     const auto from = [&](size_t k) { return k > key ? k - key : key - k; };
     shapes_.erase(from(first->first) > from(last->first) ? first : last);

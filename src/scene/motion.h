@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// The displayed time, and the choice of blending between keyframes (see AnimationSettings).
-/// Without a time, the deformation is displayed in its own pose.
+/// The displayed time and the kind of blending between keyframes (see AnimationSettings). Without a
+/// time, the deformation is displayed in its own pose.
 struct Moment {
   std::optional<double> time = {};  ///< seconds
   bool linear_blend = false;
@@ -20,7 +20,7 @@ struct Moment {
 /// The piecewise linear map on a mesh with values `f` at the vertices.
 SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives);
 
-/// The maps at keyframes and between them. The maps at keyframes are kept until their inputs
+/// The maps at keyframes and between them. The maps at keyframes are cached until their inputs
 /// change.
 class Motion {
  public:
@@ -40,11 +40,11 @@ class Motion {
   bool plays() const { return !keys_.empty(); }
   const std::optional<Error>& error() const { return error_; }
 
-  /// The map at the last key before a time. If `later`, the map at the first key after it. Null if
-  /// there is no such key.
+  /// The map at the last key before a time, or at the first key after it if `later` is true. Null
+  /// if there is no such key.
   const VectorXc* neighboring_key(double time, bool later) const;
-  /// The key pose that is displayed at a time. There is one at a key, while a key is held, between
-  /// two keys if nothing moves, before the first key and after the last key. Otherwise null.
+  /// The key pose that is displayed at a time: at a key, while a key is held, between two keys if
+  /// nothing moves, before the first key and after the last key. Null at all other times.
   const Pose* pose_at(double time);
   /// The average rotation of the picture at a time, in radians, including whole turns.
   double rotation_at(double time) const;
@@ -81,7 +81,7 @@ class Motion {
     size_t from = 0;
     VectorXc at_from, at_to;
   };
-  /// A time relative to the keys. If u = 0, it is at key `from` or displays that key. If u > 0, it
+  /// A time relative to the keys. If u = 0, the pose of key `from` is displayed. If u > 0, the time
   /// is at the fraction u of the interval from that key to the next.
   struct TimePosition {
     size_t from = 0;
@@ -105,13 +105,13 @@ class Motion {
   std::optional<Error> error_;
   std::map<std::pair<double, double>, Location> locations_;
   // A shape needs eight times as much memory as its map. Therefore only the shapes near the
-  // requested time are kept.
+  // requested time are cached.
   std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   std::optional<Slopes> slopes_;
 };
 
-/// Preserves the rotation of the picture after keys were added to `before`. Sets the whole turns of
-/// each new key, and of the key after it. `motion` must be the motion of `before`.
+/// Preserves the rotation of the picture after keys were added to `before`. Sets the number of
+/// whole turns of each new key and of the key after it. `motion` must be the motion of `before`.
 void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion);
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Changes of a file are detected by its modification time.
+// Changes to a file are detected by its modification time.
 #include "scene/pictures.h"
 
 #include "scene/formats/ora_image.h"

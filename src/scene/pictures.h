@@ -12,7 +12,7 @@
 
 namespace holomorph {
 
-/// A picture and properties of its file.
+/// A picture and the properties of its file.
 struct Picture {
   std::shared_ptr<const Image> image;
   std::string sha256;                            ///< of the file's bytes
@@ -36,7 +36,7 @@ class PictureFiles {
   };
   const File& read(const std::string& name);
 
-  std::map<std::string, File> files_;  ///< by path
+  std::map<std::string, File> files_;  ///< keyed by path
   PixelBudget pixels_;
 };
 /// Reads a single picture. Throws Error.
@@ -63,13 +63,13 @@ class Pictures {
   void release() { withheld_.clear(); }
   /// Adds the pictures and the withheld files of another collection.
   void add(const Pictures& others);
-  /// The number of pixels of all pictures together.
+  /// The total number of pixels in all pictures.
   double pixels() const;
   /// The pictures whose files have changed since they were read and still exist.
   std::vector<ImageReference> changed() const;
 
  private:
-  std::map<std::pair<std::string, std::string>, Picture> all_;  ///< by file and entry
+  std::map<std::pair<std::string, std::string>, Picture> all_;  ///< keyed by file and entry
   std::set<std::string> withheld_;
 };
 

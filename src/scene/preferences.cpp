@@ -1,4 +1,4 @@
-// Damaged preferences are not an error. A setting that cannot be read has its default value.
+// Damaged preferences are not an error. A setting that cannot be read gets its default value.
 #include "scene/preferences.h"
 
 #include <pwd.h>
@@ -101,7 +101,7 @@ Preferences load_preferences() {
   try {
     return preferences_of_json(read_file(preferences_path()));
   } catch (const Error&) {
-    return {};  // nothing was saved yet
+    return {};  // no preferences have been saved yet
   }
 }
 
@@ -136,7 +136,7 @@ KeyNames keys_of_json(const std::string& text, const std::string& name) {
     const auto json = nlohmann::json::parse(text);
     if (json.value("format", "") == "holomorph-keys") return json.at("keys").get<KeyNames>();
   } catch (const nlohmann::json::exception&) {
-    // The error below also covers this case.
+    // Falls through to the error below.
   }
   throw Error(ErrorKind::bad_input,
               name + ": not a file of keys; choose a file written by 'Keys and mouse > Export'");

@@ -18,10 +18,10 @@ struct Preferences {
   Theme theme = Theme::dark;
   double ui_scale = 0;         ///< 0: the scale of the display
   bool native_dialogs = true;  ///< use the desktop's file dialogs, if available
-  bool hints = true;           ///< show the first steps
+  bool hints = true;           ///< show hints for the first steps
   KeyNames keys;               ///< only actions whose keys differ from the defaults
   std::vector<Path> recent;
-  std::vector<Path> trusted = {};  ///< folders whose files any scene may use
+  std::vector<Path> trusted = {};  ///< any scene may use the files in these folders
   bool operator==(const Preferences&) const = default;
 };
 
@@ -32,7 +32,7 @@ Preferences load_preferences();
 Preferences preferences_of_json(const std::string& text);
 /// Writes the preferences. Throws Error{failed} if this is not possible.
 void save_preferences(const Preferences& preferences);
-/// Moves a path to the front of the recent files, of which at most ten are kept.
+/// Moves a path to the front of the list of recent files, which is limited to ten.
 void remember(Preferences& preferences, const Path& path);
 
 /// Converts key assignments to JSON text for export, and back for import. keys_of_json throws

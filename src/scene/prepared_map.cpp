@@ -25,7 +25,7 @@ void check_coordinates(const Rest& rest, Index places) {
                    " vertices need");
 }
 
-/// Whether two cages are the same curve, regardless of the degrees of straight segments.
+/// Whether two cages describe the same curve, regardless of the degrees of straight segments.
 bool is_same_curve(const Cage& a, const Cage& b) {
   return a == b || (vertices_of(a) == vertices_of(b) && is_straight(a) && is_straight(b));
 }

@@ -17,9 +17,10 @@ struct PreparedMap {
   std::shared_ptr<const Mesh> mesh;
   std::unique_ptr<Deformer> deformer;
   std::vector<std::optional<Location>>
-      pins;                 ///< of the pins at rest; none for pins outside the mesh
-  double milliseconds = 0;  ///< time taken by the preparation
-  /// Interpolation between maps on the mesh. Null until it is needed or is computed in idle time.
+      pins;                 ///< locations of the pins at rest; none for pins outside the mesh
+  double milliseconds = 0;  ///< time that the preparation took
+  /// Interpolates between maps on the mesh. Null until it is needed or has been computed in idle
+  /// time.
   std::atomic<std::shared_ptr<const Inbetween>> between = {};
 };
 

@@ -1,5 +1,5 @@
-// A path is first checked by its name alone. If the name is in reach, the path may still be a link,
-// so its target is then checked too.
+// A path is first checked by name alone. Even if the name is in reach, the path may be a link, so
+// its target is checked too.
 #include "scene/reach.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ bool Reach::covers(const Path& file, const Path& scene_folder) const {
     return std::ranges::find(folders, each.parent_path()) != folders.end();
   };
   if (!lies_in(name, folder) && !is_known(name)) return false;
-  // The path may still be a link.
+  // The name is in reach, but the path may be a link to a file elsewhere.
   const Path real = real_path(name);
   if (real.empty()) return false;
   return lies_in(real, real_path(folder)) || std::ranges::any_of(folders, [&](const Path& each) {

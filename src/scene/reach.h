@@ -11,7 +11,7 @@ namespace holomorph {
 /// files in its own folder and its subfolders are in reach. A link is in reach if its target is.
 struct Reach {
   bool everywhere = false;
-  std::vector<Path> folders = {};  ///< absolute paths; also allows the files directly in them
+  std::vector<Path> folders = {};  ///< absolute; allows the files directly in them
 
   /// Whether a scene in a folder may read a file, given by its absolute path. The check accesses
   /// only the allowed folders. The result therefore reveals nothing about files elsewhere.

@@ -1,4 +1,4 @@
-// The origin is stored in the autosave itself. The only other file is the lock.
+// An autosave file also stores its origin, so the only additional file is the lock.
 #include "scene/recovery.h"
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 
 namespace holomorph {
 
-/// The path of a document's autosave in a folder, and the path of the autosave's lock file. The
-/// program holds the lock while it uses the autosave.
+/// The path of a document's autosave in a folder, and the path of its lock file. The program holds
+/// the lock while it uses the autosave.
 Path autosave_path(const Path& folder, const std::string& id);
 Path lock_path(const Path& autosave);
 

@@ -6,7 +6,7 @@
 
 namespace holomorph {
 
-/// The data that `holomorph info` prints.
+/// The values that `holomorph info` prints.
 struct SceneReport {
   std::optional<int> frame;    ///< number of the animation frame
   std::optional<double> time;  ///< in seconds

@@ -12,7 +12,7 @@ namespace holomorph {
 /// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};  ///< for a layer of an OpenRaster file: its file in the archive
+  std::string entry = {};  ///< for a layer of an OpenRaster file, its file in the archive
   int width = 0, height = 0;
   std::string sha256;
   Extra extra;
@@ -33,8 +33,8 @@ struct Layer {
   bool operator==(const Layer& other) const;
 };
 
-/// An immutable layer that copies of a scene share. Scenes are copied often, for example in every
-/// drag.
+/// An immutable layer, shared by copies of a scene. Scenes are copied often, for example during
+/// every drag.
 class SharedLayer {
  public:
   SharedLayer() : SharedLayer(Layer{}) {}
@@ -64,7 +64,7 @@ struct Background {
   bool operator==(const Background&) const = default;
 };
 
-/// Everything that is saved.
+/// Everything that a scene file contains.
 struct Scene {
   std::vector<SharedLayer> layers = {Layer{}};  ///< from bottom to top, at least one
   size_t edited = 0;                            ///< the layer that tools and the inspector act on

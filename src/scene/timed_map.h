@@ -1,4 +1,4 @@
-// A deformation's map in full precision, in the deformation's own pose or at a time of its
+// A deformation's map at full precision, in the deformation's own pose or at a time in its
 // animation.
 #pragma once
 
@@ -20,15 +20,16 @@ struct TimedFrame {
 /// The map of a deformation, prepared once and evaluated at many moments.
 class TimedMap {
  public:
-  /// Throws the errors of prepared_map().
+  /// Throws the same errors as prepared_map().
   explicit TimedMap(const Deformation& deformation, bool linear_blend = false);
   /// The map of the edited layer.
   explicit TimedMap(const Scene& scene)
       : TimedMap(scene.deformation(), scene.animation.linear_blend) {}
 
-  /// The frame at a time. Without a time or without keyframes, the frame in the deformation's own
-  /// pose. Throws Error if none of the keyframes plays, or if a keyframe that plays has no map.
-  /// Cost: the maps of all keyframes on the first call, and a sparse solve on each later call.
+  /// The frame at a time. Without a time or without keyframes, returns the frame in the
+  /// deformation's own pose. Throws Error if none of the keyframes plays, or if a keyframe that
+  /// plays has no map. Cost: the maps of all keyframes on the first call, and a sparse solve on
+  /// each later call.
   TimedFrame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }
@@ -36,9 +37,9 @@ class TimedMap {
 
   /// The map at the mesh's vertices, with derivatives.
   SampledMap on_mesh(const TimedFrame& frame) const;
-  /// The map at any points, with derivatives. Values are NaN where the method's map is NaN, and
-  /// meaningless outside the cage. The precomputation for the points is reused by the next call
-  /// with the same points.
+  /// The map at arbitrary points, with derivatives. Values are NaN where the method's map is NaN,
+  /// and meaningless outside the cage. The next call with the same points reuses their
+  /// precomputation.
   SampledMap at(const TimedFrame& frame, const Points& points);
 
   /// A frame's map and its inverse.

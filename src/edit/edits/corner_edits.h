@@ -1,4 +1,4 @@
-// Edits of corners for the method `angles`, which prescribes their angles.
+// Edits to the corners of a cage, for the method `angles`, which prescribes angles at corners.
 #pragma once
 
 #include "edit/edits/edits.h"
@@ -7,16 +7,16 @@ namespace holomorph {
 
 /// Whether a cage vertex is a corner. If the list of corners is empty, all vertices are corners.
 bool is_corner(const Deformation& deformation, Index vertex);
-/// The angles of a corner; the default angles for vertices that are not in the list.
+/// The angles of a corner, or the default angles if the vertex is not in the list.
 PoseCorner corner_at(const Deformation& deformation, Index vertex);
 
 /// How far a corner is opened, in radians: the angle by which its two edges have turned away from
-/// each other. corner_opened increases it by 2 `by`.
+/// each other. corner_opened increases it by twice `by`.
 double corner_opening(const Deformation& deformation, Index vertex);
 
 /// Makes a vertex a corner. Both of its edges get the rotation that the undivided edge has there.
 Deformation with_corner(Deformation deformation, Index vertex);
-/// Makes a corner a plain vertex. Throws Error if there are only three corners.
+/// Turns a corner into a plain vertex. Throws Error if there are only three corners.
 Deformation without_corner(Deformation deformation, Index vertex);
 /// Makes all vertices corners.
 Deformation with_all_corners(Deformation deformation);

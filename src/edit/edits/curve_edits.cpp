@@ -1,5 +1,5 @@
-// Whether a vertex is smooth follows from its tangents. There is no flag that could contradict
-// them.
+// A vertex is smooth if its tangents point in opposite directions. There is no separate flag that
+// could contradict them.
 #include "edit/edits/curve_edits.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Edits of curved segments: tangents, smooth vertices and corners, degrees.
+// Edits to curved segments: their tangents, smooth vertices, corners and degrees.
 #pragma once
 
 #include "edit/edits/edits.h"
@@ -16,7 +16,7 @@ Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode
 bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode);
 
 /// Moves a control point to a position. At a smooth vertex the opposite tangent rotates with it and
-/// keeps its length, unless `breaks`.
+/// keeps its length, unless `breaks` is true.
 Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
                           bool breaks);
 
@@ -29,8 +29,8 @@ Deformation cornered(Deformation deformation, Index vertex, EditMode mode);
 /// Makes the selected vertices corners if all of them are smooth, else makes them smooth.
 Deformation toggled_corners(Deformation deformation, const Selection& selection, EditMode mode);
 
-/// The segments that a selection refers to: each segment that contains a selected control point or
-/// starts at a selected vertex. If there are none, all segments.
+/// The segments that a selection refers to: those that contain a selected control point or start at
+/// a selected vertex. If there are none, returns all segments.
 std::set<Index> segments_of(const Deformation& deformation, const Selection& selection,
                             EditMode mode);
 

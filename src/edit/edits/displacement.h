@@ -9,9 +9,9 @@ namespace holomorph {
 
 /// Which handles follow the dragged ones.
 struct DragOptions {
-  bool soft = false;       ///< nearby handles follow, more weakly with distance
+  bool soft = false;       ///< nearby handles follow, less the farther away they are
   double reach = 100;      ///< radius of the soft selection in plane units
-  bool symmetric = false;  ///< the counterpart across the mirror axis makes the mirrored move
+  bool symmetric = false;  ///< the counterpart across the mirror axis moves as a mirror image
 };
 inline constexpr double kMinReach = 1, kMaxReach = 1e5;
 

@@ -127,7 +127,7 @@ Deformation inserted(Deformation deformation, Index segment, double t) {
 }
 
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
-  // In decreasing order, which keeps the remaining numbers valid.
+  // Handles are deleted in decreasing order, which keeps the remaining indices valid.
   Index vertices = 0;
   for (const Handle& handle : selection)
     vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
@@ -264,7 +264,7 @@ Complex rest_control(const Deformation& deformation, Handle handle) {
 
 Deformation reset(Deformation deformation, const Selection& selection) {
   if (selection.empty()) return at_rest(std::move(deformation));
-  // Vertices first: tangents that are not selected move with them.
+  // Vertices are reset first because unselected tangents move with them.
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0) {
       const Complex rest = deformation.rest.vertex(handle.index);

@@ -62,30 +62,30 @@ Deformation inserted(Deformation deformation, Index segment, double t);
 /// would remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
-/// Whether the usual method for a use is the deformation's method, or the method that this one
-/// follows.
+/// Whether the deformation's method, or the method that it follows, is the usual method for this
+/// use.
 bool has_method_for(const Deformation& deformation, MethodUse use);
-/// Switches to the usual method for a use.
+/// Switches to the usual method for this use.
 Deformation with_method_for(Deformation deformation, MethodUse use);
 
-/// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` holds the
-/// image of `rest` in each keyframe, where the pin is then placed. If it is empty, the pin is at
-/// `pose` in all keyframes.
+/// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` contains
+/// the image of `rest` in each keyframe; the pin is placed there. If the list is empty, the pin is
+/// at `pose` in all keyframes.
 Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
                      const std::vector<Points>& in_keyframes = {});
 
 /// Adds a stroke. Switches to the method `strokes` unless the current method is `strokes` or
-/// follows it. `in_keyframes` holds the image of `rest` in each keyframe. If it is empty, the
-/// stroke has the curve `pose` in all keyframes.
+/// follows it. `in_keyframes` contains the image of `rest` in each keyframe. If the list is empty,
+/// the stroke has the curve `pose` in all keyframes.
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes = {});
 /// The points of a stroke.
 const Points& curve_of(const Deformation& deformation, Index stroke, EditMode mode);
-/// Replaces a stroke's curve with a drawn one, which is reversed if that brings its ends closer to
-/// the old ends.
+/// Replaces a stroke's curve with a drawn curve. Reverses the drawn curve if that brings its ends
+/// closer to the old ends.
 Deformation redrawn(Deformation deformation, Index stroke, Points curve, EditMode mode);
-/// Moves one point of a curve. Points within arc length `reach` of it follow, more weakly with
-/// distance. For a closed curve, `reach` must be less than half its length.
+/// Moves one point of a curve. Points within arc length `reach` of it follow, less the farther away
+/// they are. For a closed curve, `reach` must be less than half its length.
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach);
 /// Replaces a stroke's curve.
 Deformation with_curve(Deformation deformation, Index stroke, Points curve, EditMode mode);

@@ -1,4 +1,4 @@
-// A deformation's parts are read in an order in which each part can refer to those before it.
+// The parts of a deformation are read in an order that lets each part refer to earlier ones.
 #include "scene/formats/deformation_json.h"
 
 #include "core/error.h"

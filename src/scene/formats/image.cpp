@@ -56,7 +56,7 @@ Image upright(Image image, int orientation) {
   const int w = image.width - 1, h = image.height - 1;
   for (int r = 0; r < result.height; ++r)
     for (int c = 0; c < result.width; ++c) {
-      // The position of the upright picture's pixel in the stored picture.
+      // The position, in the stored picture, of a pixel of the upright picture.
       const auto [column, row] = orientation == 2   ? std::pair(w - c, r)
                                  : orientation == 3 ? std::pair(w - c, h - r)
                                  : orientation == 4 ? std::pair(c, h - r)

@@ -29,14 +29,14 @@ struct Image {
   }
 };
 
-/// The number of pixels that the pictures of a scene may still decode.
+/// The number of pixels that may still be decoded for the pictures of a scene.
 class PixelBudget {
  public:
   /// A budget with `taken` pixels already in use.
   explicit PixelBudget(double taken = 0) : taken_(taken) {}
-  /// Takes a picture's pixels from the budget. Call it before decoding. Throws Error{bad_input} for
-  /// more pixels than are left, and for more than 16384 pixels per side. `copies` is the number of
-  /// copies of the picture that decoding holds in memory.
+  /// Deducts a picture's pixels from the budget. Call it before decoding. Throws Error{bad_input}
+  /// if the picture exceeds the remaining budget or 16384 pixels per side. `copies` is the number
+  /// of copies of the picture that decoding holds in memory.
   void take(size_t width, size_t height, const std::string& name, double copies = 1);
 
  private:
@@ -52,7 +52,7 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
   return decode_image(bytes, name, alone);
 }
 
-/// The extensions of the files that decode_image can read: lower case, with the dot.
+/// The extensions of the files that decode_image can read, in lower case and with the dot.
 const std::vector<std::string>& picture_extensions();
 
 /// The bytes of a PNG file.

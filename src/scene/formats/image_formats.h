@@ -8,7 +8,7 @@
 namespace holomorph {
 
 // Decoders of still pictures. The results are upright and in sRGB. `name` is used in messages. All
-// throw Error{bad_input} if the data are damaged or truncated, or exceed the budget.
+// throw Error{bad_input} if the data is damaged or truncated, or exceeds the budget.
 bool is_png(const std::string& bytes);
 Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_jpeg(const std::string& bytes);
@@ -22,7 +22,7 @@ Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget&
 /// OpenRaster: the merged picture of all layers that the file contains.
 bool is_ora(const std::string& bytes);
 Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels);
-/// BMP, TGA and PSD. None if the file has another format.
+/// BMP, TGA and PSD. None if the file has a different format.
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels);
 
@@ -30,8 +30,8 @@ std::optional<Image> decode_plain(const std::string& bytes, const std::string& n
 /// Error{failed}.
 std::string encode_webp(const Image& image);
 
-/// The Exif orientation, 1 to 8, that a JPEG file or a block starting with "Exif" states. 1 if it
-/// states none.
+/// The Exif orientation, 1 to 8, of a JPEG file or of a block that starts with "Exif"; 1 if none is
+/// specified.
 int orientation_of_exif(const std::string& data);
 /// Rotates and mirrors a picture with this Exif orientation to make it upright.
 Image upright(Image image, int orientation);

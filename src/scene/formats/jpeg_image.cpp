@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kMostScans = 100;  // a scan covers the whole picture, even if it has few bytes
 
-/// libjpeg reports errors by longjmp. Functions that a longjmp can leave therefore have no local
-/// objects with destructors. Such objects are members instead.
+/// libjpeg reports errors with longjmp, which does not call destructors. Functions that it can
+/// interrupt therefore have no local objects with destructors; such objects are members instead.
 class JpegReader {
  public:
   JpegReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
@@ -38,7 +38,7 @@ class JpegReader {
 
   Image read(PixelBudget& pixels) {
     run(&JpegReader::read_header);
-    // For a picture with several scans, libjpeg needs the memory of a second copy.
+    // For a picture with several scans, libjpeg needs memory for a second copy.
     const double copies = jpeg_has_multiple_scans(&jpeg_) ? 2 : 1;
     pixels.take(jpeg_.image_width, jpeg_.image_height, name_, copies);
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
@@ -94,7 +94,7 @@ class JpegReader {
     jpeg_create_decompress(&jpeg_);
     jpeg_.progress = &progress_;
     jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
-    jpeg_save_markers(&jpeg_, JPEG_APP0 + 2, 0xffff);  // the profile
+    jpeg_save_markers(&jpeg_, JPEG_APP0 + 2, 0xffff);  // the color profile
     jpeg_read_header(&jpeg_, TRUE);
     jpeg_read_icc_profile(&jpeg_, &profile_, &profile_size_);
     const bool inks = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
@@ -113,7 +113,7 @@ class JpegReader {
   }
 
   void from_inks(JSAMPROW row, std::uint8_t* out) const {
-    // Adobe programs store inverted inks; others do not.
+    // Adobe programs store inverted ink values; other programs do not.
     if (!jpeg_.saw_Adobe_marker)
       for (size_t i = 0; i < row_.size(); ++i) row[i] = static_cast<JSAMPLE>(255 - row[i]);
     cmyk_->row(row, out, image_.width);

@@ -1,4 +1,4 @@
-// Reads JSON values. Each value knows its position in the document, for use in error messages.
+// Reads JSON values. Each value stores its position in the document for error messages.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ namespace holomorph {
 
 using Json = nlohmann::ordered_json;
 
-/// A JSON value and its position. Errors state the position.
+/// A JSON value and its position. Error messages include the position.
 class Reader {
  public:
   using Kind = JsonTree::Kind;

@@ -1,5 +1,5 @@
 // nlohmann-json parses the text twice. The first pass counts the values. The second pass fills
-// arrays of exactly the right size.
+// arrays that have exactly the right size.
 #include "scene/formats/json_tree.h"
 
 #include <bit>
@@ -119,7 +119,7 @@ struct JsonTree::Fill : nlohmann::json_sax<nlohmann::json> {
 };
 
 JsonTree::JsonTree(const std::string& text, int deepest) {
-  constexpr size_t kLargest = size_t{1} << 29;  // the range of a count
+  constexpr size_t kLargest = size_t{1} << 29;  // counts must be less than this
   if (text.size() >= kLargest) throw Error(ErrorKind::bad_input, "the text is larger than 512 MB");
   Count count(deepest);
   if (!nlohmann::json::sax_parse(text, &count)) throw Error(ErrorKind::bad_input, count.problem);

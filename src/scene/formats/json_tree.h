@@ -9,8 +9,8 @@
 namespace holomorph {
 
 /// A JSON document. Integers that fit in 64 bits are exact. If a key occurs several times in an
-/// object, its last occurrence is used. Cost: linear time, and memory of at most six times the size
-/// of the text.
+/// object, its last occurrence is used. Cost: linear time, and memory at most six times the size of
+/// the text.
 class JsonTree {
  public:
   /// Throws Error{bad_input} with the position of the error if the text is not JSON, or if brackets
@@ -48,9 +48,9 @@ class JsonTree {
  private:
   struct Count;
   struct Fill;
-  /// Kind and count share a word. The count is the length of a string, or the number of items or
-  /// members. The other 64 bits contain a number, the start of a string, or the index of the first
-  /// child. They are stored in two halves to avoid padding.
+  /// The kind and the count share one word. The count is the length of a string, or the number of
+  /// items or members. The other 64 bits contain a number, the start of a string, or the index of
+  /// the first child. They are stored in two halves to avoid padding.
   struct Node {
     std::uint32_t kind : 3, count : 29;
     std::uint32_t low, high;

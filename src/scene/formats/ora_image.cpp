@@ -1,5 +1,5 @@
 // An OpenRaster file is a ZIP archive. It contains a description of the layers and a PNG file for
-// each layer. Sizes stated in the file are checked before memory is allocated.
+// each layer. Sizes from the file are checked before memory is allocated.
 #include "scene/formats/ora_image.h"
 
 #include <zip.h>
@@ -141,7 +141,7 @@ Image decode_ora_layer(const std::string& bytes, const std::string& entry, const
   const auto placed = std::ranges::find_if(
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
   if (placed == stack.layers.end()) fail(name, "its layer " + entry + " no longer exists");
-  PixelBudget alone;  // separate, because parts outside the canvas are not kept
+  PixelBudget alone;  // a separate budget, because parts outside the canvas are dropped
   const Image picture = archive.picture(entry, alone);
   pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   Image canvas(stack.width, stack.height);

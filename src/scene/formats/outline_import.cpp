@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 120;  ///< of the cage around a traced picture
+constexpr int kVertices = 120;  ///< vertices of the cage around a traced picture
 constexpr Index kMost = 4000;   ///< points; longer outlines are resampled at equal steps
 
 Points fitted(Points points, const Box& onto) {

@@ -1,5 +1,5 @@
 // Reads BMP, TGA and PSD files with stb_image. stb_image reads missing bytes as zeros and does not
-// check sizes stated in a file. Therefore the code here first checks that all pixels are present.
+// check the sizes in a file. Therefore this file first checks that all pixels are present.
 #include "core/error.h"
 #include "scene/formats/image_formats.h"
 
@@ -41,7 +41,7 @@ class Bytes {
     for (size_t k = 0; k < count; ++k) value = value << 8 | at(place + k);
     return value;
   }
-  /// Throws Error unless there are `count` bytes at `place`.
+  /// Throws Error unless there are `count` bytes at offset `place`.
   void need(size_t place, size_t count) const {
     if (place > bytes_.size() || count > bytes_.size() - place)
       throw Error(ErrorKind::bad_input,

@@ -12,8 +12,8 @@
 namespace holomorph {
 namespace {
 
-/// libpng reports errors by longjmp. Functions that a longjmp can leave therefore have no local
-/// objects with destructors. Such objects are members instead.
+/// libpng reports errors with longjmp, which does not call destructors. Functions that it can
+/// interrupt therefore have no local objects with destructors; such objects are members instead.
 class PngReader {
  public:
   PngReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
@@ -82,7 +82,8 @@ class PngReader {
     read_colors();
   }
 
-  /// libpng allocates its row buffers here, after the size of the rows has been checked.
+  /// Sets up the conversion to RGBA. This makes libpng allocate its row buffers, so the picture's
+  /// size must have been checked before.
   void prepare() {
     png_set_expand(png_);
     png_set_scale_16(png_);

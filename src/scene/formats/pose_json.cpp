@@ -1,4 +1,5 @@
-// The pose of a keyframe has the same sections as a deformation, but only the values that can move.
+// The pose of a keyframe has the same sections as a deformation, but contains only the values that
+// can change over time.
 #include "scene/formats/pose_json.h"
 
 #include <algorithm>
@@ -61,8 +62,8 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
   return pose;
 }
 
-/// The pose as JSON. If the deformation has handles of a kind but the pose has none, writes an
-/// empty list. Without the list, the reader would put these handles at rest.
+/// The pose as JSON. If the deformation has handles of some kind but the pose has none, writes an
+/// empty list. Without this list, the reader would place the handles at rest.
 Json pose_json(const Pose& pose, const Deformation& deformation) {
   Json json = Json::object();
   json["cage"] = loop_json(pose.cage);
@@ -208,7 +209,7 @@ Json animation_json(const AnimationSettings& settings) {
 
 namespace {
 
-/// Appends members without a lookup. This makes the conversion linear in time.
+/// Appends members without looking up their keys, which makes the conversion linear in time.
 Json to_json(const JsonTree::Value& value) {
   Json json;
   if (value.kind() == JsonTree::Kind::object) {

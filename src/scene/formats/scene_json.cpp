@@ -1,5 +1,5 @@
-// The reader carries the file's name and the JSON pointer. Therefore every error can state its
-// position.
+// The reader keeps track of the file's name and the JSON pointer. Every error message can therefore
+// include its position.
 #include "scene/formats/scene_json.h"
 
 #include "core/error.h"
@@ -11,7 +11,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVersion = 2, kPlainVersion = 1;  ///< with layers, and without layers
+constexpr int kVersion = 2, kPlainVersion = 1;  ///< with and without a list of layers
 constexpr int kDeepest = 200;                   ///< limit on nesting, including unknown keys
 
 ImageReference read_image(const Reader& reader) {

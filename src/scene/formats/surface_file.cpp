@@ -44,7 +44,7 @@ class ObjReader {
       } else if (kind == "f") {
         face();
       } else if (kind == "mtllib") {
-        materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // names may have a #
+        materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // names may contain #
       }
       if (points_.size() > kMost) fail("more than a million vertices");
     }
@@ -81,7 +81,7 @@ class ObjReader {
     return value;
   }
 
-  /// Converts an OBJ index to an index from 0. OBJ indices count from 1, and negative ones count
+  /// Converts an OBJ index to a zero-based index. OBJ indices start at 1, and negative ones count
   /// from the end.
   int index(std::string_view text, size_t count) const {
     long value = 0;

@@ -15,15 +15,15 @@ struct SurfaceFile {
 };
 
 /// Reads v, vt, f and mtllib lines and ignores all others. Polygons are split into fans of
-/// triangles. Vertices without a face are left out. Throws Error for damaged data, with the file
-/// and the line, and for more than a million vertices.
+/// triangles. Vertices without a face are left out. Throws Error, with the file and the line, for
+/// damaged data and for more than a million vertices.
 SurfaceFile surface_of_obj(const std::string& text, const std::string& name);
 
 /// The name of the first picture (map_Kd) in a material library; "" if there is none.
 std::string texture_of_materials(const std::string& text);
 
-/// The OBJ text of a surface with these texture coordinates. It refers to the material in this
-/// file.
+/// The OBJ text of a surface with these texture coordinates. It refers to the material library in
+/// the given file.
 std::string obj_of(const Surface& surface, const Points& texture, const std::string& material_file);
 /// A material library with one material that displays a texture file unchanged.
 std::string material_of(const std::string& texture_file);

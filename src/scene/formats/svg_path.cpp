@@ -1,4 +1,4 @@
-// pugixml parses the file. PathReader parses the path data, which have a syntax of their own.
+// pugixml parses the file. PathReader parses the path data, which has a syntax of its own.
 #include "scene/formats/svg_path.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 /// Reads path data command by command and collects the control points of each segment.
 class PathReader {
  public:
-  /// Lines of length zero are dropped unless `keeps_points`.
+  /// Lines of length zero are dropped unless `keeps_points` is true.
   PathReader(const std::string& data, std::string name, bool keeps_points)
       : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
 
@@ -164,7 +164,7 @@ void check_levels(pugi::xml_document& document, const std::string& name) {
   check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
 }
 
-/// The paths of a document in document order, without paths that are only definitions for other
+/// The paths of a document in document order, except paths that are only definitions for other
 /// elements.
 std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
   static const std::set<std::string> kUnseen{"defs",   "clipPath", "mask",
@@ -203,7 +203,7 @@ bool is_transformed(const pugi::xml_node& node) {
   return false;
 }
 
-/// Moves tangent handles that coincide with their points a little along the curve.
+/// Moves each tangent handle that coincides with its point slightly along the curve.
 void separate_handles(Cage& cage) {
   constexpr double kPull = 1e-3;
   for (Index e = 0; e < cage.size(); ++e) {

@@ -15,10 +15,10 @@ enum class PathUse { rest, pose, outline };
 
 /// Reads a path of an SVG file as a loop in plane coordinates: y = height - y_svg. `height` is the
 /// height of the picture; if it is not positive, the drawing's height is used. Reads the path with
-/// the id "rest", "pose" or "outline", or else the first path. The commands M L H V C S Q T Z are
-/// supported, absolute and relative. There must be a single subpath that is closed or can be
-/// closed. Throws Error{bad_input} with the reason and the position if the file has no path, or if
-/// the path has transforms, arcs, several subpaths or damaged numbers.
+/// the id "rest", "pose" or "outline", or the first path if there is none. The commands M L H V C S
+/// Q T Z are supported, absolute and relative. There must be a single subpath that is closed or can
+/// be closed. Throws Error{bad_input} with the reason and the position if the file has no path, or
+/// if the path has transforms, arcs, several subpaths or damaged numbers.
 Cage cage_of_svg(const std::string& text, const std::string& name, double height,
                  PathUse use = PathUse::rest);
 
@@ -26,7 +26,7 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
 /// the rest cage is different, it is the dashed path "rest". Pins are circles. cage_of_svg can read
 /// both cages back, up to rounding. Segments of a degree above three are approximated by several
 /// cubics, to within 1e-4 of the segment's size. The corresponding segments of the other cage are
-/// split into equally many pieces.
+/// split into the same number of pieces.
 std::string svg_of(const Deformation& deformation, const std::optional<ImageReference>& image);
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// Reads TIFF files from memory with libtiff. libtiff checks the values stated in a file, and its
-// messages are reported as errors.
+// Reads TIFF files from memory with libtiff. libtiff checks the values in a file, and its messages
+// are reported as errors.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -44,7 +44,8 @@ toff_t size_of(thandle_t handle) {
   return static_cast<Stream*>(handle)->bytes.size();
 }
 
-/// Unpacks the pixels. libtiff packs each pixel into one number with premultiplied alpha.
+/// Unpacks the pixels and converts them to straight alpha. libtiff packs each pixel into one number
+/// with premultiplied alpha.
 void make_straight(Image& image) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     uint32_t pixel = 0;

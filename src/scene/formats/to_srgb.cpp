@@ -53,7 +53,7 @@ void convert(Image& image, const Conversion& conversion) {
                    static_cast<cmsUInt32Number>(image.width));
 }
 
-/// The same for a gray profile. All three channels of the image contain the gray value.
+/// Like convert(), for a gray profile. All three channels of the image contain the gray value.
 void convert_gray(Image& image, const Conversion& conversion) {
   std::uint8_t grays[256];
   std::uint8_t colors[256 * 4];
@@ -85,7 +85,7 @@ void to_srgb(Image& image, const Chromaticities& p, double gamma) {
   cmsCIExyY white{p.white[0], p.white[1], 1};
   cmsCIExyYTRIPLE primaries{
       {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
-  // sRGB files state the gamma 1 / 2.2.
+  // sRGB files specify a gamma of 1 / 2.2.
   constexpr double kLikeSrgb = 0.005;
   const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb

@@ -1,4 +1,4 @@
-// Converts the colors of a picture to sRGB by the file's color profile or gamma.
+// Converts the colors of a picture to sRGB using the file's color profile or gamma.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 namespace holomorph {
 
 /// Converts the pixels of a picture in place to sRGB from the RGB or gray space of an ICC profile.
-/// Does nothing if the profile is damaged, describes another kind of color space, or agrees with
-/// sRGB to within one step.
+/// Does nothing if the profile is damaged, describes another kind of color space, or differs from
+/// sRGB by at most one step.
 void to_srgb(Image& image, const std::string& profile);
 
 /// Converts 8-bit CMYK, in which 255 means no ink, to opaque RGBA. Uses the profile only if it is a
@@ -27,8 +27,8 @@ class CmykToSrgb {
   std::unique_ptr<Transform> transform_;  ///< null without a usable CMYK profile
 };
 
-/// The color space stated by a PNG file without a profile: the x and y chromaticities of white,
-/// red, green and blue. `gamma` is the exponent of the samples.
+/// The color space of a PNG file without a profile: the x and y chromaticities of white, red, green
+/// and blue. `gamma` is the exponent of the samples.
 struct Chromaticities {
   double white[2] = {0.3127, 0.3290}, red[2] = {0.64, 0.33}, green[2] = {0.30, 0.60},
          blue[2] = {0.15, 0.06};

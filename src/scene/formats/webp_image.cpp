@@ -45,7 +45,7 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
     throw Error(
         ErrorKind::bad_input,
         name + ": the WebP picture is animated; save one of its frames as a picture and open that");
-  // The first chunk states the length of the file.
+  // The header contains the length of the file.
   const auto byte = [&](size_t i) { return static_cast<size_t>(data[i]); };
   if ((byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24) + 8 > bytes.size())
     throw Error(ErrorKind::bad_input, name + ": the picture is cut off: the file ends too early");
