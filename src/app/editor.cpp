@@ -182,7 +182,7 @@ class Editor {
     was_active_ = active;
     panel_focus_.look();
     for (const auto& [key, repeats] : window_.take_keys()) {
-      const KeyFocus focus = key_focus(window_focus());  // the last key may have changed it
+      const KeyFocus focus = key_focus(window_focus());  // the previous key may have changed it
       if (focus == KeyFocus::assignment && !repeats) keys_.take(key);  // a held key counts once
       if (focus == KeyFocus::panel) handle_panel_key(key);
       if (focus == KeyFocus::canvas) take_key(key);
@@ -216,7 +216,7 @@ class Editor {
     if (action && acts_from_panel(key, *action)) holomorph::run(*action, workspace_);
   }
 
-  /// Whether a key of this action is down. For actions that act while their key is held.
+  /// Whether a key of this action is down. Used for actions that last while a key is held.
   bool is_held(const char* id) const {
     const ImGuiIO& io = ImGui::GetIO();
     const Modifiers held{io.KeyCtrl, io.KeyShift, io.KeyAlt && !window_.alt_override()};
@@ -236,8 +236,8 @@ class Editor {
       holomorph::run(*action, workspace_);
   }
 
-  /// During a gesture only actions that allow it can run, such as changes of the view. Undo reverts
-  /// part of the gesture.
+  /// During a gesture, only actions that allow it can run, such as changes of the view. Undo takes
+  /// back part of the gesture.
   void handle_key_in_gesture(const Shortcut& key) {
     const Action* action = workspace_.actions.owner_of(key);
     if (!action) return;
@@ -375,7 +375,7 @@ class Editor {
       draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
       const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
       draw_missing_picture(workspace_, scale, offer);
-      // Hints are hidden while the offer of a cage is shown, because it takes the first step.
+      // The cage offer already suggests the first step, so hints are hidden while it is shown.
       if (preferences_.hints && offer == 0 && !draw_hints(workspace_, files_.has_kept(), scale)) {
         preferences_.hints = false;
         files_.keep_preferences();

@@ -5,8 +5,8 @@
 
 namespace holomorph {
 
-/// The path of a file in the document's folder. A document without a file uses the folder of the
-/// last dialog.
+/// The path of a file in the document's folder. If the document has no file yet, the folder of the
+/// last dialog is used.
 Path in_document_folder(const Document& document, const FileChooser& chooser,
                         const std::string& name);
 
@@ -17,7 +17,7 @@ class Exports {
 
   /// Handles an action's request if it is an export.
   void answer(Request request);
-  /// To be called when another document is opened. Forgets the last export.
+  /// Forgets the last export. Call this when another document is opened.
   void forget() { dialog_.forget(); }
   bool has_exported() const { return dialog_.has_exported(); }
   /// Whether the dialog for pictures and films is open.

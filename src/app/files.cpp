@@ -1,4 +1,4 @@
-// Everything that would lose unsaved work goes through ask_about_changes_then.
+// Every operation that would discard unsaved work goes through ask_about_changes_then.
 #include "app/files.h"
 
 #include <imgui.h>
@@ -13,7 +13,7 @@
 namespace holomorph {
 namespace {
 
-/// A path as printable text, on one line and not too long.
+/// A path as printable text on one line, shortened if it is long.
 std::string short_name(const Path& path) {
   constexpr size_t kMost = 120;
   std::string text = printable(path.string());
@@ -184,7 +184,7 @@ void Files::watch_scene() {
   const SceneWatch::Change change = scene_watch_.look(document);
   if (change == SceneWatch::Change::none) return;
   const bool saved = !document.modified();
-  document.mark_unsaved();  // the file no longer has this version
+  document.mark_unsaved();  // the file no longer contains this version
   if (change == SceneWatch::Change::gone)
     workspace_.messages.complain(
         document.title() +
@@ -258,7 +258,7 @@ void Files::recover(const Path& autosave) {
       [this, recovered, autosave] {
         adopt(std::move(**recovered));
         if (!workspace_.document.autosave(autosave_folder())) return;
-        discard(autosave);  // the document has its own autosave
+        discard(autosave);  // the document now has an autosave of its own
         workspace_.messages.say(workspace_.document.path().empty()
                                     ? "Recovered. Save it under a name to keep it."
                                     : "Recovered. Save to keep it.");

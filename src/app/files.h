@@ -38,17 +38,17 @@ class Files {
   void discard(const Path& autosave);
   const std::vector<Recovery>& recoverable() const { return recoverable_; }
 
-  /// Reloads pictures and the scene when another program has changed them. To be called regularly.
+  /// Reloads pictures and the scene when another program has changed them. Call this regularly.
   void watch();
-  /// Keeps the autosave up to date. To be called once per frame.
+  /// Keeps the autosave up to date. Call this once per frame.
   void autosave();
   void keep_preferences();
-  /// Draws the dialog or question that is open.
+  /// Draws the open dialog or question, if any.
   void draw(double scale);
   bool asking() const {
     return dialog_.open() || exports_.asking() || questions_.open() || jobs_.running();
   }
-  /// The title of the question that is open, or "".
+  /// The title of the open question, or "".
   std::string question() const { return questions_.title(); }
   /// Whether a job is running. Frames must then be drawn even without events.
   bool busy() const { return jobs_.running(); }

@@ -6,14 +6,14 @@
 
 namespace holomorph {
 
-/// These extensions, followed by those of pictures.
+/// Appends the extensions of pictures to a list of extensions.
 std::vector<std::string> and_pictures(std::vector<std::string> kinds);
 
 class Imports {
  public:
-  /// `reach` returns which files scenes may read. `chosen` is called with every file that the user
-  /// chose and that could be read, and `remember` with every file that was added as a layer.
-  /// `first` is called after the first layer was added to an empty document.
+  /// `reach` returns which files scenes may read. `chosen` is called with each file that the user
+  /// has chosen and that could be read. `remember` is called with each file that was added as a
+  /// layer. `first` is called after the first layer was added to an empty document.
   Imports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<Reach()> reach,
           std::function<void(const Path&)> remember, std::function<void(const Path&)> chosen,
           std::function<void()> first)
@@ -28,7 +28,7 @@ class Imports {
   /// Handles an action's request if it is an import.
   void answer(Request request);
 
-  /// Each function returns an error message, or "".
+  /// These functions return an error message, or "".
   std::string add_layer(const Path& path);
   std::string replace_picture(const Path& path);
   std::string svg(const Path& path, bool pose);

@@ -61,7 +61,7 @@ void PictureWatch::start(const Changed& changed) {
 
 void PictureWatch::take_over() {
   const std::unique_ptr<Job> ended = std::move(reading_);
-  if (ended->cancelled()) return;  // it belonged to another document
+  if (ended->cancelled()) return;  // it was reading for another document
   bool resized = false, back = false;
   for (auto& [reference, picture] : *read_) {
     if (const Picture* known = workspace_.document.pictures().find(reference)) {

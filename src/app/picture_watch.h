@@ -14,9 +14,9 @@ class PictureWatch {
  public:
   explicit PictureWatch(Workspace& workspace) : workspace_(workspace) {}
 
-  /// To be called regularly. Checks the files, and puts pictures that were read into the document.
+  /// Checks the files and puts pictures that were read into the document. Call this regularly.
   void look();
-  /// To be called when the workspace has another document.
+  /// Call this when the workspace has switched to another document.
   void forget();
 
  private:

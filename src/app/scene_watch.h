@@ -9,9 +9,8 @@ class SceneWatch {
  public:
   enum class Change { none, changed, gone };
 
-  /// To be called regularly. Reports each change once. A changed file is reported when two
-  /// consecutive calls find the same modification time. Before that, the other program may still be
-  /// writing it.
+  /// Reports each change once. Call this regularly. A changed file is reported when two consecutive
+  /// calls find the same modification time. Before that, the other program may still be writing it.
   Change look(Document& document);
 
  private:

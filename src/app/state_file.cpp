@@ -27,7 +27,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"height", view.height},
       {"center", {view.center.real(), view.center.imag()}},
       {"zoom", view.zoom},
-      {"first_point", {first.real(), first.imag()}},  // of the cage at rest
+      {"first_point", {first.real(), first.imag()}},  // position in the cage at rest
       {"tool", kTools[static_cast<int>(workspace.tools.active)]},
       {"posture", workspace.mode == EditMode::rest ? "rest" : "pose"},
       {"view", kViewNames[static_cast<size_t>(workspace.display.view)]},

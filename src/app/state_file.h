@@ -10,26 +10,26 @@ namespace holomorph {
 struct PartsState {
   bool gesture = false;  ///< a tool is in use
   int compared_rows = 0;
-  bool on_surface = false;       ///< the picture is on the surface in space
-  double yaw = 0, distance = 0;  ///< of the surface's camera
+  bool on_surface = false;       ///< the surface in space shows the picture
+  double yaw = 0, distance = 0;  ///< position of the surface's camera
   double slowest_ms = 0;         ///< longest frame so far, from its first event to its last pixel
   bool settling = false;         ///< the view will move in the next frame
   bool pending = false;          ///< input events are queued for later frames
   int taken = 0;                 ///< presses and releases of keys and buttons handled so far
-  bool asking = false;           ///< a dialog takes the keys
+  bool asking = false;           ///< a dialog has the keyboard focus
   std::string question = {};     ///< title of the open question about files
-  bool in_panel = false;         ///< a panel takes the keys
+  bool in_panel = false;         ///< a panel has the keyboard focus
   Theme theme = Theme::dark;
-  double scale = 1;        ///< of the interface
+  double scale = 1;        ///< scale of the interface
   bool exporting = false;  ///< a job, such as an export, is running
 };
 
 class StateFile {
  public:
   explicit StateFile(Path path) : path_(std::move(path)) {}
-  /// Writes the state if it has changed since the last write. The plane point (x, y) is at window
-  /// position  px = left + width / 2 + (x - center_x) zoom,  py = top + height / 2 - (y - center_y)
-  /// zoom.
+  /// Writes the state if it has changed since the last write. The plane point (x, y) is at the
+  /// window position px = left + width / 2 + (x - center_x) zoom, py = top + height / 2 - (y -
+  /// center_y) zoom.
   void write(const Workspace& workspace, const PartsState& parts);
 
  private:

@@ -101,7 +101,7 @@ void apply_theme(double scale, Theme theme) {
   c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_ButtonHovered] = rgb(hover);
   c[ImGuiCol_FrameBgActive] = c[ImGuiCol_ButtonActive] = rgb(accent, 0.55f);
   c[ImGuiCol_CheckMark] = rgb(accent);
-  c[ImGuiCol_PlotHistogram] = rgb(accent, 0.5f);  // progress
+  c[ImGuiCol_PlotHistogram] = rgb(accent, 0.5f);  // progress bars
   c[ImGuiCol_SliderGrab] = rgb(accent, 0.55f);    // translucent, to keep the value readable
   c[ImGuiCol_SliderGrabActive] = rgb(accent, 0.75f);
   c[ImGuiCol_ModalWindowDimBg] = rgb(0x000000, 0.5f);
@@ -174,7 +174,7 @@ std::string fitted_text(const std::string& text, float width) {
     fitted.resize(end == std::string::npos ? 0 : end);
   }
   if (!fitted.empty() || text.empty()) return fitted;
-  // Not even the first clause fits. Keep as many whole characters as fit.
+  // Even the first clause does not fit. Keep as many whole characters as fit.
   size_t kept = std::min(text.find_first_of(",;"), text.size());
   if (kept == 0) return "";
   do {

@@ -16,11 +16,11 @@ void apply_theme(double scale, Theme theme);
 /// The large font for titles.
 ImFont* title_font();
 
-/// Draws text on as many lines as it needs. It breaks only at white space, whereas ImGui's own
-/// wrapping also breaks within numbers such as 1.6.
+/// Draws text wrapped at white space only. ImGui's own wrapping also breaks lines within numbers
+/// such as 1.6.
 void wrapped_text(const std::string& text);
-/// Shortens a text to as many of its clauses, which commas and semicolons end, as fit into a width
-/// in px. If not even the first clause fits, returns its beginning and "...".
+/// Shortens a text to the leading clauses that fit into a width in px. A clause ends at a comma or
+/// semicolon. If even the first clause does not fit, returns its beginning and "...".
 std::string fitted_text(const std::string& text, float width);
 
 /// Colors of the canvas and of what is drawn over it.

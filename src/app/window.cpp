@@ -25,7 +25,7 @@ Window* self(GLFWwindow* window) {
   return static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-/// The key code of what the user's keyboard layout prints on a physical key.
+/// The key code of the character that a physical key prints in the user's keyboard layout.
 int printed_key(int key, int scancode) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -175,7 +175,7 @@ void Window::set_style(double ui_scale, Theme theme) {
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
   theme_ = theme;
   apply_theme(scale_, theme);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // rebuilt from the changed fonts
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next line rebuilds it from the new fonts
   ImGui_ImplOpenGL3_CreateFontsTexture();
   wake();
 }

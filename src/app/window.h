@@ -1,4 +1,4 @@
-// The GLFW window and the ImGui context in it: takes events, draws frames, sleeps when idle.
+// The GLFW window and the ImGui context in it: receives events, draws frames, and sleeps when idle.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace holomorph {
 
 struct KeyPress {
   Shortcut key;
-  bool repeats = false;  ///< sent by auto-repeat, because the key is held
+  bool repeats = false;  ///< sent by auto-repeat while the key is held
 };
 
 /// Owns the window, its OpenGL context and the ImGui context. The constructor throws Error{failed}
@@ -30,7 +30,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   /// Waits until a frame must be drawn, but at most `longest` seconds. Returns whether to draw one.
-  /// Events and wake() require frames, and several frames follow each event.
+  /// Each event and each call of wake() causes several frames.
   bool wait(double longest);
   /// Makes wait() return. May be called from any thread.
   void wake();

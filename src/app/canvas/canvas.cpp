@@ -28,7 +28,7 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   return frame;
 }
 
-/// The color of a one-colored background, which replaces the theme's background.
+/// The color of a solid background, which replaces the theme's background.
 Color color_of(const Background& background) {
   Color color;
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;

@@ -26,10 +26,10 @@ class Canvas {
   /// `wake` is called on another thread when there is something new to draw.
   explicit Canvas(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// To be called when the workspace has another document.
+  /// Call this when the workspace has switched to another document.
   void forget() { forgets_ = true; }
-  /// To be called between frames. Allocates GPU memory for a picture that is ready, which can take
-  /// as long as a frame. Returns whether there was such a picture.
+  /// Allocates GPU memory for a picture that is ready, which can take as long as a frame. Returns
+  /// whether there was such a picture. Call this between frames.
   bool allocate_texture();
   /// Uploads what has changed since the last frame, then draws. The maps must be up to date.
   void draw(Workspace& workspace, const CanvasFrame& frame);
@@ -41,7 +41,7 @@ class Canvas {
   /// uploads changes.
   void draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay);
 
-  /// The edited layer's painter, which knows its heat map and how it is drawn. Valid after the
+  /// The edited layer's painter, for its heat map and the way in which it is drawn. Valid after the
   /// first call of draw.
   const LayerPainter& edited() const { return *edited_; }
 

@@ -65,7 +65,7 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
   if (uploaded_ != map.preparation() || timed_ != timed) {
     if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
     // The shader computes positions as a sum over controls. Software OpenGL is too slow for this,
-    // and in-betweens of keyframes are not such sums.
+    // and maps interpolated between keyframes are not such sums.
     by_operator_ = renderer_.set_operator(
         is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
     uploaded_ = map.preparation();

@@ -17,8 +17,8 @@ class LayerPainter {
   explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   /// Sets the current picture, or null. Large pictures are prepared on another thread and appear
-  /// gradually. Returns once, when it is known, the factor by which the picture was reduced for
-  /// this driver (1: not reduced). Otherwise returns 0.
+  /// gradually. Once per picture, when the factor by which it was reduced for this driver is known,
+  /// returns that factor (1: not reduced). All other calls return 0.
   int update_picture(std::shared_ptr<const Image> picture);
   /// Allocates GPU memory for a prepared picture, which can take as long as a frame. Returns
   /// whether a picture was prepared.
@@ -50,7 +50,7 @@ class LayerPainter {
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;
   unsigned uploaded_ = 0;  ///< number of the preparation; 0: none
-  bool timed_ = false;     ///< the uploaded map is an in-between of keyframes
+  bool timed_ = false;     ///< the uploaded map is interpolated between keyframes
   bool by_operator_ = false;
 };
 

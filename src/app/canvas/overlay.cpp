@@ -1,4 +1,4 @@
-// Decides what the overlay shows and in which order. marks.h draws the single marks.
+// Decides what the overlay shows and in which order. marks.h draws the individual marks.
 #include "app/canvas/overlay.h"
 
 #include "app/canvas/canvas.h"
@@ -246,7 +246,7 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
     draw_line(list, window_line(workspace, deformation.outline), true, style.colors.accent, style);
 }
 
-/// Marks what the map does: pins that it misses, zeros of its derivative, corners at their limit.
+/// Marks pins that the map misses, zeros of its derivative, and corners at their limit.
 void draw_map_marks(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const auto& posed = workspace.map().posed();

@@ -8,7 +8,7 @@ namespace holomorph {
 
 struct OverlayStyle {
   CanvasColors colors;
-  double scale = 1;  ///< of the display
+  double scale = 1;  ///< the display's scale
 };
 
 /// The position of a point of the plane in the window.

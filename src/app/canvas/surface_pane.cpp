@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFlattenings[] = {"Free boundary", "Onto a circle"};
 
-/// Whether the surface must not be read until the user agrees.
+/// Whether the user must agree before the surface may be read.
 bool is_withheld(const Workspace& workspace) {
   return workspace.document.pictures().withheld().contains(
       workspace.shown.deformation().surface->file);
@@ -139,7 +139,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
-  // In a narrow pane, the choice gets its own row.
+  // In a narrow pane, the choice of flattening is on a row of its own.
   const bool one_row = ImGui::CalcTextSize(name.c_str()).x + combo + 2 * gap < right;
   if (one_row) {
     ImGui::SameLine(right - combo - gap);

@@ -46,11 +46,11 @@ class SurfacePane {
   std::optional<SurfaceReference> shown_;
   std::filesystem::file_time_type read_;  ///< modification time of the file that was read
   Points outline_;                        ///< the outline that fitted_surface_ was fitted to
-  std::optional<FlattenedSurface> flat_;  ///< before fitting; none if it could not be read
+  std::optional<FlattenedSurface> flat_;  ///< the unfitted surface; none if unreadable
   std::optional<FlattenedSurface> fitted_surface_;
   Box box_;  ///< the part of the plane that the texture shows
   OrbitCamera camera_;
-  double fitted_ = 0;    ///< aspect ratio for which the camera was fitted; 0: to be fitted
+  double fitted_ = 0;    ///< aspect ratio for which the camera was fitted; 0: not fitted yet
   bool moved_ = false;   ///< the user has moved the camera
   std::string problem_;  ///< why the surface shows no picture
   bool hovered_ = false;

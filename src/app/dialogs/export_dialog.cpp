@@ -237,7 +237,7 @@ bool ExportDialog::take_path(const Path& path) {
 }
 
 void ExportDialog::accept() {
-  opening_ = true;  // focuses the name if the dialog stays open
+  opening_ = true;  // returns the focus to the name if the dialog stays open
   if (name_.empty()) return;
   Path path = in_folder(name_);
   std::error_code error;

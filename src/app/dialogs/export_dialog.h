@@ -10,8 +10,8 @@ namespace holomorph {
 /// Settings of an export. "Export again" reuses them.
 struct ExportSettings {
   enum class Region { all, picture, canvas };
-  Path path;          ///< its extension decides the format
-  bool film = false;  ///< export a film; matters for .png and .webp, which can be either
+  Path path;          ///< its extension determines the format
+  bool film = false;  ///< a film or a picture; .png and .webp can be either
   double scale = 1;   ///< output pixels per image pixel
   Region region = Region::all;
   std::optional<Background> background;  ///< none: the scene's
@@ -34,7 +34,7 @@ class ExportDialog {
   void ask(bool film, const Path& folder);
   /// Repeats the last export, or opens the dialog if there was none.
   void again(const Path& folder);
-  /// To be called when another document is opened. Forgets the last export.
+  /// Forgets the last export. Call this when another document is opened.
   void forget() { last_.reset(); }
   bool has_exported() const { return last_.has_value(); }
   bool open() const { return open_; }
@@ -51,7 +51,7 @@ class ExportDialog {
   /// Returns an error message, or "".
   std::string start(const ExportSettings& settings);
   std::vector<std::string> extensions() const;
-  /// The path for a typed name. Relative names refer to the last folder.
+  /// The path for a typed name. Relative names are resolved in the last folder.
   Path in_folder(const Path& path) const;
   bool take_path(const Path& path);
   void accept();
@@ -61,7 +61,7 @@ class ExportDialog {
   FileChooser& chooser_;
   ExportSettings settings_;
   std::optional<ExportSettings> last_;  ///< settings of the last export
-  bool last_all_ = true;                ///< the last export went up to the scene's last frame
+  bool last_all_ = true;                ///< the last export ended at the scene's last frame
   Path folder_;
   std::string name_, message_;
   bool open_ = false, opening_ = false, confirming_ = false;

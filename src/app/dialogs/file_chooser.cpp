@@ -72,7 +72,7 @@ void FileChooser::ask(FileQuestion question, Answer answer) {
 void FileChooser::use_native_answer() {
   native_.reset();
   if (chosen_->empty()) return;
-  // Moved out of the members, because the answer may ask another question.
+  // Move the members into locals, because the answer may ask another question.
   FileQuestion question = std::move(question_);
   const Answer answer = std::move(answer_);
   Path path = *chosen_;
@@ -100,7 +100,7 @@ void FileChooser::use_native_answer() {
 
 void FileChooser::draw(double scale) {
   if (!native_) return browser_.draw(scale);
-  // The window is still drawn, but takes no input until the desktop's dialog is closed.
+  // The window is still drawn but accepts no input until the desktop's dialog is closed.
   ImGui::OpenPopup("###native");
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});

@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// Asks one question at a time. The answer comes through the callback.
+/// Asks one question at a time and passes the chosen path to a callback.
 class FileChooser {
  public:
   using Answer = FileDialog::Answer;
@@ -17,7 +17,7 @@ class FileChooser {
   /// `wake` is called on another thread when the desktop's dialog has been answered.
   explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Questions that ask for more than a file always use the browser.
+  /// Questions that ask for more than a file name always use the browser.
   void ask(FileQuestion question, Answer answer);
   /// Asks for a file to read. `answer` uses the file and returns an error message, or "".
   void ask_open(const std::string& title, const std::string& button,

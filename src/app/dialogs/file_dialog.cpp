@@ -73,7 +73,7 @@ void FileDialog::enter(const Path& folder) {
   items_ = std::move(items);
 }
 
-/// The files that saving would replace.
+/// The existing files that saving to this path would replace.
 std::vector<Path> FileDialog::existing_files(const Path& path) const {
   std::vector<Path> files = question_.writes ? question_.writes(path) : std::vector{path};
   std::erase_if(files, [](const Path& file) {

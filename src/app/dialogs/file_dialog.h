@@ -14,7 +14,8 @@ namespace holomorph {
 struct FileQuestion {
   enum class Mode { open, save } mode = Mode::open;
   std::string title, button;
-  /// In lower case, with the dot. Saving adds the first one to a name that ends in none of them.
+  /// In lower case, with the dot. When saving, the first one is added to a name that ends in none
+  /// of them.
   std::vector<std::string> extensions;
   Path start;               ///< a folder or a file; empty: the last folder
   bool asks_scale = false;  ///< also asks for the scale of pictures
@@ -22,7 +23,7 @@ struct FileQuestion {
   std::function<std::vector<Path>(const Path&)> writes = {};
 };
 
-/// Shows one question at a time. The answer comes through the callback.
+/// Shows one question at a time and passes the chosen path to a callback.
 class FileDialog {
  public:
   /// Uses the chosen path. Returns "", or an error message, which keeps the dialog open.

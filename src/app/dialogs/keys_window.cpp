@@ -172,7 +172,7 @@ void KeysWindow::draw(double scale) {
   }
   ImGui::SetNextItemWidth(-340 * s);
   ImGui::InputTextWithHint("##search", "Search actions and keys", &search_);
-  if (ImGui::IsItemActive()) stop_waiting();  // typed text must not become a key
+  if (ImGui::IsItemActive()) stop_waiting();  // typed text must not be assigned as a key
   ImGui::SameLine();
   if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
   ImGui::SameLine();

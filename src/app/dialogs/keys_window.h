@@ -22,7 +22,7 @@ class KeysWindow {
 
  private:
   void draw_row(const Action& action, float s);
-  /// Each returns whether anything matches the search.
+  /// Both functions return whether anything matches the search.
   bool draw_keys(float s);
   bool draw_gestures(float s);
   void export_keys();
@@ -35,7 +35,7 @@ class KeysWindow {
   FileChooser& chooser_;
   std::function<void()> changed_;
   std::string search_, waiting_;         ///< waiting_: id of the action whose key is being chosen
-  bool adds_key_ = false;                ///< the action keeps its present keys
+  bool adds_key_ = false;                ///< the new key is added to the action's present keys
   std::optional<Shortcut> pending_key_;  ///< belongs to another action; must be pressed again
   bool open_ = false, opening_ = false, was_waiting_ = false;
 };

@@ -130,7 +130,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
   ImGui::End();
   open_ = !run && !left;
-  opening_ = open_ && entered;  // keeps the field's focus if Enter did not close the palette
+  opening_ = open_ && entered;  // keeps the focus on the field if Enter did not close the palette
   if (run) run->run();
   return answer;
 }

@@ -11,7 +11,7 @@ namespace holomorph {
 void Questions::draw(double scale) {
   if (!open_) return;
   constexpr const char* kId = "###question";
-  constexpr size_t kShort = 12;  // characters
+  constexpr size_t kShort = 12;  // the longest short answer, in characters
   const float s = static_cast<float>(scale);
   ImGui::OpenPopup(kId);
   const ImVec2 display = ImGui::GetIO().DisplaySize;

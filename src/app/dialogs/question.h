@@ -15,9 +15,8 @@ struct Question {
   };
   std::string title, text;
   std::vector<Answer> answers;
-  size_t default_answer =
-      0;  ///< the answer that has the focus and that Enter gives; should be harmless
-  std::optional<size_t> escape = {};  ///< the answer that Escape gives; none: the last answer
+  size_t default_answer = 0;          ///< has the focus, so Enter chooses it; should be harmless
+  std::optional<size_t> escape = {};  ///< the answer that Escape chooses; none: the last answer
 };
 
 /// Shows one question at a time.

@@ -6,7 +6,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 800;  ///< of the mesh; some methods take seconds even for this few
+constexpr int kVertices = 800;  ///< mesh size; some methods take seconds even at this size
 
 void cell(const char* format, double value) {
   ImGui::TableNextColumn();
@@ -127,7 +127,7 @@ void ComparisonPanel::draw_table(double scale) {
     cell("%.3f", row.max_tau);
     cell("%.0f", row.flipped_triangles);
     cell("%.2f", row.turning_number);
-    if (i == 0) continue;  // the reference is not solved for, so it has no time
+    if (i == 0) continue;  // the reference map needs no solve, so it has no time
     cell("%.0f", row.milliseconds);
     ImGui::TableNextColumn();
     ImGui::Text(row.settled ? "%d" : "%d, not settled", row.iterations);

@@ -43,7 +43,7 @@ class ComparisonPanel {
   std::vector<ComparedMap> rows_;
   std::string failure_;
   bool computing_ = false;
-  std::jthread worker_;  ///< declared last, because it must end before the other members do
+  std::jthread worker_;  ///< declared last, so it ends before the other members are destroyed
 };
 
 }  // namespace holomorph

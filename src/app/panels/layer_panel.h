@@ -9,7 +9,7 @@ class LayerPanel {
  public:
   /// Opens a text field for the edited layer's name.
   void rename(const Scene& scene);
-  /// To be called when another document is opened.
+  /// Call this when another document is opened.
   void forget() { renamed_id_ = 0; }
   /// Whether a name is being typed. Its field must then be visible.
   bool is_renaming() const { return renamed_id_ != 0; }

@@ -18,7 +18,7 @@ void action_button(const char* id, const char* text, Workspace& workspace) {
   tooltip_of(action);
 }
 
-/// Plots the logarithm of the energy over the logarithm of the iteration, counted from 1.
+/// Plots the energy against the iteration, counted from 1, on logarithmic axes.
 void plot(const std::vector<double>& energies, int shown, double scale) {
   const float s = static_cast<float>(scale), height = 84 * s;
   const ImVec2 at = ImGui::GetCursorScreenPos();

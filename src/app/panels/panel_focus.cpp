@@ -1,4 +1,4 @@
-// ImGui itself moves between the items of a window, but has to be told where to begin.
+// Within a window, ImGui itself moves the focus between items, but it must be told where to begin.
 #include "app/panels/panel_focus.h"
 
 #define IMGUI_DEFINE_MATH_OPERATORS

@@ -1,21 +1,21 @@
-// Which panel takes the keys instead of the canvas (F6, and F10 for the menu bar).
+// Moves the keyboard focus between the canvas and the panels (F6, or F10 for the menu bar).
 #pragma once
 
 namespace holomorph {
 
 class PanelFocus {
  public:
-  /// Gives the keys to the next visible panel, or to the canvas after the last panel.
+  /// Moves the keyboard focus to the next visible panel, or to the canvas after the last panel.
   void next();
-  /// Gives the keys to a menu of the menu bar. To be called while the menu bar is being drawn.
+  /// Moves the focus to a menu of the menu bar. Call this while the menu bar is being drawn.
   void go_to_menu(const char* name);
-  /// Whether a panel takes the keys.
+  /// Whether a panel has the focus.
   bool held() const { return panel_ != nullptr; }
-  /// Gives the keys back to the canvas.
+  /// Returns the focus to the canvas.
   void leave();
-  /// To be called once per frame. Gives the keys back to the canvas if their panel is no longer
-  /// visible or an entry of the menu bar was chosen. If the user has clicked another panel, gives
-  /// the keys to that panel.
+  /// Returns the focus to the canvas if the focused panel is no longer visible or an entry of the
+  /// menu bar was chosen. If the user has clicked another panel, moves the focus there. Call this
+  /// once per frame.
   void look();
 
  private:

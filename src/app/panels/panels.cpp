@@ -169,7 +169,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
   ImGui::SetNextWindowSize({static_cast<float>(sizes.toolbar),
                             display.y - static_cast<float>(sizes.menu + sizes.status)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * s, 8 * s});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});  // keeps icons whole in low buttons
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});  // padding clips icons in small buttons
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 5 * s});
   ImGui::Begin("Toolbar", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
   static constexpr const char* kIds[] = {"tool.select",
@@ -199,7 +199,7 @@ void draw_toolbar(Workspace& workspace, double scale) {
   const float buttons = static_cast<float>(std::size(kIds) - static_cast<size_t>(lines)),
               room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * 21 * s,
               gap = ImGui::GetStyle().ItemSpacing.y;
-  // If the buttons would become too low for their icons, use two columns.
+  // If the buttons would become too small for their icons, use two columns.
   const bool pairs = room / buttons - gap < 24 * s;
   const float rows = pairs ? std::ceil(buttons / 2) + static_cast<float>(lines) / 2 : buttons;
   const ImVec2 button((pairs ? 18.5f : 40) * s, std::min(38 * s, room / rows - gap));

@@ -30,7 +30,7 @@ struct PanelAnswer {
   std::optional<Path> sample;   ///< a scene to start from
   std::optional<Path> recover;  ///< an autosave
   std::optional<Path> discard;  ///< an autosave to delete
-  bool style_changed = false;   ///< the preferences have another theme or scale
+  bool style_changed = false;   ///< the theme or scale in the preferences has changed
   bool preferences_changed = false;
 };
 
@@ -48,8 +48,8 @@ struct Look {
 };
 std::vector<Look> looks(const Preferences& now);
 
-/// Draws the menu bar. If `focus` is given, gives the keys to the first menu. Returns recent files
-/// to open and changes of the style.
+/// Draws the menu bar. If `focus` is given, moves the keyboard focus to the first menu. Returns
+/// recent files to open and changes of the style.
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus);
 void draw_toolbar(Workspace& workspace, double scale);
 void draw_inspector(Workspace& workspace, LayerPanel& layers, const HeatScale& heat, double scale,
@@ -80,8 +80,8 @@ void tooltip_of(const Action& action);
 void begin_card(const char* name, ImVec2 at, ImVec2 pivot, double scale);
 void end_card();
 
-/// Whether Escape was pressed to close the current dialog rather than a list that is open in it. To
-/// be called once per frame, after the dialog's items.
+/// Whether Escape was pressed to close the current dialog rather than a list that is open in it.
+/// Call this once per frame, after drawing the dialog's items.
 bool escape_pressed();
 
 /// Draws a clickable row whose text comes from a file. ImGui identifies the row by `number`, which
@@ -92,7 +92,7 @@ bool text_row(int number, const std::string& text, bool selected, ImVec2 size = 
 /// Like ImGui::BeginCombo, but Escape closes the list.
 bool begin_combo(const char* label, const char* preview);
 
-/// Draws the slider for how many points the next cage made from the picture gets.
+/// Draws the slider that sets the number of points of the next cage made from the picture.
 void points_slider(Workspace& workspace, float width);
 
 /// If the picture has no cage, draws a card that offers ways to make one. Returns the height of the

@@ -87,7 +87,7 @@ void depth_field(Workspace& workspace, Index pin) {
         "Where parts of the picture overlap, the part around the pin of greater depth is on top");
 }
 
-/// Says how far the picture stops from the pin's target, if the gap is visible.
+/// If the gap is visible, says how far short of the pin's target the picture stops.
 void pin_gap(const Workspace& workspace, Index pin) {
   const Deformation& deformation = workspace.shown.deformation();
   const auto reached = workspace.map().pin_image(deformation, static_cast<size_t>(pin));

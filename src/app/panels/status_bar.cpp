@@ -1,4 +1,4 @@
-// The left part says what to do or what is wrong. The right part has figures, which are never cut
+// The left part says what to do or what is wrong. The right part shows figures and is never cut
 // off.
 #include <algorithm>
 #include <cstdio>

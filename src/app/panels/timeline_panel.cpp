@@ -45,8 +45,8 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   ImGui::SameLine(0, 3);
 }
 
-/// Shows the last drawn item's tooltip, and continues on the same line. A gesture that starts on
-/// the item becomes a separate undo step.
+/// Shows the last drawn item's tooltip and continues on the same line. A gesture that starts on the
+/// item becomes a separate undo step.
 void finish_item(Workspace& workspace, const char* tooltip) {
   if (ImGui::IsItemActivated()) workspace.end_mergeable_step();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
@@ -81,7 +81,7 @@ void draw_key_numbers(Workspace& workspace, float s) {
   const size_t key = key_at(deformation, workspace.shown.timeline.time);
   if (key >= deformation.keyframes.size()) return;
   if (ImGui::GetContentRegionAvail().x < 240 * s)
-    return;  // the keyframe's menu has these fields, too
+    return;  // the keyframe's context menu also has these fields
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
   int ease = static_cast<int>(deformation.keyframes[key].ease);
@@ -210,7 +210,7 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
 
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  // A function, because commits replace the deformation.
+  // A function rather than a reference, because commits replace the deformation.
   const auto own = [&]() -> const Deformation& { return workspace.shown.own(); };
   if (held_ == Held::nothing)
     length_ = std::max(

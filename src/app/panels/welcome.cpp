@@ -38,7 +38,7 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
       ImGui::SameLine();
       if (ImGui::Button("Recover")) answer.recover = path;
       ImGui::SameLine();
-      // Asks twice, because it cannot be undone.
+      // Requires a second click, because discarding cannot be undone.
       bool& sure = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("sure"));
       if (ImGui::Button(sure ? "Really discard?###discard" : "Discard###discard")) {
         if (sure) answer.discard = path;

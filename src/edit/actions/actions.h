@@ -17,7 +17,7 @@ struct Action {
   std::vector<Shortcut> keys = {};
   bool (*enabled)(const Workspace&) = nullptr;  ///< required; `always` if there is no condition
   void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
-  bool (*checked)(const Workspace&) = nullptr;  ///< for actions that are on or off, else null
+  bool (*checked)(const Workspace&) = nullptr;  ///< null for actions that cannot be on or off
   bool during_gesture = false;                  ///< its keys also work during a tool's gesture
 };
 
@@ -35,7 +35,7 @@ class ActionTable {
   const Action* for_key(const Shortcut& key, const Workspace& workspace) const;
   /// The action that has this key, enabled or not; null if there is none.
   const Action* owner_of(const Shortcut& key) const;
-  /// The name of an action in a message: its first key, or its label in quotes if it has no key.
+  /// How messages refer to an action: by its first key, or by its label in quotes if it has no key.
   std::string key_of(const std::string& id) const;
 
   /// Resets all keys to the built-in ones and applies these changes. Skips and returns names that

@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kStrength = 0.5;  ///< powers of ten per dab
+constexpr double kStrength = 0.5;  ///< change of the stiffness per dab, in powers of ten
 constexpr double kSpacing = 0.35;  ///< distance between dabs, as a fraction of the radius
 
 class BrushTool final : public Tool {

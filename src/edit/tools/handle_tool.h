@@ -37,7 +37,7 @@ class HandleTool : public Tool {
 
  private:
   /// Selects the handle under the pointer; with Shift, adds it to the selection or removes it.
-  /// Returns whether it is selected afterwards.
+  /// Returns whether it is now selected.
   bool select(const Input& input, Workspace& workspace);
 };
 

@@ -1,6 +1,6 @@
-// Key U. Draws an outline, whose shape the cage then takes. The user draws it freehand, and it is
-// closed and smoothed when the button is released, or sets it point by point. Dragging the outline
-// bends it.
+// Key U. Draws an outline. The cage then takes its shape. The user draws the outline freehand or
+// sets it point by point. A freehand outline is closed and smoothed when the button is released.
+// Dragging the outline bends it.
 #include <algorithm>
 
 #include "core/geometry/polyline.h"
@@ -110,7 +110,7 @@ class OutlineTool final : public Tool {
   }
 
   void close(Workspace& workspace) {
-    // Keep a refused path: the user can still remove points from it.
+    // Keep a rejected path, because the user can still remove points from it.
     if (set_outline(workspace, "Draw outline", flattened(path_.cage()).points)) path_.cancel();
   }
 

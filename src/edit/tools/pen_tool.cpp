@@ -89,7 +89,7 @@ class PenTool final : public HandleTool {
   }
 
   void close(Workspace& workspace) {
-    // Keep a refused path: the user can still remove points from it.
+    // Keep a rejected path, because the user can still remove points from it.
     if (!workspace.commit("Draw cage", with_cage(workspace.shown.own(), path_.cage()),
                           EditBase::document))
       return;

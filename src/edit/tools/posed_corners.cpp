@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kRing = 2.8, kArm = 4.6;  ///< in picking distances
+constexpr double kRing = 2.8, kArm = 4.6;  ///< in multiples of the picking distance
 
 bool has_images(const Workspace& w) {
   return w.map().has_map() && static_cast<Index>(w.map().prepared()->mesh->cage_vertices.size()) ==

@@ -11,7 +11,7 @@ struct CornerMark {
   enum class Region { none, ring, before, after };
   Index vertex = 0;
   Complex center = 0;
-  double radius = 0;              ///< of the ring
+  double radius = 0;              ///< the ring's radius
   Complex before = 0, after = 0;  ///< ends of the arms along the incoming and outgoing edge
   Region hovered = Region::none;
 };

@@ -13,8 +13,8 @@ class Recording {
   /// toast and returns false.
   bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
-  /// The deformation at the time of recording that corresponds to `now_ms`, with the dragged
-  /// handles displaced by `by` from their positions at the start. Sets the workspace's time.
+  /// The deformation at the recorded time that corresponds to `now_ms`, with the dragged handles
+  /// displaced by `by` from their positions at the start. Sets the workspace's time to that time.
   Deformation follow(Workspace& workspace, Complex by, double now_ms);
   /// Sets keyframes with linear easing at whole frames, in one step. It sets only the keyframes
   /// needed to keep all handles within about three window px of their paths. In existing keyframes,

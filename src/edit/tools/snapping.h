@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-/// A guide line from the point that a handle lines up with to the handle.
+/// A guide line to a handle from the point that it lines up with.
 struct Guide {
   Complex from, to;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStrokeStepPx = 6, kStrokeShortestPx = 12;
 constexpr double kStrokeReach = 0.25,
-                 kStrokeEndReach = 1;  ///< reach of a pull, in lengths of the stroke
+                 kStrokeEndReach = 1;  ///< reach of a pull, as a fraction of the stroke's length
 
 class StrokeTool final : public HandleTool {
  public:
@@ -93,7 +93,7 @@ class StrokeTool final : public HandleTool {
         drawing_.finish(false, kStrokeStepPx, kStrokeShortestPx, workspace.display.viewport);
     const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
     if (drawn.empty()) {
-      workspace.selection.clear();  // a click on nothing
+      workspace.selection.clear();  // a click rather than a stroke
       return;
     }
     if (redrawn_stroke) {

@@ -41,7 +41,7 @@ Deformation HandleDrag::dragged(const Input& input, Workspace& workspace) {
   if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
   guides_.clear();
   if (workspace.tools.snaps) {
-    constexpr double kReach = 0.7;  // picking distances
+    constexpr double kReach = 0.7;  // in multiples of the picking distance
     Snapping snapping{kReach * workspace.display.handle_px / workspace.display.viewport.zoom, {}};
     if (const Image* image = workspace.document.image())
       snapping.picture =
@@ -122,7 +122,7 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
 void PinRing::follow(const Input& input, Workspace& workspace) {
   const double before = start_deformation_.pins[*pin_].angle.value_or(0);
   double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
-  // The angle is unwrapped from frame to frame because a drag can exceed half a turn.
+  // The angle is unwrapped from frame to frame, because a drag can exceed half a turn.
   const double last =
       workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));

@@ -25,15 +25,16 @@ struct ToolOverlay {
   bool ring_hovered = false;
   std::optional<CornerMark> corner;  ///< ring and arms of a corner
   std::optional<Index> edge;         ///< the cage segment whose tension a drag changes
-  std::optional<BoxMark> box;        ///< around the selection
-  std::vector<Guide> guides;         ///< guide lines of snapping
-  bool shows_dabs = false;  ///< draw the painted stiffness: `dabs` if set, else the deformation's
+  std::optional<BoxMark> box;        ///< the box around the selection
+  std::vector<Guide> guides;         ///< guide lines for snapping
+  bool shows_dabs = false;  ///< draw stiffness: `dabs` if set, otherwise that of the deformation
   std::optional<std::vector<BrushDab>> dabs;
   std::optional<Complex> brush;  ///< the position of the brush
 };
 
 inline constexpr double kDragThresholdPx = 3;
-inline constexpr double kRingRadius = 2.8;  ///< of a pin's ring, in picking distances
+/// Radius of a pin's ring, in multiples of the picking distance.
+inline constexpr double kRingRadius = 2.8;
 
 /// A tool determines what the pointer does on the canvas. Tools live as long as the editor. The
 /// only state that they keep is an unfinished gesture.
@@ -59,15 +60,15 @@ class Tool {
   /// Handles the wheel at the pointer's position. Returns false if the wheel should zoom.
   virtual bool scroll(const Input&, Workspace&) { return false; }
   virtual ToolOverlay overlay() const = 0;
-  /// The text of the status bar: what the pointer does where it is now.
+  /// The status bar's text: what the pointer would do at its current position.
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
-/// "Switched to Elastic pins.", with the label of the usual method for a use.
+/// The message "Switched to Elastic pins.", with the label of the usual method for a use.
 std::string switched_to(MethodUse use);
 
-/// "Pins need a cage. Draw one with P, or use Make from picture.", where `what` is the first
-/// sentence without its period.
+/// The message "Pins need a cage. Draw one with P, or use Make from picture.", where `what` is the
+/// first sentence without its period.
 std::string needs_a_cage(const Workspace& workspace, const std::string& what);
 
 std::unique_ptr<Tool> select_tool();
@@ -102,7 +103,7 @@ class HandleDrag {
   }
   bool active() const { return active_; }
   bool moving() const { return moving_; }
-  /// The guide lines from what the pressed handle lines up with.
+  /// The guide lines to the pressed handle from the points that it lines up with.
   const std::vector<Guide>& guides() const { return guides_; }
   /// Follows the pointer and commits on release. Returns true when the drag has ended.
   bool follow(const Input& input, Workspace& workspace);
@@ -127,8 +128,8 @@ class HandleDrag {
 };
 
 /// Sets the outline in one step and plays the iterations of the method. If the outline is the
-/// boundary of a surface, displays the surface too. Refuses an invalid outline with a toast.
-/// Returns whether the outline was set.
+/// boundary of a surface, displays the surface too. If the outline is invalid, shows a toast
+/// instead. Returns whether the outline was set.
 bool set_outline(Workspace& workspace, const std::string& label, Points outline,
                  std::optional<SurfaceReference> surface = {});
 

@@ -9,7 +9,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kMargin = 1.8, kKnob = 2.6, kPick = 0.8;  // in picking distances
+constexpr double kMargin = 1.8, kKnob = 2.6, kPick = 0.8;  // in multiples of the picking distance
 constexpr int kKnobNumber = 8, kInside = 9;
 constexpr double kLeastScale = 0.02;
 

@@ -52,8 +52,8 @@ class TransformBox {
   std::string hint() const;
   void start(const Input& input, const Workspace& workspace);
   /// Follows the pointer and commits on release. With Shift, corners scale both axes freely, the
-  /// knob rotates in steps of 15 degrees, and moves follow one axis. With Alt, scaling keeps the
-  /// center fixed. A click inside the box clears the selection.
+  /// knob rotates in steps of 15 degrees, and moves are restricted to one axis. With Alt, scaling
+  /// keeps the center fixed. A click inside the box clears the selection.
   void follow(const Input& input, Workspace& workspace);
   void cancel(Workspace& workspace);
 
