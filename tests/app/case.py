@@ -1,4 +1,4 @@
-# Shared by the tests of the real window.
+# Helpers for the tests of the real window.
 import json
 import os
 import shutil
@@ -81,7 +81,7 @@ class WindowCase(unittest.TestCase):
         editor.wait(lambda s: not s["in_panel"], "the canvas with the keyboard focus")
 
     def by_palette(self, editor, words):
-        """Runs an action by its name, with the command palette."""
+        """Runs an action by name from the command palette."""
         self.ask(editor, "ctrl+shift+p")
         editor.type(words)
         editor.key("Return")

@@ -76,7 +76,7 @@ class Editor:
         time.sleep(pause)
 
     def pixel(self, x, y):
-        """The window position of a plane point; the window fills the display's corner."""
+        """The window position of a plane point, in pixels, which is also its position on the display."""
         s = self.state()
         return (round(s["left"] + s["width"] / 2 + (x - s["center"][0]) * s["zoom"]),
                 round(s["top"] + s["height"] / 2 - (y - s["center"][1]) * s["zoom"]))
@@ -161,8 +161,9 @@ class Editor:
         return (self.state() or {"taken": 0})["taken"]
 
     def settle(self, since, changes):
-        """Waits until the window has handled `changes` more presses and releases than `since`, and none are pending. Each
-        one takes a frame, and slow machines draw few frames. If another window got the input, gives up after 5 s."""
+        """Waits until the window has handled `changes` more presses and releases than `since`, and none are pending.
+        Each press or release takes a frame, and slow machines draw few frames. Gives up after 5 s, in case another
+        window got the input."""
         end = time.time() + 5
         while time.time() < end and self.process.poll() is None:
             state = self.state()

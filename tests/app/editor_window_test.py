@@ -38,7 +38,7 @@ class EditorWindowTest(WindowCase):
         self.fail(f"{what}: the color at {place} is {self.color_at(editor, *place)}, not {color}")
 
     def program(self, name, script):
-        """Puts a stub for another program on the path, before the real one."""
+        """Puts a stub for another program on PATH, ahead of the real one."""
         folder = os.path.join(self.work, "bin")
         os.makedirs(folder, exist_ok=True)
         path = os.path.join(folder, name)
@@ -160,16 +160,16 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "F1")
             editor.type("checker")
             self.screenshot(editor, "keys")
-            editor.key("Down")  # to the only row
+            editor.key("Down")  # selects the only row
             editor.key("Return")
             time.sleep(0.3)
             self.screenshot(editor, "keys-waiting")
-            editor.key("m")  # the key of the mesh view: a single press does not reassign it
+            editor.key("m")  # the key of the mesh view: pressing it once does not reassign it
             time.sleep(0.3)
             self.screenshot(editor, "keys-taken")
             editor.key("j")
             time.sleep(0.3)
-            # Waits for a key again. A held key counts as one press, and Escape cancels.
+            # The panel waits for a key again. A held key counts as one press, and Escape cancels.
             editor.key("Return")
             time.sleep(0.3)
             editor.xdotool("keydown", "m")
@@ -226,7 +226,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
 
     def test_a_press_acts_where_the_pointer_was(self):
-        """A press acts where it happened, even if the pointer has moved 20 pixels before the program reads it."""
+        """A press acts where it happened, even if the pointer moves 20 pixels before the program reads it."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
         with Editor(PROGRAM, [scene]) as editor:
@@ -474,7 +474,7 @@ class EditorWindowTest(WindowCase):
         return path
 
     def change(self, path, x):
-        """Replaces the scene's file by another one, as git or another window does."""
+        """Replaces the scene's file with another one, as git or another window does."""
         scene = load(path)
         scene["cage"]["rest"][0][0][0] = x
         scene["cage"].pop("pose", None)
@@ -516,7 +516,7 @@ class EditorWindowTest(WindowCase):
             self.change(scene, 180)
             again = editor.wait(lambda s: s["first_point"] == [180, 100], "the file's new content")
             self.assertEqual(again["zoom"], zoomed["zoom"], "the view stays")
-            # With unsaved work there is a question, and neither version is lost.
+            # If there is unsaved work, the editor asks which version to keep, and neither is lost.
             editor.key("ctrl+a")
             editor.key("Right")
             editor.wait(lambda s: s["modified"], "an edit")
@@ -547,7 +547,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["first_point"] == [180, 100] and s["modified"], "the previous content")
             editor.key("ctrl+shift+z")
             editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "the reloaded scene again")
-            # If the file is damaged or deleted, the work is unsaved, and quitting asks.
+            # If the file is damaged or deleted, the work counts as unsaved, and quitting asks.
             with open(scene, "w") as file:
                 file.write('{"format"')
             editor.wait(lambda s: s["modified"] and s["first_point"] == [300, 100], "unsaved work")

@@ -51,7 +51,7 @@ class WindowTest(WindowCase):
             self.assertEqual(scene["format"], "holomorph")
             self.assertEqual(scene["image"]["file"], "gecko.png")
             self.assertEqual(len(scene["cage"]["rest"]), 5)
-            # Positions are exact to the pixel of the pointer.
+            # Positions match the pointer to the pixel.
             grain = 1.5 / editor.state()["zoom"]
             moved = scene["cage"]["pose"][2][0]
             self.assertLess(abs(moved[0] - 980) + abs(moved[1] - 800), 4 * grain)
@@ -438,7 +438,7 @@ class WindowTest(WindowCase):
             action(editor, "surface in space")
             editor.wait(lambda s: s["on_surface"], "the surface again")
             self.save_as(editor, scene)
-            # The exported surface is a picture with a cage, and is mapped onto the leaf.
+            # Opens the exported surface as a picture with a cage and maps it onto the leaf.
             editor.key("ctrl+o")
             time.sleep(0.8)
             editor.key("ctrl+a")

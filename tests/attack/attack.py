@@ -1,7 +1,7 @@
-"""What the attacks share: running the program under limits, printed seeds, and a summary line.
+"""Helpers for the attacks: run the program under limits, print the seed, print a summary line.
 
 Each script takes the program and the checkout, as the other tests do, and options. It prints one summary line and exits
-with status 1 if something is bad. Without options it runs in its short form, as in CI.
+with status 1 if a check fails. Without options it does a short run, as in CI.
 """
 import argparse
 import os

@@ -74,7 +74,7 @@ for number in range(options.kills):
     if rng.random() < 0.5 and os.path.exists(path(out)):
         os.remove(path(out))
     process = subprocess.Popen([options.program, *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    # At any time, and often near the end, when files are written.
+    # Kill at any time, but often near the end, when files are written.
     length = seconds[number % len(jobs)]
     time.sleep(max(0.0, rng.uniform(0, length) if rng.random() < 0.5 else rng.gauss(0.93, 0.08) * length))
     killed += process.poll() is None

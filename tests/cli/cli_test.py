@@ -279,7 +279,7 @@ class CommandLine(Case):
         self.assertEqual(names, ["walk-000%d.png" % i for i in range(5)])
         sizes = {Image.open(self.path(name)).size for name in names}
         self.assertEqual(sizes, {(70, 60)})  # one rectangle for all of them
-        # A range of the frames gives the same files.
+        # Rendering a range of frames gives the same files.
         whole = [open(self.path(name), "rb").read() for name in names]
         for name in names:
             os.remove(self.path(name))
@@ -330,7 +330,7 @@ class CommandLine(Case):
         stub = os.path.join(folder, "ffmpeg")
         out = self.path("film.mp4")
         paths = {**os.environ, "PATH": folder}
-        # Not installed.
+        # ffmpeg is not installed.
         result = run("export", path, "--format", "mp4", "--out", out, env=paths)
         self.assertEqual(result.returncode, 1)
         self.assertIn("ffmpeg, which is not installed", result.stderr)
@@ -350,7 +350,7 @@ class CommandLine(Case):
         result = run("export", path, "--format", "webm", "--out", self.path("film.webm"), env=paths)
         self.assertEqual(result.returncode, 1)
         self.assertIn("no such codec", result.stderr)
-        self.assertEqual([n for n in os.listdir(self.folder) if "film" in n], [])  # nothing is left
+        self.assertEqual([n for n in os.listdir(self.folder) if "film" in n], [])  # no file is left behind
 
     def test_numbers_know_the_times_of_keyframes(self):
         path = self.write("s.json", self.keyed_scene())
@@ -365,7 +365,7 @@ class CommandLine(Case):
         rows = self.good("map", path, "--points", points, "--frames", "1..3").stdout.split()
         self.assertEqual(rows[0], "frame,u,v,fz_re,fz_im,fzbar_re,fzbar_im")
         self.assertEqual([row.split(",")[0] for row in rows[1:]], ["1", "1", "2", "2", "3", "3"])
-        # map and then inverse, at a keyframe and between two keyframes.
+        # Runs map and then inverse, at a keyframe and between two keyframes.
         for time in (0, 0.05):
             there = self.good("map", path, "--points", points, "--time", time).stdout.split()[1:]
             posed = self.write("posed.csv", "".join(",".join(row.split(",")[:2]) + "\n" for row in there))
@@ -485,12 +485,12 @@ class CommandLine(Case):
                 if view in ("angle", "checker") and name != "gecko":
                     continue
                 self.golden(f"{name}-{view}", name, marks, view)
-        # Between one keyframe and the next.
+        # At a time between two keyframes.
         marks = Marks(self, os.path.join(SOURCE, "assets/fern.json"), "--time", 1.3)
         self.golden("fern-between", "fern", marks, "image", "--time", 1.3)
 
     def golden(self, title, sample, marks, view, *when):
-        """The picture is the golden one, and the golden one passes the checks of golden.py."""
+        """The picture matches its golden picture, which passes the checks of golden.py."""
         out = self.path(title + ".png")
         scene = os.path.join(SOURCE, "assets", sample + ".json")
         said = self.good("render", scene, "--out", out, "--scale", 0.3, "--view", view, *when).stderr

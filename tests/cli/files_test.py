@@ -1,5 +1,5 @@
-# What commands read and write: pipes, devices, links, protected files and standard streams. Also how they
-# end when they are stopped, and their errors for wrong arguments.
+# What commands read and write: pipes, devices, links, protected files and standard streams. Also
+# covers how commands end when they are stopped, and their errors for wrong arguments.
 import json
 import os
 import pty
@@ -159,7 +159,7 @@ class Files(Case):
         self.assertEqual(self.bytes_of("there.json"), b"mine")
         if os.geteuid() != 0:
             return
-        # Another user's file in a folder where everyone may write.
+        # Another user's file in a folder that everyone may write to.
         os.chmod(self.folder, 0o777)
         other = self.write("other.png", "mine")
         os.chmod(other, 0o644)

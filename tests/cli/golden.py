@@ -63,7 +63,8 @@ class Marks:
         self.ask = lambda command, points: self.table(case, command, path, points, when)
         self.source = Image.open(os.path.join(os.path.dirname(path), scene["image"]["file"]))
         cage = numpy.array([complex(*z) for segment in scene["cage"]["rest"] for z in segment])
-        # Slanted, so that the sides of the cage cross its rows and columns at changing fractions.
+        # Slanted, so that the sides of the cage cross its rows and columns at varying fractions of
+        # a cell.
         turn = numpy.exp(0.6j)
         box = cage / turn
         left, bottom = box.real.min(), box.imag.min()
@@ -77,7 +78,7 @@ class Marks:
         self.inside = inside.reshape(grid.shape)
         self.z = grid.ravel()[inside]
         self.f, self.fz, self.fzbar = (mapped[inside, k] + 1j * mapped[inside, k + 1] for k in (0, 2, 4))
-        # How many points of the cage have the same image.
+        # The number of points in the cage that share each image.
         self.count = numpy.maximum(self.ask("inverse", self.f)[:, 3], 1)
         self.most, self.least = abs(self.fz) + abs(self.fzbar), abs(self.fz) - abs(self.fzbar)
 
@@ -148,7 +149,8 @@ class Marks:
         # maps bend at their anchors, so a few marks may be off by more.
         tolerance = numpy.full(off.shape, 1.0)
         if view == "image":
-            # Picture and expectation are means of the source over at most 1.5 pixels to each side.
+            # The picture and the expected colors are means of the source over at most 1.5 pixels to
+            # each side.
             ring = [self.z + 1.5 / scale * numpy.exp(0.25j * numpy.pi * k) for k in range(8)]
             around = numpy.array([self.colors(view, scale, z) for z in ring])
             tolerance += abs(around - wanted).max(axis=0)[inner]

@@ -376,7 +376,7 @@ TEST_CASE("Timeline: a straight motion is recorded as it was drawn") {
 }
 
 TEST_CASE(
-    "Timeline: a recording keeps keyframes that do not play and other keyframes' whole turns") {
+    "Timeline: a recording keeps keyframes that do not play, and the whole turns of other keys") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);
   Deformation deformation = desk.workspace.shown.own();

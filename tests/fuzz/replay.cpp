@@ -1,6 +1,6 @@
 // Runs the function of a fuzz target without a fuzzer, on given files and on the files in given
-// folders: to replay corpora, or under a memory checker. `--mutate N SEED` also runs it on N
-// mutations of these files.
+// folders. Use it to replay corpora or to run under a memory checker. `--mutate N SEED` also runs
+// it on N mutations of these files.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -37,7 +37,7 @@ class Package(unittest.TestCase):
         needs = self.field("holomorph", "Depends")
         for package in ("libglfw3", "libopenblas0", "fonts-roboto-unhinted", "fonts-font-awesome", "libwebp7"):
             self.assertIn(package, needs)
-        # Each font is opened by its path, so the packages it depends on must contain it.
+        # The program opens each font by its path, so its dependencies must contain the fonts.
         for font, package in (("Roboto-Regular.ttf", "fonts-roboto-unhinted"), ("fontawesome-webfont.ttf", "fonts-font-awesome")):
             files = subprocess.run(["dpkg", "-L", package], check=True, capture_output=True, text=True).stdout
             self.assertIn(font, files)
@@ -51,7 +51,8 @@ class Package(unittest.TestCase):
         self.assertEqual(report["method"], "pins")
 
     def test_the_window_shows_its_own_samples(self):
-        # Samples that are missing here would come from the source tree. To tell them apart, the first one is replaced.
+        # If the package lacked its samples, the program would use those of the source tree. To tell
+        # them apart, replace the first one.
         assets = os.path.join(self.root, "usr/share/holomorph/assets")
         shutil.copy(os.path.join(assets, "fish.json"), os.path.join(assets, "giraffe.json"))
         with open(os.path.join(assets, "fish.json")) as file:

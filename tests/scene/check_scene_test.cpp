@@ -1,4 +1,4 @@
-// check_scene refuses what could not be opened again, and nothing else.
+// check_scene refuses exactly the scenes that could not be opened again.
 #include "scene/check_scene.h"
 
 #include <catch2/catch.hpp>
@@ -193,10 +193,10 @@ TEST_CASE("A scene that would be larger than the budget is refused, with its siz
   set_budget(before);
 }
 
-TEST_CASE("Unknown keys that are too large or too deep for a file are refused") {
+TEST_CASE("Unknown keys that are too large or too deeply nested for a file are refused") {
   Scene scene = full_scene();
   CHECK_NOTHROW(check_scene(scene));
-  // Readers accept 200 levels, so 300 levels are too deep.
+  // Readers accept 200 levels of nesting, so 300 levels are too many.
   std::string deep = "0";
   for (int i = 0; i < 300; ++i) deep = "[" + deep + "]";
   change_layer(scene, [&](Layer& layer) { layer.extra = "{\"deep\":" + deep + "}"; });

@@ -303,8 +303,8 @@ TEST_CASE("History: undo and redo step through the scenes, and a commit discards
 }
 
 TEST_CASE(
-    "The live map follows the scene, keeps the last map on errors, and poses without preparing "
-    "again") {
+    "The live map follows the scene, keeps the last map on errors, and changes the pose without "
+    "preparing again") {
   LiveMap map({600});
   Deformation deformation = with_cage(Deformation{}, shapes::l_shape());
   map.finish(deformation, {});
@@ -510,7 +510,7 @@ TEST_CASE("A change of the scene file by another program is detected") {
   CHECK_FALSE(third.changed_on_disk());
 }
 
-TEST_CASE("The next write removes what a killed one left behind, and nothing that is in use") {
+TEST_CASE("A write removes what a killed write left behind, and nothing that is in use") {
   const Folder folder;
   const auto leftovers = [&] {
     const std::vector<std::string> names = folder.names();
@@ -526,7 +526,7 @@ TEST_CASE("The next write removes what a killed one left behind, and nothing tha
     }
     ::waitpid(child, nullptr, 0);
   }
-  CHECK(leftovers() == 2);  // from the last one; each write removed the leftovers of the one before
+  CHECK(leftovers() == 2);  // from the last kill; each write removed the previous leftovers
   fs::create_symlink(folder.path / "precious", folder.path / ".holomorph-00000000");
   write_file(folder.path / "precious", "x");  // removes the leftovers
   CHECK(leftovers() == 1);                    // a planted link is neither followed nor removed

@@ -74,7 +74,7 @@ double twice_area(const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("OBJ: polygons, texture coordinates, negative numbers, comments and line endings") {
+TEST_CASE("OBJ: polygons, texture coordinates, negative indices, comments and line endings") {
   const SurfaceFile file = surface_of_obj(
       "# a square\r\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 # corner\nv 1 1 0\nv 0 1 0\nv 9 9 9\n"
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 -3/-2/1 4/4/1\r\n",

@@ -33,8 +33,8 @@ inline Cage cage_of(Shape shape) {
   return cubic;
 }
 
-/// A cage, posed by a bend. Methods that use them also get three pins, one of them with a frame,
-/// and two strokes.
+/// A cage, posed by a bend. For methods that use them, there are also three pins, one of them with
+/// a frame, and two strokes.
 inline Setup setup(const Method& method, Precision precision, Shape shape = Shape::straight) {
   Setup s;
   s.rest.cage = cage_of(shape);

@@ -22,7 +22,7 @@ struct PngKind {
   std::string exif = {}, profile = {};
   double gamma = 0;  ///< 0: none
   bool srgb = false, adobe = false, interlaced = false, sixteen = false;
-  int gray_bits = 0;  ///< 0: color; else a gray picture from the red channel
+  int gray_bits = 0;  ///< 0: color; otherwise gray, from the red channel
 };
 
 inline std::string png_file(const Image& image, const PngKind& kind) {

@@ -1,4 +1,4 @@
-// Locally injective harmonic maps: those nearest to known maps, and the proof of their bounds.
+// Locally injective harmonic maps: the maps nearest to known maps, and the proofs of their bounds.
 #include <catch2/catch.hpp>
 
 #include "bench/known_maps.h"
@@ -16,8 +16,8 @@ using known_maps::KnownMap;
 using known_maps::Projection;
 
 TEST_CASE("Bounded: the energies of the specification's maps") {
-  // The specification measures nu on the boundary at other samples, so the energies agree only to
-  // one percent.
+  // The specification uses different samples on the boundary to measure nu, so the energies agree
+  // only to one percent.
   struct Row {
     KnownMap known;
     double l2, l2_digit, l1, l1_digit;  ///< energies, each with half a unit of its last digit
@@ -37,8 +37,7 @@ TEST_CASE("Bounded: the energies of the specification's maps") {
     }
 }
 
-TEST_CASE(
-    "Bounded: certified bounds hold at ten times denser samples, on the boundary and inside") {
+TEST_CASE("Bounded: certified bounds hold at samples ten times as dense, on boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
     for (const KnownMap& known : known_maps::all()) {
       const Projection projection(known, bounds, Norm::l1);
@@ -154,7 +153,7 @@ TEST_CASE("Bounded: a certificate of Psi' accounts for |f_z| lying below its cho
   CHECK_FALSE(certifier.certify(map, {0.49, 0.4 * low, 1.1 * high}).holds);
 }
 
-TEST_CASE("Bounded: a warm start from another frame's map ends as near as a cold start") {
+TEST_CASE("Bounded: a warm start from another frame's map gets as close as a cold start") {
   constexpr double kShare = 1e-2, kGap = 1e-3;  // the settings of drafts
   for (const known_maps::KnownMap& known : known_maps::all()) {
     Projection from(known, {}, known_maps::Norm::l1), to(known, {}, known_maps::Norm::l1);
@@ -204,7 +203,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Boundary argument: it is continuous and closes, with and without listed zeros") {
+TEST_CASE("Boundary argument: it is continuous and closes up, with and without listed zeros") {
   const Mesh mesh = domain_mesh(known_maps::circle(40), {600});
   const Points samples = known_maps::circle(200);
   const auto two = [](Complex z) { return (z - 0.3) * (z - 0.3) * (z + Complex(0.2, 0.5)); };
@@ -231,7 +230,7 @@ TEST_CASE("Boundary argument: it is continuous and closes, with and without list
   CHECK_THROWS_AS(boundary_argument(samples, VectorXc::Zero(200), {}), Error);
 }
 
-TEST_CASE("Boundary argument: past a zero, the far part of the domain turns the shorter way") {
+TEST_CASE("Boundary argument: beyond a zero, the argument takes the smaller of two turns") {
   // From the bar's left to its right, the argument grows by 100 degrees below the zero and falls by
   // 260 degrees above it. The zero is nearer to the lower side.
   const double bend = 80 * kPi / 180;

@@ -32,7 +32,7 @@ double distance_in_h(const Projection& projection, const BoundedReference& refer
 }  // namespace
 
 TEST_CASE(
-    "L_psi and H: certified bounds hold at ten times denser samples, on the boundary and inside") {
+    "L_psi and H: certified bounds hold at samples ten times as dense, on boundary and inside") {
   for (const Bounds& bounds : {Bounds{0.7, 0.2, 5}, Bounds{0.5, 0.5, 1.5}, Bounds{0, 0.3, 3}})
     for (const KnownMap& known : known_maps::all()) {
       const Projection projection(known, bounds, known_maps::Norm::l1);
@@ -59,7 +59,7 @@ TEST_CASE("L_psi and H: a map within the bounds is its own projection") {
         two_steps(space, convex ? space.convexified(projection.reference) : projection.reference);
     const MatrixXc c = projection.basis->values(projection.mesh.vertices);
     const auto [phi, psi] = derivatives_of(map.map, c * map.map.l, c * map.map.w);
-    // The derivatives agree to the accuracy with which the programs are solved.
+    // The derivatives are as accurate as the solutions of the cone programs.
     CHECK((phi.array() - slope).abs().maxCoeff() <= 5e-3);
     CHECK((psi.array() - 0.3 * slope).abs().maxCoeff() <= 5e-3);
   }

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The relative error per edge that the golden data require.
+/// The largest relative error per edge that the golden data allow.
 constexpr double kGolden = 1e-13;
 
 const char* const kFiles[] = {"convex_hex", "star5", "sliver", "concave_L", "notch_ratio1e4"};

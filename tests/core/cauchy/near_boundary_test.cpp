@@ -142,8 +142,8 @@ TEST_CASE("Maps next to the boundary agree with 50-digit values, by every code p
         }
         INFO("seed " << seed << " round " << round << " size " << made.size << " point " << i
                      << " z " << z.real() << " " << z.imag());
-        // An image is z plus a displacement. If z lies just outside, its distance from the boundary
-        // therefore remains, even where the map compresses.
+        // An image is z plus a displacement. If z lies just outside, the image is therefore off by
+        // z's distance from the boundary, even where the map compresses.
         CHECK(off <= 1e-9 * made.size + std::max(change, 16 * ulp));
         CHECK(is_finite(slopes[row]));
         if (!at_vertex) CHECK(slope_off <= 1e-9 + slope_change);

@@ -232,7 +232,7 @@ TEST_CASE("Inverse: the number of preimages is the winding number of the boundar
 }
 
 TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered") {
-  constexpr double kAccurate = 1e-11;  // of the size plus |w|, as the header states
+  constexpr double kAccurate = 1e-11;  // relative to the size plus |w|, as the header states
   for (const unsigned seed : seeds_of("inverses of all methods", {41}))
     for (const Method& method : methods())
       for (const bool curved : {false, true}) {

@@ -56,7 +56,7 @@ TEST_CASE("Triangles nearest to the higher point are drawn later") {
   }
 }
 
-TEST_CASE("Nearest is measured through the mesh, not across a gap") {
+TEST_CASE("Distance is measured through the mesh, not across a gap") {
   // A U: the ends of its arms are near each other in the plane, but far apart along the shape.
   const Points u{{0, 0}, {110, 0}, {110, 300}, {60, 300}, {60, 50}, {50, 50}, {50, 300}, {0, 300}};
   const Mesh mesh = domain_mesh(u, {900});

@@ -1,4 +1,4 @@
-// Cage coordinates of other authors: mean value coordinates, and Green coordinates, which are the
+// Other authors' cage coordinates: mean value coordinates, and Green coordinates, which are the
 // same as Cauchy coordinates.
 #include <catch2/catch.hpp>
 

@@ -254,7 +254,7 @@ TEST_CASE("Bounded method: a final frame depends only on rest and pose") {
   CHECK(bar.map().fzbar == first.fzbar);
 }
 
-TEST_CASE("Bounded method: the map at single points equals the map at the mesh, in all spaces") {
+TEST_CASE("Bounded method: the map at single points equals the map on the mesh, in all spaces") {
   const char* space = GENERATE("nu", "psi", "h");
   Setting bar(polygon_cage(long_bar()), {{30, 50}, {300, 50}, {570, 50}},
               {{"reference", option("reference", "har_arap")}, {"space", option("space", space)}});

@@ -151,7 +151,7 @@ TEST_CASE("Contract: derivatives agree with finite differences") {
       Outlines::too);
 }
 
-TEST_CASE("Contract: the operator for the shader gives the map") {
+TEST_CASE("Contract: the shader's operator reproduces the map") {
   for (const Method& method : methods()) {
     const Setup s = setup(method, Precision::single);
     const auto deformer = method.prepare(s.rest, nullptr);

@@ -196,8 +196,9 @@ TEST_CASE("Correspondence: an outline is mapped to a moved copy of itself") {
     for (double s = 0; s < source.length(); s += 0.07 * source.length())
       CHECK(std::abs(target.at(pairs(s)) - (factor * source.at(s) + shift)) <=
             0.01 * target.diagonal());
-    // One turn corresponds to one turn. The argument is rounded to 2^-53 of a length, which the
-    // correspondence stretches by less than a thousand.
+    // A full turn of the source corresponds to a full turn of the target. The argument is rounded
+    // to 2^-53 of a length, and the correspondence stretches this error by a factor of less than
+    // 1000.
     CHECK_THAT(pairs(5 + source.length()),
                Catch::WithinAbs(pairs(5) + target.length(), 1e-12 * target.length()));
   }
@@ -307,7 +308,7 @@ TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other wit
 
 TEST_CASE(
     "Outline: moving, rotating or scaling either shape only changes the frame of the result") {
-  constexpr double kRounding = 1e-7;  // of the zipper's 800 arcs, in units of the outline
+  constexpr double kRounding = 1e-7;  // over the zipper's 800 arcs, relative to the outline's size
   const Points shape = outlines::random(11, true, 50), outline = outlines::random(12, false, 300);
   const Complex factor = std::polar(4.0, 0.8), shift(30, 50);
   OutlineSettings settings;
