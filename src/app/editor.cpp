@@ -436,9 +436,8 @@ class Editor {
 
 int run_editor(const EditorOptions& options) {
   if (!options.file.empty() && !path_exists(options.file))
-    throw Error(
-        ErrorKind::bad_input,
-        options.file.string() + ": there is no such file or command. See 'holomorph --help'");
+    throw Error(ErrorKind::bad_input,
+                options.file.string() + ": no such file or command. See 'holomorph --help'");
   if (!has_display())
     throw Error(ErrorKind::failed,
                 "cannot open a window: there is no display. 'holomorph render SCENE --out "

@@ -21,7 +21,8 @@ constexpr SampleRow kRows[] = {
     {"snake", "Snake", "One stroke along its body. Move, bend or redraw the line."},
     {"heart", "Heart", "A fish in the shape of a heart. Press U to draw another outline."},
     {"tiger", "Tiger", "A painted face on a mask in space. Drag the mask to turn it."},
-    {"fern", "Fern", "Corners curl its tip around more than once. Press Space to unroll it."},
+    {"fern", "Fern",
+     "Turned corners curl the tip more than once around. Press Space to unroll it."},
     {"sunflower", "Sunflower", "A cage, and pins that turn the leaves and the head."}};
 constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 

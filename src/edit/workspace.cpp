@@ -286,7 +286,7 @@ void Workspace::show_next_fold() {
   if (found.folds_at.empty()) {
     if (!found.crossing) return messages.say("Nothing folds.");
     display.viewport.center = *found.crossing;
-    return messages.say("Nothing folds, but two parts overlap here.", found.crossing);
+    return messages.say("No folds, but two parts overlap here.", found.crossing);
   }
   fold_ = folds_ == found.folds_at ? (fold_ + 1) % folds_.size() : 0;
   folds_ = found.folds_at;

@@ -42,15 +42,15 @@ FlattenedSurface aligned_with_outline(FlattenedSurface laid, const Points& outli
   }
   if (!(off <= kSame * box_of(outline).diagonal()))
     throw Error(ErrorKind::bad_input,
-                "the scene's outline is not this surface's boundary; take the outline from the "
-                "surface, and only move, rotate or scale it");
+                "the scene's outline is not this surface's boundary; import the outline from the "
+                "surface, and then only move, rotate or scale it");
   return laid;
 }
 
 FlattenedSurface flattened_surface_of(const Deformation& deformation) {
   if (!deformation.surface)
     throw Error(ErrorKind::bad_input,
-                "the scene has no surface; take its outline from an OBJ file first");
+                "the scene has no surface; import its outline from an OBJ file first");
   const auto& [file, flattening, extra] = *deformation.surface;
   try {
     Surface surface = surface_of_obj(read_file(file), file).surface;

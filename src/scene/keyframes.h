@@ -35,14 +35,6 @@ int last_frame_of(const Scene& scene);
 /// The times of all frames, in seconds.
 std::vector<double> frame_times(const Scene& scene);
 
-<<<<<<< HEAD
-=======
-/// The mirror image of a pose about the vertical line through the middle of the rest cage. Each
-/// handle gets the mirrored pose of its counterpart, the handle at the mirrored rest position.
-/// Throws Error if the rest state deviates from this symmetry by more than 2 % of its size.
-Pose mirrored(const Deformation& deformation, const Pose& pose);
-
->>>>>>> 6ef3242a7e5fff335b2ebefe007618c6916511f3
 /// Calls `edit` on each keyframe pose that fits the deformation. Before a structural edit of the
 /// deformation, call this function with the same edit to keep the keyframes fitting.
 template <class Edit>

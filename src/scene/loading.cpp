@@ -218,8 +218,8 @@ LoadedScene scene_of_pasted(const std::string& png) {
   decode_image(png, "the clipboard");
   if (pasted_folder().empty())
     throw Error(ErrorKind::failed,
-                "Pasted pictures cannot be kept: this user has no home folder. Save the picture "
-                "as a file and open it");
+                "Pasted pictures cannot be stored because this user has no home folder. Save the "
+                "picture as a file and open that file");
   std::error_code ignored;
   fs::create_directories(pasted_folder(), ignored);
   const Path file = pasted_folder() / (sha256_hex(png).substr(0, 16) + ".png");
@@ -243,11 +243,9 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
     return texture_of_materials(read_file(in_reach(resolved_path(obj, file.materials))));
   }();
   if (texture.empty())
-    throw Error(
-        ErrorKind::bad_input,
-        obj.string() +
-            ": this surface has no texture picture. Open a picture, give it a cage and drop "
-            "the surface onto it");
+    throw Error(ErrorKind::bad_input, obj.string() +
+                                          ": this surface has no texture picture. Open a picture, "
+                                          "add a cage, and then drop the surface onto the picture");
   LoadedScene loaded =
       scene_of_image(in_reach(resolved_path(resolved_path(obj, file.materials), texture)));
   try {

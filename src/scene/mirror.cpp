@@ -1,9 +1,5 @@
-<<<<<<< HEAD:src/scene/mirror.cpp
 #include "scene/mirror.h"
 
-=======
-// Computes the mirror image of a pose: each handle gets the mirrored pose of its counterpart.
->>>>>>> 6ef3242a7e5fff335b2ebefe007618c6916511f3:src/scene/mirrored.cpp
 #include <algorithm>
 
 #include "core/error.h"
@@ -16,7 +12,7 @@ size_t counterpart(const Mirror& mirror, const Points& positions, Complex z, con
   if (const auto found = mirror.counterpart(positions, z)) return *found;
   throw Error(ErrorKind::bad_input,
               std::string("the pose cannot be mirrored: a ") + what +
-                  " has no counterpart on the other side of the cage's middle",
+                  " has no counterpart on the other side of the cage",
               z);
 }
 
@@ -31,7 +27,7 @@ Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
                  end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
     if ((end + 1) % n != start)
       throw Error(ErrorKind::bad_input,
-                  "the pose cannot be mirrored: the cage's two sides have different points",
+                  "the pose cannot be mirrored: the two sides of the cage do not match",
                   vertices[e]);
     Points controls = pose.controls(static_cast<Index>(end));
     std::ranges::reverse(controls);

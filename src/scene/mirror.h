@@ -42,7 +42,7 @@ class Mirror {
 };
 
 /// The mirror image of a pose about the vertical line through the middle of the rest cage. Each
-/// handle takes the mirrored pose of its counterpart, the handle at the mirrored rest position.
+/// handle gets the mirrored pose of its counterpart, the handle at the mirrored rest position.
 /// Throws Error if the rest state deviates from this symmetry by more than 2 % of its size.
 Pose mirrored(const Deformation& deformation, const Pose& pose);
 

@@ -117,7 +117,8 @@ void save_preferences(const Preferences& preferences) {
   if (!preferences.trusted.empty()) json["trusted"] = nlohmann::ordered_json::array();
   for (const Path& path : preferences.trusted) json["trusted"].push_back(path.string());
   if (preferences_path().empty())
-    throw Error(ErrorKind::failed, "Preferences cannot be saved: this user has no home folder");
+    throw Error(ErrorKind::failed,
+                "Preferences cannot be saved because this user has no home folder");
   std::error_code error;
   std::filesystem::create_directories(preferences_path().parent_path(), error);
   write_file(preferences_path(),

@@ -15,7 +15,6 @@ work = tempfile.mkdtemp(prefix="opens-")
 for name in os.listdir(os.path.join(options.source, "assets")):
     shutil.copy(os.path.join(options.source, "assets", name), work)
 scenes = [os.path.join(work, name + ".json") for name in ("fish", "gecko", "giraffe")]
-points = {}  # of each scene's cage, to recognize the open scene
 
 
 def megabytes(process):

@@ -602,7 +602,7 @@ class CommandLine(Case):
             half = file.read()[:20000]
         with open(self.path("half.png"), "wb") as file:
             file.write(half)
-        self.bad("new", "--force", self.path("half.png"), "--out", self.path("n.json"), says="cut off")
+        self.bad("new", "--force", self.path("half.png"), "--out", self.path("n.json"), says="incomplete")
         self.assertFalse(os.path.exists(self.path("n.json")))
         self.bad("frobnicate", "x", says="")
         self.assertEqual(run("--help").returncode, 0)

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "scene/keyframes.h"
+#include "scene/motion.h"
+#include "scene/prepared_map.h"
 #include "support/folder.h"
 #include "support/scenes.h"
 #include "support/seeds.h"

@@ -105,7 +105,7 @@ void ComparisonPanel::draw_table(double scale) {
       {"Turns",
        "How many times the outline turns: 1 unless the picture overlaps itself at a point"},
       {"Time", "Time of the solve in milliseconds, without preparation"},
-      {"Iterations", "'not settled': stopped at the largest number of iterations"}};
+      {"Iterations", "'not settled': stopped at the iteration limit"}};
   for (int c = 1; c < 7; ++c)
     ImGui::TableSetupColumn(kColumns[c][0], ImGuiTableColumnFlags_WidthFixed,
                             (c < 6 ? 64 : 110) * s);

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/panels/panels.h"
 
@@ -107,18 +108,19 @@ void injectivity_section(Workspace& workspace, Theme theme) {
   if (extra_turns > 0)
     ImGui::TextColored(warning, "Overlaps itself at %d point%s", extra_turns,
                        extra_turns == 1 ? "" : "s");
-  ImGui::TextDisabled("Details: smallest size %.0f %%", 100 * found.least_stretch);
+  ImGui::TextDisabled("Details: smallest size %.0f %%",
+                      std::round(100 * found.least_stretch) + 0.0);  // no "-0"
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "How much the most compressed spot keeps of its size, in the direction\n"
-        "in which it shrinks most: below 0 % it is flipped over.");
+        "The size that remains where the picture is compressed most, in the\n"
+        "direction of the strongest compression. Below 0 %, it is flipped over.");
   if (found.crossing) {
     ImGui::TextDisabled("Parts overlap");
     show(*found.crossing, "The edge of the picture crosses itself here.");
   }
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
-    ImGui::TextDisabled("%d %s where it would fold (diamonds)", static_cast<int>(marked.size()),
-                        marked.size() == 1 ? "point" : "points");
+    ImGui::TextDisabled("%d %s where the picture would fold (diamonds)",
+                        static_cast<int>(marked.size()), marked.size() == 1 ? "point" : "points");
   const Action& fold_free = workspace.actions.named("map.fold_free");
   if (found.folds() && fold_free.enabled(workspace))
     action_button("map.fold_free", fold_free.label.c_str(), workspace);

@@ -84,7 +84,7 @@ void depth_field(Workspace& workspace, Index pin) {
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "Where parts of the picture overlap, the part around the pin of greater depth is on top");
+        "If parts of the picture overlap, the part near the pin with the greater depth is on top");
 }
 
 /// If the gap is visible, says how far short of the pin's target the picture stops.

@@ -245,7 +245,7 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
     ImGui::SetTooltip("%.2f s%s", own().keyframes[*hovered].time,
                       fits(own(), own().keyframes[*hovered].pose)
                           ? ". Drag to move; right-click for more."
-                          : ". Does not play: its points differ from the scene's.");
+                          : ". Cannot be played, because its points differ from the scene's.");
   draw_ruler(workspace, ruler, hovered, s);
   draw_key_menu(workspace);
 }

@@ -100,7 +100,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "cage.all_corners",
           .label = "All points as corners",
-          .hint = "Turn and open every point with the tool Angles",
+          .hint = "Let the Angles tool turn and open every point",
           .menu = "Cage",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
           .run =
@@ -111,7 +111,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "cage.bake",
           .label = "Apply pins to cage",
-          .hint = "Pose the cage as the pins do, and switch to the method Cage",
+          .hint = "Give the cage the pose made by the pins, and switch to the Cage method",
           .menu = "Cage",
           .enabled =
               [](const Workspace& w) {

@@ -170,8 +170,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.delete_plain",
           .label = "Delete, keep tangents",
-          .hint =
-              "Delete points without fitting the curve again; the neighbors keep their tangents",
+          .hint = "Delete points without refitting the curve; the neighbors keep their tangents",
           .menu = "Edit",
           .keys = {{Key::del, kShift}},
           .enabled = has_selection,
@@ -209,7 +208,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.symmetry",
           .label = "Symmetry",
-          .hint = "The counterpart on the other side makes the mirrored move",
+          .hint = "The counterpart on the other side moves as a mirror image",
           .icon = kSymmetry,
           .menu = "Edit",
           .keys = {'X'},
@@ -231,7 +230,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.reset",
           .label = "Reset to rest",
-          .hint = "Reset the selection, or everything when nothing is selected",
+          .hint = "Reset the selection, or everything if nothing is selected",
           .icon = kReset,
           .menu = "Edit",
           .keys = {'R'},
@@ -288,7 +287,7 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.free_angle",
           .label = "Free rotation",
-          .hint = "The selected pins leave rotation and scale free",
+          .hint = "The selected pins no longer fix rotation and scale",
           .menu = "Edit",
           .enabled = has_turned_pin,
           .run = free_pin_angles,

@@ -43,7 +43,7 @@ std::vector<Action> file_actions() {
       {
           .id = "file.find_picture",
           .label = "Find missing picture...",
-          .hint = "Pictures that moved to the same folder are found with it",
+          .hint = "Also finds other missing pictures in the same folder",
           .icon = kSearch,
           .menu = "File",
           .enabled =

@@ -28,7 +28,7 @@ const std::vector<Gesture>& gestures() {
        "of 15 degrees; with Alt, scale about the middle"},
       {"Ctrl-drag points, pins or strokes", "record their motion in real time as keyframes"},
       {"Ctrl-click a cage point",
-       "make it smooth or a corner; drag its tangents to bend the curve, with Alt one at a time"},
+       "make it smooth or a corner; drag its tangents to bend the curve; with Alt, one at a time"},
       {"Drag the ring of a selected pin",
        "rotate the picture around it; with Shift, in steps of 15 degrees"},
       {"Wheel on the ring", "scale the picture around the pin"},
@@ -43,7 +43,7 @@ const std::vector<Gesture>& gestures() {
       {"Wheel", "zoom at the pointer"},
       {"Right-click", "open the menu of what is under the pointer"},
       {"Ctrl-click a number field", "type into it"},
-      {"Enter, Backspace, Esc", "while drawing: close the shape, take a point back, cancel"}};
+      {"Enter, Backspace, Esc", "while drawing: close the shape, remove the last point, cancel"}};
   return all;
 }
 

@@ -102,7 +102,7 @@ std::vector<Action> view_actions() {
       {
           .id = "view.compare",
           .label = "Compare projections",
-          .hint = "Give the same map and bounds to four other methods",
+          .hint = "Run four other methods on the same map with the same bounds",
           .menu = "View",
           .enabled = [](const Workspace& w) { return has_cage(w) && is_bounded(w); },
           .run = ask<Request::compare>,
@@ -281,7 +281,7 @@ std::vector<Action> held_actions() {
       {
           .id = "hold.alt",
           .label = "Act as Alt (hold)",
-          .hint = "For desktops that use Alt-drags themselves",
+          .hint = "For desktops that reserve Alt-drag for moving windows",
           .keys = {'Q'},
           .enabled = always,
       },

@@ -296,7 +296,7 @@ Deformation baked(Deformation deformation) {
   if (!solved)
     throw Error(
         ErrorKind::bad_input,
-        "the pins move a finer boundary than the cage's points; turn on \"Cage's own points\"");
+        "the pins act on a finer boundary than the cage's points; turn on \"Cage's own points\"");
   deformation.pose = *solved;
   return with_method_for(std::move(deformation), MethodUse::cage);
 }

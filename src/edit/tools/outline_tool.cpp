@@ -68,9 +68,9 @@ class OutlineTool final : public Tool {
     if (path_.active() && path_.closes()) return "Click to close the outline";
     if (path_.active())
       return "Click for a corner, drag for a smooth point; press Enter or click the first point to "
-             "close; Backspace takes a point back";
+             "close; Backspace removes the last point";
     if (drawing_.active()) return "Release to close the outline; Esc cancels";
-    if (hovered_ || pull_) return "Drag to bend the outline, Ctrl-drag to move all of it";
+    if (hovered_ || pull_) return "Drag to bend the outline; Ctrl-drag to move it";
     return "Drag to draw the outline that the cage takes, or click its points";
   }
 

@@ -50,7 +50,7 @@ class PenTool final : public HandleTool {
     if (path_.active() && path_.closes()) return "Click to close the cage";
     if (path_.active())
       return "Click for a corner, drag for a smooth point; click the first point, press Enter or "
-             "double-click to close; Backspace takes a point back; Esc cancels";
+             "double-click to close; Backspace removes the last point; Esc cancels";
     if (!workspace.shown.deformation().has_cage()) return "Click around the picture to draw a cage";
     if (insertion_) return "Click to insert a point; rest shape and pose do not change";
     return "Click an edge to insert a point; click elsewhere to draw another cage instead of this "

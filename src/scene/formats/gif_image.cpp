@@ -92,7 +92,7 @@ class GifReader {
   }
   [[noreturn]] void fail() const {
     throw Error(ErrorKind::bad_input,
-                name_ + (stream_.ended ? ": the picture is cut off: the file ends too early"
+                name_ + (stream_.ended ? ": the picture is incomplete: the file ends too early"
                                        : ": the GIF picture is damaged"));
   }
 

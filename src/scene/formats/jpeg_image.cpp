@@ -60,9 +60,9 @@ class JpegReader {
     if (setjmp(back_) == 0) return (this->*step)();
     if (ended_)
       throw Error(ErrorKind::bad_input,
-                  name_ + ": the picture is cut off: the file ends too early");
+                  name_ + ": the picture is incomplete: the file ends too early");
     if (scans_)
-      throw Error(ErrorKind::bad_input, name_ + ": the picture is built up in more than " +
+      throw Error(ErrorKind::bad_input, name_ + ": the picture has more than " +
                                             std::to_string(kMostScans) +
                                             " passes; save it again in another program");
     throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + message_ + ")");

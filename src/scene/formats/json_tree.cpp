@@ -52,7 +52,7 @@ struct JsonTree::Count : nlohmann::json_sax<nlohmann::json> {
     open_.push_back(counts.size());
     counts.push_back(0);
     if (open_.size() <= static_cast<size_t>(deepest_)) return true;
-    problem = "brackets are nested more than " + std::to_string(deepest_) + " deep";
+    problem = "brackets are nested more than " + std::to_string(deepest_) + " levels deep";
     return false;
   }
   bool end() {

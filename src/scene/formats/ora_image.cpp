@@ -104,7 +104,7 @@ Stack stack_of(const Archive& archive, const std::string& name) {
   if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is not an XML file");
   const pugi::xml_node image = document.child("image");
   Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}};
-  if (stack.width < 1 || stack.height < 1) fail(name, "its canvas has no size");
+  if (stack.width < 1 || stack.height < 1) fail(name, "its canvas is empty");
   PixelBudget one;
   one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   collect(image.child("stack"), {}, 0, stack);

@@ -45,7 +45,7 @@ class Bytes {
   void need(size_t place, size_t count) const {
     if (place > bytes_.size() || count > bytes_.size() - place)
       throw Error(ErrorKind::bad_input,
-                  name_ + ": the picture is cut off: the file ends too early");
+                  name_ + ": the picture is incomplete: the file ends too early");
   }
   [[noreturn]] void damaged(const char* why) const {
     throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + why + ")");
@@ -161,7 +161,7 @@ Image decode(const std::string& bytes, const std::string& name, const Size& size
       stbi_image_free);
   if (!found) file.damaged(stbi_failure_reason());
   if (static_cast<size_t>(width) != size.width || static_cast<size_t>(height) != size.height)
-    file.damaged("its size is contradictory");
+    file.damaged("its sizes contradict each other");
   Image image(width, height);
   std::memcpy(image.pixels.data(), found.get(), image.pixels.size());
   return image;

@@ -50,7 +50,7 @@ class PngReader {
       (this->*step)();
     else
       throw Error(ErrorKind::bad_input,
-                  name_ + (ended_ ? ": the picture is cut off: the file ends too early"
+                  name_ + (ended_ ? ": the picture is incomplete: the file ends too early"
                                   : ": the picture is damaged (" + std::string(message_) + ")"));
   }
 

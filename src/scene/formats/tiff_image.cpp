@@ -99,7 +99,7 @@ Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget
   Image image(static_cast<int>(width), static_cast<int>(height));
   auto* packed = reinterpret_cast<uint32_t*>(image.pixels.data());
   if (!TIFFReadRGBAImageOriented(file.get(), width, height, packed, ORIENTATION_TOPLEFT, 1))
-    throw damaged("; it is damaged or cut off");
+    throw damaged("; it is damaged or incomplete");
   make_straight(image);
   uint32_t size = 0;
   void* profile = nullptr;

@@ -48,7 +48,8 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
   // The header contains the length of the file.
   const auto byte = [&](size_t i) { return static_cast<size_t>(data[i]); };
   if ((byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24) + 8 > bytes.size())
-    throw Error(ErrorKind::bad_input, name + ": the picture is cut off: the file ends too early");
+    throw Error(ErrorKind::bad_input,
+                name + ": the picture is incomplete: the file ends too early");
   pixels.take(static_cast<size_t>(features.width), static_cast<size_t>(features.height), name);
   Image image(features.width, features.height);
   if (!WebPDecodeRGBAInto(data, bytes.size(), image.pixels.data(), image.pixels.size(),
