@@ -48,7 +48,7 @@ class Files {
   bool asking() const {
     return dialog_.open() || exports_.asking() || questions_.open() || jobs_.running();
   }
-  /// The title of the open question, or "".
+  /// The title of the question dialog, or "".
   std::string question() const { return questions_.title(); }
   /// Whether a job is running. Frames must then be drawn even without events.
   bool busy() const { return jobs_.running(); }

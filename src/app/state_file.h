@@ -17,7 +17,7 @@ struct PartsState {
   bool pending = false;          ///< input events are queued for later frames
   int taken = 0;                 ///< presses and releases of keys and buttons handled so far
   bool asking = false;           ///< a dialog has the keyboard focus
-  std::string question = {};     ///< title of the open question about files
+  std::string question = {};     ///< title of the question dialog about files
   bool in_panel = false;         ///< a panel has the keyboard focus
   Theme theme = Theme::dark;
   double scale = 1;        ///< scale of the interface

@@ -153,7 +153,7 @@ struct Workspace {
   /// The images of rest points under the map of each keyframe; empty while these maps are unknown.
   std::vector<Points> keyframe_images(std::span<const Complex> rest);
   /// The maps at the keyframes before and after the current time. Empty if the onion skin is off,
-  /// the timeline plays, the picture is shown at rest or no map is available yet.
+  /// the timeline is playing, the picture is shown at rest or no map is available yet.
   std::vector<OnionSkin> onion_skins() const;
   /// Runs a long task, then calls `then`. The task runs in the background if the window has set
   /// run_in_background; otherwise it runs immediately, and its exceptions reach the caller.

@@ -29,7 +29,7 @@ struct PixelOffset {
 }  // namespace
 
 RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit) {
-  // Corners are lower left corners, but rows count from the top.
+  // `corner` is the lower left corner of a picture, but rows are counted from the top.
   const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
   const int right = shift(over.corner.real() - under.corner.real()),
             up = shift(over.corner.imag() - under.corner.imag());

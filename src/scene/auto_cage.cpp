@@ -135,7 +135,7 @@ Points level_curve(const Grid<double>& field, double level) {
   const auto inside = [&](int c, int r) { return field(c, r) < level; };
   for (int r = 0; r + 1 < h; ++r)
     for (int c = 0; c + 1 < w; ++c) {
-      // Corners counter-clockwise with r upwards: lower left, lower right, upper right, upper left.
+      // Counter-clockwise from the lower left corner. Rows are counted from the top.
       const bool corner[4] = {inside(c, r + 1), inside(c + 1, r + 1), inside(c + 1, r),
                               inside(c, r)};
       const int edge[4] = {horizontal(c, r + 1), vertical(c + 1, r), horizontal(c, r),

@@ -28,7 +28,7 @@ std::string relative_to(const Path& folder, const Path& file) {
   return relative.empty() ? file.string() : relative.generic_string();
 }
 
-/// Calls `use` for every file that the layers of a scene name.
+/// Calls `use` for every file that a layer of the scene refers to.
 template <class Use>
 void for_each_file(std::vector<Layer>& layers, Use use) {
   for (Layer& layer : layers) {

@@ -52,7 +52,7 @@ class WindowCase(unittest.TestCase):
 
     def press_in_dialog(self, editor, down):
         """Clicks at the center of the window, where dialogs are, moved down by this many pixels."""
-        editor.press(640, 400 + down)  # the window has 1280 x 800 px
+        editor.press(640, 400 + down)  # the window is 1280 x 800 px
         time.sleep(0.5)
 
     def ask(self, editor, key):

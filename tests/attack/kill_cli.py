@@ -67,7 +67,7 @@ for words, out, whole in jobs:
     subprocess.run([options.program, *words], cwd=folder, check=True, capture_output=True)
     seconds.append(time.time() - start)
     if not whole(out):
-        bad.append(f"{out} is not complete without a kill")
+        bad.append(f"{out} is incomplete although the program was not killed")
 known, killed = set(os.listdir(folder)), 0
 for number in range(options.kills):
     words, out, whole = jobs[number % len(jobs)]

@@ -79,7 +79,7 @@ for number in range(options.kills):
             editor.process.wait(timeout=20)
         offered += 1
         if steps_in(scene) != reached:
-            bad.append(f"kill {number}: recovered {steps_in(scene)} steps of {reached}")
+            bad.append(f"kill {number}: recovered {steps_in(scene)} of {reached} steps")
 with Editor(options.program, [scene], home=home) as editor:  # one more session, which ends normally
     editor.wait(lambda s: s is not None and s["cage_points"] == 4, "the scene")
     if editor.state()["asking"]:

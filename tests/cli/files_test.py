@@ -176,9 +176,9 @@ class Files(Case):
                       ["coordinates", self.scene, "--points", self.points]):
             for name in (self.scene, self.points):
                 before = self.bytes_of(name)
-                self.bad(*words, "--out", name, "--force", says="read by the same command")
+                self.bad(*words, "--out", name, "--force", says="also an input of the command")
                 self.assertEqual(self.bytes_of(name), before)
-        self.bad("new", self.path("red.png"), "--out", self.path("red.png"), "--force", says="read by the same command")
+        self.bad("new", self.path("red.png"), "--out", self.path("red.png"), "--force", says="also an input of the command")
         self.assertEqual(Image.open(self.path("red.png")).size, (60, 40))
 
     def test_a_full_disk_is_the_reason_that_is_given(self):

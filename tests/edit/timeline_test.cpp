@@ -342,7 +342,7 @@ void record(TestWorkspace& desk, MotionPath path = on_arc) {
 
 }  // namespace
 
-TEST_CASE("Timeline: a Ctrl-drag records motion in few keyframes") {
+TEST_CASE("Timeline: a Ctrl-drag records motion with only a few keyframes") {
   TestWorkspace desk(kBar);
   const size_t steps = desk.steps();
   record(desk);

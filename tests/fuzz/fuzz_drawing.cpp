@@ -1,4 +1,5 @@
-// Reads any bytes as an SVG file: an Error, or a loop that survives writing and reading.
+// Reads arbitrary bytes as an SVG file. The result must be an Error or a loop; a rest cage must be
+// unchanged after it is written and read back.
 #include "core/error.h"
 #include "scene/formats/scene_json.h"
 #include "scene/formats/svg_path.h"

@@ -315,7 +315,7 @@ TEST_CASE("A surface in space shows its texture upright, its clay, its back and 
   frame.to_view.topRightCorner<3, 1>() -= away;
   CHECK(pixel(50, 50) == back);
   frame.to_view.topRightCorner<3, 1>() += away;
-  // Nearer parts hide those behind them, in any order of triangles.
+  // Nearer parts hide those behind them, regardless of the order of the triangles.
   Surface two = square;
   for (int k = 0; k < 4; ++k)
     two.vertices.push_back(square.vertices[static_cast<size_t>(k)] + Eigen::Vector3d(0, 0, 0.5));

@@ -169,7 +169,7 @@ TEST_CASE("A lock is held while its program runs, and not afterwards") {
   CHECK_FALSE(FileLock::is_held(path));
 }
 
-TEST_CASE("SHA-256 of the empty text is the published one") {
+TEST_CASE("SHA-256 of the empty string has the published value") {
   CHECK(sha256_hex("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 

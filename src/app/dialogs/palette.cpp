@@ -19,7 +19,7 @@ struct Row {
   std::function<void()> run;
 };
 
-/// Adds rows for methods, presets and parameters. Each row builds its changed scene only when run.
+/// Adds rows for methods, presets and parameters. A row makes its change only when it is run.
 void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
   const Deformation& deformation = workspace.shown.deformation();
   const Method& method = method_named(deformation.method);

@@ -11,7 +11,8 @@
 namespace holomorph {
 namespace {
 
-/// The corners of a polygon, each moved outward by its own distance from both of its edges.
+/// The corners of a polygon, moved outward. Corner i ends up at distance distances[i] from the
+/// lines of both adjacent edges, except at a spike.
 Points mitered(const Points& polygon, const std::vector<double>& distances) {
   const size_t n = polygon.size();
   constexpr double kLongest = 12;  // length of a miter, in units of the distance

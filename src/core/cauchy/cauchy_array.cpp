@@ -170,8 +170,8 @@ class BlockFiller {
     }
   }
 
-  /// Corrects a row on the boundary or next to a vertex, where all segments must be evaluated at
-  /// the same position.
+  /// Corrects the row of a point that is on the boundary or next to a vertex, where all segments
+  /// must be evaluated at the same position.
   void patch_row(Complex z, Index row) {
     if (!rows_) rows_.emplace(cage_, order_, CauchyRows::AtVertices::from_inside);
     const auto patch = rows_->patch(z);

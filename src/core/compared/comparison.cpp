@@ -61,8 +61,8 @@ class Comparison {
         {"Aigerman, Lipman 2013", "Triangle mesh, repeatedly limited by half-spaces", *mesh, false,
          [&] { return by_half_spaces(*mesh, start, settings_); }},
         {"Kovalsky et al. 2015",
-         "Triangle mesh, projected and rejoined in turn, with tangent planes", *mesh, false,
-         [&] { return by_tangent_planes(*mesh, start, settings_); }}};
+         "Triangle mesh: triangles projected and joined again in turn, with tangent planes", *mesh,
+         false, [&] { return by_tangent_planes(*mesh, start, settings_); }}};
     for (const Rival& rival : rivals) {
       const ComparedMap map = row_of(rival);
       if (settings_.stop.stop_requested()) return;

@@ -55,7 +55,8 @@ class Inbetween {
   struct Interval {
     const Shape &from, &to;
     double duration = 1;
-    const VectorXc *slopes_from = nullptr, *slopes_to = nullptr;  ///< both or none; linear if none
+    const VectorXc *slopes_from = nullptr,
+                   *slopes_to = nullptr;  ///< both or neither; linear if none
   };
   /// The map at u in [0, 1] of an interval. It equals the two keys exactly at the ends. The point
   /// that moves least between the two keys follows a straight line. Cost: 4 ms for 10,000 vertices.

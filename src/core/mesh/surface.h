@@ -10,7 +10,7 @@
 
 namespace holomorph {
 
-/// Triangles over vertices in space, all of the same orientation. Value type.
+/// A triangle mesh in space. All triangles must have the same orientation. Value type.
 struct Surface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;

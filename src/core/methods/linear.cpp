@@ -57,14 +57,14 @@ void check_pose(const Rest& rest, const Pose& pose) {
     if (pose.cage.degree(i) < 1 || pose.cage.degree(i) > rest.cage.degree(i))
       throw Error(ErrorKind::bad_input, "posed segment " + std::to_string(i + 1) + " has " +
                                             std::to_string(pose.cage.degree(i)) +
-                                            " control points; the rest allows 1 to " +
+                                            " control points; the rest shape allows 1 to " +
                                             std::to_string(rest.cage.degree(i)));
   if (pose.pins.size() != rest.pins.size())
-    throw Error(ErrorKind::bad_input, "the pose must have as many pins as the rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many pins as the rest shape");
   if (pose.strokes.size() != rest.strokes.size())
-    throw Error(ErrorKind::bad_input, "the pose must have as many strokes as the rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many strokes as the rest shape");
   if (pose.corners.size() != rest.corners.size())
-    throw Error(ErrorKind::bad_input, "the pose must have as many corners as the rest");
+    throw Error(ErrorKind::bad_input, "the pose must have as many corners as the rest shape");
   for (const Points& stroke : pose.strokes) check_stroke(stroke);
   for (const PoseCorner& corner : pose.corners)
     if (!std::isfinite(corner.before) || !std::isfinite(corner.after) || !(corner.tension >= 0) ||

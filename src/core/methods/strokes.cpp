@@ -162,9 +162,9 @@ class StrokesDeformer final : public Deformer {
     char text[80];
     constexpr double kMet = 0.005;  // px
     if (correction_.miss < kMet)
-      std::snprintf(text, sizeof text, "Strokes are met");
+      std::snprintf(text, sizeof text, "The picture meets the strokes");
     else
-      std::snprintf(text, sizeof text, "Strokes are missed by %.1f px on average",
+      std::snprintf(text, sizeof text, "The picture misses the strokes by %.1f px on average",
                     correction_.miss);
     out.note = text + (note_.empty() ? "" : ". " + note_);
     out.f += product(value_, correction_.phi);

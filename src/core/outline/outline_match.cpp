@@ -127,7 +127,8 @@ void OutlineFit::follow(const Points& pinned) {
     if (difference(start, built_) > kFar) build(start);
     begin(start, wanted);
     run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
-    // A single pin selects a conformal map. Several pins may be impossible for any conformal map.
+    // A single pin selects a conformal map. If there are several pins, there may be no conformal
+    // map that meets them all.
     if (pins_.size() == 1 && may_refine() && !is_matched()) follow_start(start);
     return;
   }

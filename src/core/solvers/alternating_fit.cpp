@@ -21,7 +21,7 @@ AlternatingFit::AlternatingFit(std::vector<FitTerm> terms) {
   for (const FitTerm& term : terms) rows += term.rows.rows();
   const Index n = terms.at(0).rows.cols();
   check(rows >= n, "alternating fit: at least as many rows as unknowns");
-  check(terms[0].project != nullptr, "alternating fit: the targets of the first term move");
+  check(terms[0].project != nullptr, "alternating fit: the first term must have moving targets");
   MatrixXc all(rows, n);
   Index first = 0;
   for (FitTerm& term : terms) {

@@ -1,4 +1,4 @@
-// Menu Cage: actions on the cage and on the map that it controls.
+// The Cage menu: actions on the cage and on the map that it controls.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "edit/edits/corner_edits.h"

@@ -1,4 +1,4 @@
-// Menus Edit and Tools, and the arrow keys.
+// The Edit and Tools menus, and the arrow keys.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 

@@ -1,4 +1,4 @@
-// Menu File, and copying and pasting pictures. The window carries out all these requests.
+// The File menu, and copying and pasting pictures. The window carries out all these requests.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 

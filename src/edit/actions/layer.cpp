@@ -1,4 +1,4 @@
-// Menu Layer: the stack of pictures, and the background behind it.
+// The Layer menu: the stack of pictures, and the background behind it.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 

@@ -1,4 +1,4 @@
-// Menu Time: playback, keyframes and poses.
+// The Time menu: playback, keyframes and poses.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "scene/mirror.h"

@@ -1,4 +1,4 @@
-// Menus View and Help.
+// The View and Help menus.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "edit/content.h"

@@ -86,7 +86,7 @@ Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
   const Index before = wrapped(cage, vertex - 1);
   const Complex z = cage.vertex(vertex);
-  for (const Index e : {before, vertex})  // a quadratic has one tangent for both ends
+  for (const Index e : {before, vertex})  // the two ends of a quadratic share one tangent handle
     if (cage.degree(e) == 2) raise_to(cage, e, 3);
   if (cage.degree(before) > 2)
     cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;

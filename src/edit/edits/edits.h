@@ -55,7 +55,7 @@ Deformation placed(Deformation deformation, Handle handle, Complex at, EditMode 
 Complex center_of(const Deformation& deformation, const Selection& selection, EditMode mode);
 
 /// Inserts a cage vertex at parameter t of a segment, in the rest shape, the pose and all keyframes
-/// that fit. The curves keep their shapes.
+/// whose poses fit the deformation (see fits()). The curves keep their shapes.
 Deformation inserted(Deformation deformation, Index segment, double t);
 
 /// Deletes handles: vertices, pins and strokes. Throws Error if fewer than three cage vertices

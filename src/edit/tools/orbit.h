@@ -15,9 +15,9 @@ struct OrbitCamera {
 
   bool operator==(const OrbitCamera&) const = default;
 
-  /// A camera that sees all of a surface in a view with this width / height. It looks at the side
-  /// that the surface faces on average, from a slight angle, because a relief seen from the front
-  /// looks flat.
+  /// A camera that sees all of a surface in a view with this aspect ratio (width divided by
+  /// height). It looks at the side that the surface faces on average, from a slight angle, because
+  /// a relief seen from the front looks flat.
   static OrbitCamera around(const Surface& surface, double aspect);
   /// Orbits with the pointer: a drag over half the height of the view, in px, is a quarter turn.
   /// The pitch stops just before the camera looks straight up or down.

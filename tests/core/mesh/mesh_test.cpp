@@ -93,7 +93,7 @@ TEST_CASE("Triangles that do not fill the cage are rejected, and the message say
   refused(corners, {{0, 1, 2}, {0, 2, -1}}, "does not exist");
   refused(corners, {{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}, "more than two triangles");
   refused(with(2, {NAN, 0}), halves, "not finite");
-  refused(with(2, corners[2] + 0.01), halves, "the cage's vertex");
+  refused(with(2, corners[2] + 0.01), halves, "cage vertex (4, 3)");
   Points outside = corners;
   outside.push_back(corners[1] + 2.0);
   refused(outside, {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}, "not on the cage");

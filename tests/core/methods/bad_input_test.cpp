@@ -64,7 +64,7 @@ std::vector<Damage> damages() {
       {"a mesh with a vertex that belongs to no triangle", with_mesh([](Mesh& mesh) {
          mesh.vertices.push_back({100, 100});
        })},
-      {"a mesh with a boundary vertex that it does not have",
+      {"a mesh whose boundary refers to a vertex that does not exist",
        with_mesh([](Mesh& mesh) { mesh.boundary[2] = -1; })},
       {"a mesh without a boundary", with_mesh([](Mesh& mesh) { mesh.boundary.clear(); })},
       {"a mesh with too few cage vertices",
@@ -123,7 +123,7 @@ std::vector<Damage> damages() {
          s.pose.strokes.push_back({0, 1});
        }},
       {"a posed stroke that is not finite", [=](Setup& s) { s.pose.strokes[0][0] = nan; }, strokes},
-      {"a posed stroke of no points", [](Setup& s) { s.pose.strokes[0].clear(); }, strokes},
+      {"a posed stroke without points", [](Setup& s) { s.pose.strokes[0].clear(); }, strokes},
       {"too many posed corners", [](Setup& s) { s.pose.corners.push_back({}); }},
       {"a posed corner that is not finite",
        [](Setup& s) {

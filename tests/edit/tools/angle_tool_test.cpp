@@ -14,8 +14,9 @@ using namespace holomorph;
 namespace {
 
 const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
-/// Error of an angle that is summed over at most 15 moves of the mouse. Pixels below 1024 are
-/// rounded to 2^-44 = 6e-14, at least 28 pixels from the center: 3e-15 at each end of a move.
+/// Error of an angle that is summed over at most 15 moves of the mouse. Pixel coordinates below
+/// 1024 have a rounding error of 2^-44 = 6e-14. The pointer is at least 28 pixels from the center,
+/// so the angle is off by 3e-15 at each end of a move.
 constexpr double kRounding = 1e-12;
 
 void choose_angle_tool(TestWorkspace& desk) {
