@@ -242,7 +242,7 @@ class CommandLine(Case):
         path = self.write("scene.json", scene)
         report = json.loads(self.good("info", path, "--json").stdout)
         self.assertEqual(report["flipped_triangles"], 0)
-        self.assertIn("missed by", report["note"])
+        self.assertIn("misses the strokes by", report["note"])
         out = self.good("map", path, "--points", self.write("p.csv", "30,40\n200,40\n370,40")).stdout
         for (u, v), wanted in zip((map(float, line.split(",")[:2]) for line in out.strip().split("\n")[1:]), (80, 40, 80)):
             self.assertLess(abs(v - wanted), 8)
