@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/arithmetic.h"
@@ -25,6 +26,9 @@ struct Sampling {
   double least;
 };
 constexpr Sampling kUsual{600, 1e-5}, kSharp{1000, 1e-9};
+/// The largest number of points on an outline. The cost of a Riemann map grows with its square, and
+/// an outline that needs more points is crowded in most cases.
+constexpr size_t kMostPoints = 20'000;
 constexpr Index kSearched = 120;  ///< equally spaced points of each outline used by the search
 constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
@@ -86,11 +90,13 @@ std::vector<double> from_long_step(std::vector<double> lengths, const Polyline& 
   return lengths;
 }
 
-MappedOutline mapped_outline(const Polyline& outline, Sampling sampling) {
+/// None if the outline needs too many points.
+std::optional<MappedOutline> mapped_outline(const Polyline& outline, Sampling sampling) {
   const Complex center = middle_point(outline);
-  std::vector<double> lengths = from_long_step(
-      graded_lengths(outline, nearest_length(outline, center), sampling.points, sampling.least),
-      outline, center);
+  std::vector<double> lengths =
+      graded_lengths(outline, nearest_length(outline, center), sampling.points, sampling.least);
+  if (lengths.size() > kMostPoints) return {};
+  lengths = from_long_step(std::move(lengths), outline, center);
   Points points;
   for (const double length : lengths) points.push_back(outline.at(length));
   RiemannMap map(points, center);
@@ -310,15 +316,18 @@ struct ConformalStart::Search {
 };
 
 ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, double upright,
-                               const Points& pins)
-    : search_(new Search{
-          mapped_outline(source, kUsual), mapped_outline(target, kUsual), upright, pins, {}, {}}) {
+                               const Points& pins) {
+  std::optional<MappedOutline> from = mapped_outline(source, kUsual),
+                               to = mapped_outline(target, kUsual);
+  if (!from || !to) return;
+  search_.reset(new Search{std::move(*from), std::move(*to), upright, pins, {}, {}});
   search_->map_pins();
 }
 
 ConformalStart::~ConformalStart() = default;
 
 bool ConformalStart::is_crowded() const {
+  if (!search_) return true;
   constexpr double kApart = 1e-12, kMost = 0.2;
   const auto crowded = [&](const MappedOutline& mapped_outline) {
     Index close = 0;
@@ -351,10 +360,11 @@ Correspondence ConformalStart::best(const Points& pinned) {
 
 bool ConformalStart::sharpen() {
   try {
-    MappedOutline source = mapped_outline(*search_->source.line, kSharp),
-                  target = mapped_outline(*search_->target.line, kSharp);
-    search_->source = std::move(source);
-    search_->target = std::move(target);
+    std::optional<MappedOutline> source = mapped_outline(*search_->source.line, kSharp),
+                                 target = mapped_outline(*search_->target.line, kSharp);
+    if (!source || !target) return false;
+    search_->source = std::move(*source);
+    search_->target = std::move(*target);
   } catch (const Error&) {
     return false;  // finer vertices may coincide in the zipper even if coarser vertices do not
   }
