@@ -138,7 +138,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
               right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - button;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_->file.c_str());
+  tooltip(shown_->file);
   // In a narrow pane, the choice of flattening is on a row of its own.
   const bool one_row = ImGui::CalcTextSize(name.c_str()).x + combo + 2 * gap < right;
   if (one_row) {
@@ -149,7 +149,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
   if (ImGui::Button("\uf00d", {button, 0})) run("view.surface", workspace);
   ImGui::PopStyleVar();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Close. View > Surface in space opens it again.");
+  tooltip("Close. View > Surface in space opens it again.");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
   if (reading_) ImGui::TextDisabled("Reading the surface...");
   if (problem_.empty()) return;
@@ -169,8 +169,7 @@ void SurfacePane::choose_flattening(Workspace& workspace, float width) {
         fit_to_outline(workspace, "Flatten surface", how);
     ImGui::EndCombo();
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("How to flatten the surface: with a free boundary, or onto a circle");
+  tooltip("How to flatten the surface: with a free boundary, or onto a circle");
 }
 
 void SurfacePane::draw_surface(const Workspace& workspace, Canvas& canvas,

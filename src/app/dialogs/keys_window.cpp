@@ -112,7 +112,7 @@ void KeysWindow::draw_row(const Action& action, float s) {
       stop_waiting();
       report_lost_keys(workspace_.actions.reset_keys(action.id));
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Restore the default keys");
+    tooltip("Restore the default keys");
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();

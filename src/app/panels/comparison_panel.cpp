@@ -1,6 +1,7 @@
 // A worker thread fills the rows. The window shows those that are ready.
 #include "app/panels/comparison_panel.h"
 
+#include "app/panels/panels.h"
 #include "core/mesh/mesher.h"
 
 namespace holomorph {
@@ -113,7 +114,7 @@ void ComparisonPanel::draw_table(double scale) {
   for (int c = 0; c < 7; ++c) {
     ImGui::TableNextColumn();
     ImGui::TableHeader(kColumns[c][0]);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kColumns[c][1]);
+    tooltip(kColumns[c][1]);
   }
   for (size_t i = 0; i < rows_.size(); ++i) {
     const ComparedMap& row = rows_[i];
@@ -122,7 +123,7 @@ void ComparisonPanel::draw_table(double scale) {
     const bool is_chosen = chosen_ == static_cast<int>(i);
     if (ImGui::Selectable(row.label.c_str(), is_chosen, ImGuiSelectableFlags_SpanAllColumns))
       chosen_ = is_chosen ? -1 : static_cast<int>(i);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
+    tooltip(row.hint);
     cell("%.3f", row.max_k);
     cell("%.3f", row.max_tau);
     cell("%.0f", row.flipped_triangles);

@@ -65,11 +65,11 @@ void method_section(Workspace& workspace) {
     for (const Method& row : methods()) {
       if (ImGui::Selectable(row.label.c_str(), row.id == method.id))
         workspace.commit("Method: " + row.label, with_method(deformation, row.id));
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.hint.c_str());
+      tooltip(row.hint);
     }
     ImGui::EndCombo();
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", method.hint.c_str());
+  tooltip(method.hint);
   preset_buttons(workspace, deformation, method);
   for (const ParameterSpec& spec : method.parameters) {
     const double value = parameter(method, deformation.parameters, spec.key);
@@ -94,8 +94,7 @@ void method_section(Workspace& workspace) {
         workspace.commit(spec.label, *workspace.shown.preview);
       ImGui::EndDisabled();
     }
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-      ImGui::SetTooltip("%s", spec.hint.c_str());
+    tooltip(spec.hint);
   }
   if (workspace.map().has_map() && !workspace.map().map().note.empty())
     wrapped_text(workspace.map().map().note);
@@ -128,8 +127,7 @@ void cage_section(Workspace& workspace) {
   ImGui::BeginDisabled(!action.enabled(workspace));
   if (ImGui::Button("Make from picture")) run(action, workspace);
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("Replaces the cage with one around the largest opaque part of the picture");
+  tooltip("Replaces the cage with one around the largest opaque part of the picture");
 }
 
 void heat_section(Workspace& workspace, const HeatScale& heat) {

@@ -22,7 +22,7 @@ bool toggle(const char* id, bool on, const char* on_face, const char* off_face, 
   const bool pressed = ImGui::Button((std::string(on ? on_face : off_face) + "###" + id).c_str(),
                                      {width, ImGui::GetFrameHeight()});
   ImGui::PopStyleColor(on ? 1 : 2);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  tooltip(tip);
   return pressed;
 }
 
@@ -39,9 +39,7 @@ void background_row(Workspace& workspace) {
         run(action, workspace);
     ImGui::EndCombo();
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "What is shown and exported where the picture is transparent or has moved away");
+  tooltip("What is shown and exported where the picture is transparent or has moved away");
   if (scene.background.fill != Background::Fill::color) return;
   float color[3];
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
@@ -107,9 +105,8 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
       workspace.choose_layer(layer);
       if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
     }
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", edited ? "Current layer. Double-click to rename."
-                                     : "Click to edit this layer. Double-click to rename.");
+    tooltip(edited ? "Current layer. Double-click to rename."
+                   : "Click to edit this layer. Double-click to rename.");
   }
   ImGui::PopID();
 }

@@ -45,10 +45,9 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
   list.AddCircleFilled(line[static_cast<size_t>(shown)], 4 * s,
                        ImGui::GetColorU32(ImGuiCol_PlotHistogram));
   ImGui::Dummy({width, height});
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "Details: the energy after each iteration, on logarithmic axes.\n"
-        "The unit of length is the cage's perimeter divided by 2 pi.");
+  tooltip(
+      "Details: the energy after each iteration, on logarithmic axes. "
+      "The unit of length is the cage's perimeter divided by 2 pi.");
 }
 
 }  // namespace
@@ -101,26 +100,24 @@ void injectivity_section(Workspace& workspace, Theme theme) {
     }
   }
   ImGui::TextDisabled("Details: turning number %.0f", turns);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "How many times the edge of the picture turns: 1 unless the picture\n"
-        "overlaps itself at a point or is flipped over.");
+  tooltip(
+      "How many times the edge of the picture turns: 1 unless the picture "
+      "overlaps itself at a point or is flipped over.");
   if (extra_turns > 0)
     ImGui::TextColored(warning, "Overlaps itself at %d point%s", extra_turns,
                        extra_turns == 1 ? "" : "s");
   ImGui::TextDisabled("Details: smallest size %.0f %%",
                       std::round(100 * found.least_stretch) + 0.0);  // no "-0"
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "The size that remains where the picture is compressed most, in the\n"
-        "direction of the strongest compression. Below 0 %, it is flipped over.");
+  tooltip(
+      "The size that remains where the picture is compressed most, in the "
+      "direction of the strongest compression. Below 0 %, it is flipped over.");
   if (found.crossing) {
     ImGui::TextDisabled("Parts overlap");
     show(*found.crossing, "The edge of the picture crosses itself here.");
   }
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
-    ImGui::TextDisabled("%d %s where the picture would fold (diamonds)",
-                        static_cast<int>(marked.size()), marked.size() == 1 ? "point" : "points");
+    ImGui::TextDisabled("Would fold at %d %s (diamonds)", static_cast<int>(marked.size()),
+                        marked.size() == 1 ? "point" : "points");
   const Action& fold_free = workspace.actions.named("map.fold_free");
   if (found.folds() && fold_free.enabled(workspace))
     action_button("map.fold_free", fold_free.label.c_str(), workspace);

@@ -6,6 +6,10 @@
 
 namespace holomorph {
 
+namespace {
+constexpr float kTooltipWidth = 26;  ///< in units of the font size
+}  // namespace
+
 PanelSizes PanelSizes::at(double scale) {
   const double line = ImGui::GetFrameHeight();
   const double inspector = std::min(300 * scale, 0.38 * ImGui::GetIO().DisplaySize.x);
@@ -32,12 +36,21 @@ std::vector<Look> looks(const Preferences& now) {
   return all;
 }
 
+void tooltip(const std::string& text) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 void tooltip_of(const Action& action) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(label_with_keys(action).c_str());
   if (*action.hint) {
-    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
+    ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
     ImGui::TextDisabled("%s", action.hint);
     ImGui::PopTextWrapPos();
   }
@@ -108,9 +121,7 @@ void points_slider(Workspace& workspace, float width) {
   ImGui::SetNextItemWidth(width);
   ImGui::SliderInt("Points", &workspace.tools.auto_cage.vertices, 4, 200, "%d",
                    ImGuiSliderFlags_AlwaysClamp);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "Number of points of the next cage made from the picture. An opaque picture gets four.");
+  tooltip("Number of points of the next cage made from the picture. An opaque picture gets four.");
 }
 
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus) {

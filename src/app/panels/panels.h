@@ -72,6 +72,9 @@ PanelAnswer draw_welcome(Workspace& workspace, const Preferences& preferences,
 /// Draws the canvas's context menu, which a right click opens.
 void draw_context_menu(Workspace& workspace);
 
+/// Shows a text as a tooltip, in lines of moderate length, if the pointer is on the last drawn
+/// item.
+void tooltip(const std::string& text);
 /// Shows an action's label, keys and hint as a tooltip if the pointer is on the last drawn item.
 void tooltip_of(const Action& action);
 

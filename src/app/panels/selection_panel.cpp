@@ -82,9 +82,8 @@ void depth_field(Workspace& workspace, Index pin) {
     after.pins[pin].depth = std::clamp(depth, -kMaxDepth, kMaxDepth);
     workspace.commit_or_amend("Pin depth", std::move(after));
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "If parts of the picture overlap, the part near the pin with the greater depth is on top");
+  tooltip(
+      "If parts of the picture overlap, the part near the pin with the greater depth is on top");
 }
 
 /// If the gap is visible, says how far short of the pin's target the picture stops.

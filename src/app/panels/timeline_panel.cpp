@@ -47,9 +47,9 @@ void tool_button(const char* id, Workspace& workspace, float size) {
 
 /// Shows the last drawn item's tooltip and continues on the same line. A gesture that starts on the
 /// item becomes a separate undo step.
-void finish_item(Workspace& workspace, const char* tooltip) {
+void finish_item(Workspace& workspace, const char* hint) {
   if (ImGui::IsItemActivated()) workspace.end_mergeable_step();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
+  tooltip(hint);
   ImGui::SameLine();
 }
 
