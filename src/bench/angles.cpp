@@ -53,7 +53,7 @@ double angles_drag_ms(int runs) {
   return median_ms(runs, [&] {
     deformation.corners[7].pose.before += 1e-3;
     deformation.corners[7].pose.after += 1e-3;
-    map = prepared->deformer->deform(pose_of(deformation), {false, true});
+    map = prepared->deformer->deform(pose_of(deformation), {false, true}, map.solution.get());
   });
 }
 

@@ -204,7 +204,7 @@ double bounded_drag(DragFigure figure) {
     const double t = frame / 300.0;
     deformation.pins[2].pose = Complex(350, 80) + (310 - 280 * t) * std::polar(1.0, 7 * t);
     const double start = now_ms();
-    map = prepared->deformer->deform(pose_of(deformation), {false, true});
+    map = prepared->deformer->deform(pose_of(deformation), {false, true}, map.solution.get());
     times.push_back(now_ms() - start);
     unproved += map.status != SampledMap::Status::certified;
   }

@@ -123,7 +123,7 @@ bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
       if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
       timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
     } else {
-      map = prepared_->deformer->deform(pose_of(deformation), options);
+      map = prepared_->deformer->deform(pose_of(deformation), options, map_.solution.get());
       if (!options.draft) solve_milliseconds_ = now_ms() - start;
     }
     map_ = std::move(map);

@@ -105,11 +105,11 @@ AnglePins::Linear AnglePins::linear_at(const VectorXd& x, const std::vector<Pose
 }
 
 AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draft,
-                                  PlacedAngles& placed) {
+                                  const VectorXd* from, PlacedAngles& placed) {
   const Index n = placed.theta.size();
   VectorXd start(n + 3);
   start << placed.theta, std::log(placed.scale), placed.move.real(), placed.move.imag();
-  VectorXd x = draft && last_.size() == start.size() ? last_ : start, step;
+  VectorXd x = draft && from && from->size() == start.size() ? *from : start, step;
   held_.assign(corners_.size(), 0);
   Answer answer;
   double least = INFINITY;
@@ -145,7 +145,7 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
     }
     x += step;
   }
-  if (x.allFinite()) last_ = x;
+  answer.unknowns = x.allFinite() ? x : start;
   placed = {x.head(n), std::exp(x[n]), {x[n + 1], x[n + 2]}};
   for (size_t j = 0; j < corners_.size(); ++j)
     if (held_[j]) answer.limited.push_back(corners_[j]);

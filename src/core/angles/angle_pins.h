@@ -19,12 +19,14 @@ class AnglePins {
     bool settled = true;
     double largest_miss = 0;     ///< the largest distance of a pin from its target
     std::vector<Index> limited;  ///< vertex indices of corners held at the smallest angle
+    VectorXd unknowns;           ///< angles, logarithm of the scale, and translation
   };
   /// Changes `placed` by Gauss-Newton steps that penalize jumps and bends of the angles. A pin with
-  /// a frame also prescribes f' at its position. With `draft`, the iteration starts from the last
-  /// answer and takes only a few steps. Cost of a step: one integration per angle along the paths
+  /// a frame also prescribes f' at its position. With `draft`, the iteration takes only a
+  /// few steps, and starts from the unknowns of an earlier answer unless `from` is null. Cost of a step: one integration per angle along the paths
   /// to the pins.
-  Answer pull(const std::vector<PosePin>& targets, bool draft, PlacedAngles& placed);
+  Answer pull(const std::vector<PosePin>& targets, bool draft, const VectorXd* from,
+              PlacedAngles& placed);
 
  private:
   /// The residuals (target minus value) at unknowns x, and the Jacobian of the values.
@@ -44,7 +46,6 @@ class AnglePins {
   AngleMap map_;
   MatrixXc rows_;             ///< H at the pins with a frame
   MatrixXd inverse_penalty_;  ///< inverse of the penalty on angles, scale and translation
-  VectorXd last_;             ///< the unknowns of the last answer
   std::vector<char> held_;    ///< which corners are held at the smallest angle
 };
 

@@ -47,8 +47,8 @@ void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basi
   for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
 }
 
-void ReferenceSampler::deform(const Pose& pose, bool draft) {
-  map_ = deformer_->deform(used_by(method_, pose), {true, draft});
+void ReferenceSampler::deform(const Pose& pose, bool draft, const Solution* from) {
+  map_ = deformer_->deform(used_by(method_, pose), {true, draft}, from);
   if (!map_.f.allFinite())
     throw Error(ErrorKind::failed,
                 "the reference map has values that are not finite; move its handles apart");

@@ -28,8 +28,11 @@ class ReferenceSampler {
   /// Whether the method uses pins.
   bool uses_pins() const { return method_.uses_pins; }
 
-  /// Samples the map of a pose. Throws Error when the method does or when the map is not finite.
-  void deform(const Pose& pose, bool draft);
+  /// Samples the map of a pose. A draft may continue from an earlier solution of the method. Throws
+  /// Error when the method does or when the map is not finite.
+  void deform(const Pose& pose, bool draft, const Solution* from);
+  /// The method's solution for the sampled map.
+  const std::shared_ptr<const Solution>& solution() const { return map_.solution; }
   /// Whether the sampled map is the identity, to the last bit.
   bool is_identity() const;
   /// ln f_z along the boundary (Levi, Weber 2016, alg. 4), and nu and Psi' at all points. `zeros`

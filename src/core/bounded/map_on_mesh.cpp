@@ -2,8 +2,6 @@
 // derivatives.
 #include "core/bounded/map_on_mesh.h"
 
-#include "core/bounded/path_integral.h"
-
 namespace holomorph {
 
 MapOnMesh::MapOnMesh(const BoundaryBasis& basis, const Mesh& mesh)
@@ -22,20 +20,6 @@ MapOnMesh::Values MapOnMesh::values(const LogMap& map) const {
   values.f = tree_.antiderivative(values.first.phi, second.phi) +
              tree_.antiderivative(values.first.psi, second.psi).conjugate();
   return values;
-}
-
-VectorXc MapOnMesh::integrated(const LogMap& map) const {
-  std::vector<Line> lines;
-  for (const auto [from, to] : tree_.edges())
-    lines.push_back(
-        {mesh_.vertices[static_cast<size_t>(from)], mesh_.vertices[static_cast<size_t>(to)]});
-  const VectorXc increments = increments_along(basis_, map, lines);
-  VectorXc f = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
-  for (size_t e = 0; e < lines.size(); ++e) {
-    const auto [from, to] = tree_.edges()[e];
-    f[to] = f[from] + increments[static_cast<Index>(e)];
-  }
-  return f;
 }
 
 VectorXc MapOnMesh::phi(const VectorXc& l) const {

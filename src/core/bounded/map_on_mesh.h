@@ -1,7 +1,7 @@
 // Evaluates maps without folds at the vertices of a mesh by integration.
 #pragma once
 
-#include "core/bounded/certificate.h"
+#include "core/bounded/path_integral.h"
 #include "core/cauchy/cauchy_array.h"
 #include "core/mesh/antiderivative.h"
 
@@ -20,9 +20,8 @@ class MapOnMesh {
   };
   /// Cost: four products with these matrices.
   Values values(const LogMap& map) const;
-  /// Like f in `values`, but accurate to rounding error. Cost: at least 12 rows of the basis for
-  /// each edge of the tree.
-  VectorXc integrated(const LogMap& map) const;
+  /// Like f in `values`, but accurate to rounding error; see integrated_along.
+  VectorXc integrated(const LogMap& map) const { return integrated_along(tree_, basis_, map); }
   /// Phi alone, at the vertices.
   VectorXc phi(const VectorXc& l) const;
   /// Psi at the given locations, one row for each. Column j is the Psi whose derivative has the

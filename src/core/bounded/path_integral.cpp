@@ -75,4 +75,18 @@ VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
   return increments;
 }
 
+VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, const LogMap& map) {
+  const Points& vertices = tree.mesh().vertices;
+  std::vector<Line> lines;
+  for (const auto [from, to] : tree.edges())
+    lines.push_back({vertices[static_cast<size_t>(from)], vertices[static_cast<size_t>(to)]});
+  const VectorXc increments = increments_along(basis, map, lines);
+  VectorXc f = VectorXc::Zero(static_cast<Index>(vertices.size()));
+  for (size_t e = 0; e < lines.size(); ++e) {
+    const auto [from, to] = tree.edges()[e];
+    f[to] = f[from] + increments[static_cast<Index>(e)];
+  }
+  return f;
+}
+
 }  // namespace holomorph

@@ -3,6 +3,7 @@
 
 #include "core/bounded/certificate.h"
 #include "core/cauchy/boundary_basis.h"
+#include "core/mesh/antiderivative.h"
 
 namespace holomorph {
 
@@ -16,6 +17,10 @@ struct Line {
 /// reduces the error to the level of rounding. Cost: 12 rows of the basis for each panel.
 VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
                           std::span<const Line> lines);
+
+/// f = Phi + conj(Psi) at the vertices of a tree's mesh, 0 at its root. Cost: at least 12 rows of
+/// the basis for each edge of the tree.
+VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, const LogMap& map);
 
 /// Phi' and conj(Psi') at points.
 struct Slopes {

@@ -55,6 +55,9 @@ struct PosePin {
   Complex position;
   double angle = 0.0;  ///< radians, counter-clockwise; used if the rest pin has a frame
   double scale = 1.0;  ///< kMinPinScale to kMaxPinScale; used if the rest pin has a frame
+  /// The rotation of the picture at the pin in a map that was found before, in radians and
+  /// unwrapped. Where a pose has several maps of least energy, the turns decide which one is found.
+  std::optional<double> turn = {};
   bool operator==(const PosePin&) const = default;
 };
 
@@ -100,6 +103,12 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
+/// What an iterating method has found, as a value from which a draft can continue. Each method has
+/// its own type.
+struct Solution {
+  virtual ~Solution() = default;
+};
+
 /// A map at the samples of its Rest, with both Wirtinger derivatives f_z = (f_x - i f_y) / 2 and
 /// f_zbar = (f_x + i f_y) / 2 if they were requested (else empty).
 struct SampledMap {
@@ -115,12 +124,16 @@ struct SampledMap {
   /// Cage vertices whose angles are clamped to the smallest possible angle.
   std::vector<Index> limited_corners;
   bool ignores_pins = false;  ///< the method supports pins but ignored these
+  /// The rotation of the picture at each pin, for methods whose maps depend on it; none for pins
+  /// that were ignored. Otherwise empty.
+  std::vector<std::optional<double>> turns;
+  std::shared_ptr<const Solution> solution;  ///< null if the method does not iterate
 };
 
 /// What to compute besides the values of a map, and how.
 struct EvalOptions {
   bool derivatives = false;
-  /// Set during drags. Iterative methods may then continue from their last result and stop early.
+  /// Set during drags. Iterative methods may then continue from an earlier solution and stop early.
   /// Otherwise, the map depends only on the rest and the pose.
   bool draft = false;
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
@@ -145,9 +158,14 @@ class Deformer {
  public:
   virtual ~Deformer() = default;
 
-  /// The map of a pose. Throws Error when the pose does not match the rest or is not finite.
-  /// Cost for linear methods: one product with an operator of samples x controls.
-  virtual SampledMap deform(const Pose& pose, EvalOptions options) = 0;
+  /// The map of a pose. A draft may continue from `from`, the solution of an earlier map of this
+  /// deformer; solutions of other deformers are ignored. Nothing else that was computed before
+  /// changes the map. Throws Error when the pose does not match the rest or is not finite. Cost for
+  /// linear methods: one product with an operator of samples x controls.
+  virtual SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) = 0;
+  SampledMap deform(const Pose& pose, EvalOptions options) {
+    return deform(pose, options, nullptr);
+  }
 
   /// The matrix in f = samples + matrix * controls(pose), for methods that are linear in the pose.
   /// A vertex shader can apply it. Null when the method is not linear or works in full precision.

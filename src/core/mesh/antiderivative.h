@@ -23,6 +23,7 @@ class MeshTree {
   struct Edge {
     int from, to;
   };
+  const Mesh& mesh() const { return mesh_; }
   int root() const { return root_; }
   /// The edges of the tree. Each edge starts at the root or at the end of an earlier edge.
   const std::vector<Edge>& edges() const { return edges_; }

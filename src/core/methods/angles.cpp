@@ -128,7 +128,8 @@ class AnglesDeformer final : public Deformer {
     pins_.emplace(*rest_.mesh, coordinates_, boundary_.corners, pins);
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     check_pose(rest_, pose);
     SampledMap out;
     out.note = acting_.note;
@@ -140,7 +141,7 @@ class AnglesDeformer final : public Deformer {
       out.fzbar = VectorXc::Zero(count);
       return out;
     }
-    const PlacedAngles placed = place(pose, options.draft, out);
+    const PlacedAngles placed = place(pose, options.draft, dynamic_cast<const Found*>(from), out);
     if (published_) return answer_as_published(placed, options, std::move(out));
     VectorXc f;
     map_.map(placed.theta, f, options.draft);
@@ -163,13 +164,17 @@ class AnglesDeformer final : public Deformer {
     rest.precision = Precision::full;
     AnglesDeformer whole(rest);
     SampledMap ignored;
-    const PlacedAngles placed = whole.place(pose, false, ignored);
+    const PlacedAngles placed = whole.place(pose, false, nullptr, ignored);
     VectorXc f;
     whole.map_.map(placed.theta, f);
     return std::make_unique<AnglePoints>(rest_.mesh, std::move(whole.map_), placed, std::move(f));
   }
 
  private:
+  struct Found : Solution {
+    VectorXd unknowns;  ///< of AnglePins
+  };
+
   SampledMap answer_as_published(const PlacedAngles& placed, EvalOptions options,
                                  SampledMap out) const {
     const PublishedAngles::Values values = published_->map(placed.theta, rest_.samples);
@@ -197,7 +202,7 @@ class AnglesDeformer final : public Deformer {
     });
   }
 
-  PlacedAngles place(const Pose& pose, bool draft, SampledMap& out) {
+  PlacedAngles place(const Pose& pose, bool draft, const Found* from, SampledMap& out) {
     const Cage posed = boundary_.posed(elevated_to(pose.cage, rest_.cage));
     BoundaryAngles angles =
         boundary_angles(boundary_.cage, posed, boundary_.corners, boundary_.own(pose.corners));
@@ -206,7 +211,11 @@ class AnglesDeformer final : public Deformer {
     if (pins_) {
       std::vector<PosePin> targets;
       for (const size_t i : acting_.used) targets.push_back(pose.pins[i]);
-      const AnglePins::Answer answer = pins_->pull(targets, draft, placed);
+      const AnglePins::Answer answer =
+          pins_->pull(targets, draft, from ? &from->unknowns : nullptr, placed);
+      const auto found = std::make_shared<Found>();
+      found->unknowns = answer.unknowns;
+      out.solution = found;
       limited.insert(answer.limited.begin(), answer.limited.end());
       out.iterations = answer.iterations;
       if (!answer.settled) out.status = SampledMap::Status::iterating;

@@ -65,28 +65,40 @@ class ArapDeformer final : public Deformer {
           "arap: the energy is definite");
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     const Points targets = handles_.targets(pose);
     SampledMap out;
     out.note = handles_.note();
-    turn_.reset();
+    const auto found = std::make_shared<Found>();
     if (const auto rigid = handles_.rigid(targets)) {
-      turn_ = rigid->factor;
-      f_.resize(static_cast<Index>(mesh_.vertices.size()));
-      for (Index i = 0; i < f_.size(); ++i)
-        f_[i] = rigid->factor == Complex(1) && rigid->from == rigid->to
-                    ? mesh_.vertices[static_cast<size_t>(i)]
-                    : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
+      found->turn = rigid->factor;
+      found->f.resize(static_cast<Index>(mesh_.vertices.size()));
+      for (Index i = 0; i < found->f.size(); ++i)
+        found->f[i] = rigid->factor == Complex(1) && rigid->from == rigid->to
+                          ? mesh_.vertices[static_cast<size_t>(i)]
+                          : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
     } else {
-      out.iterations = minimize(targets, options.draft);
+      const auto* before = dynamic_cast<const Found*>(from);
+      const bool continues = options.draft && before && before->f.size() == vertices();
+      found->f = continues ? before->f : start(targets);
+      out.iterations =
+          minimize(targets, options.draft ? kDraftIterations : kMostIterations, found->f);
       if (out.iterations == (options.draft ? kDraftIterations : kMostIterations))
         out.status = SampledMap::Status::iterating;
     }
-    answer(out, options);
+    answer(*found, out, options);
+    out.solution = found;
     return out;
   }
 
  private:
+  struct Found : Solution {
+    VectorXc f;                   ///< at the vertices
+    std::optional<Complex> turn;  ///< rotation of the whole picture when it moves rigidly
+  };
+
+  Index vertices() const { return static_cast<Index>(mesh_.vertices.size()); }
   Complex opposite(const Triangle& t, int corner) const {
     return mesh_.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
            mesh_.vertices[static_cast<size_t>(t[(corner + 1) % 3])];
@@ -96,13 +108,12 @@ class ArapDeformer final : public Deformer {
   struct Derivatives {
     Complex fz, fzbar;
   };
-  Derivatives derivatives_of(const Triangle& t) const {
-    if (turn_) return {*turn_, 0};
+  Derivatives derivatives_of(const Triangle& t, const VectorXc& f) const {
     Derivatives d{0, 0};
     for (int a = 0; a < 3; ++a) {
-      const Complex e = opposite(t, a), f = f_[t[a]];
-      d.fz += times(-kI * std::conj(e), f);
-      d.fzbar += times(kI * e, f);
+      const Complex e = opposite(t, a), w = f[t[a]];
+      d.fz += times(-kI * std::conj(e), w);
+      d.fzbar += times(kI * e, w);
     }
     const double over = 1 / (4 * area_of(t));
     return {d.fz * over, d.fzbar * over};
@@ -117,45 +128,39 @@ class ArapDeformer final : public Deformer {
     }
   }
 
-  /// Starts from the most conformal map, found by one linear solve. While dragging, minimize()
-  /// starts from the last solution instead.
-  void start(const Points& targets) {
-    VectorXc right = VectorXc::Zero(static_cast<Index>(mesh_.vertices.size()));
+  /// The most conformal map, found by one linear solve.
+  VectorXc start(const Points& targets) const {
+    VectorXc right = VectorXc::Zero(vertices());
     add_targets(targets, right);
-    f_ = conformal_.solve(right);
+    return conformal_.solve(right);
   }
 
-  int minimize(const Points& targets, bool draft) {
-    if (!draft || f_.size() == 0) start(targets);
-    const int most = draft ? kDraftIterations : kMostIterations;
+  int minimize(const Points& targets, int most, VectorXc& f) const {
     int iteration = 0;
     for (double moved = 1; iteration < most && moved > kSettled * size_; ++iteration) {
-      VectorXc right = VectorXc::Zero(f_.size());
+      VectorXc right = VectorXc::Zero(f.size());
       for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
         const Triangle& t = mesh_.triangles[i];
-        const Complex fz = derivatives_of(t).fz;
+        const Complex fz = derivatives_of(t, f).fz;
         const double size = std::abs(fz);
         const Complex turn = 0.25 * stiffness_[i] * (size > 0 ? fz / size : Complex(1));
         for (int a = 0; a < 3; ++a) right[t[a]] += times(kI * opposite(t, a), turn);
       }
       add_targets(targets, right);
-      VectorXc next(f_.size());
+      VectorXc next(f.size());
       next.real() = rigid_.solve(right.real().eval());
       next.imag() = rigid_.solve(right.imag().eval());
-      moved = (next - f_).cwiseAbs().maxCoeff();
-      f_ = std::move(next);
+      moved = (next - f).cwiseAbs().maxCoeff();
+      f = std::move(next);
     }
     return iteration;
   }
 
-  void answer(SampledMap& out, EvalOptions options) const {
+  void answer(const Found& found, SampledMap& out, EvalOptions options) const {
     const Index count = static_cast<Index>(rest_.samples.size());
-    const std::span<const Complex> f(f_.data(), static_cast<size_t>(f_.size()));
-    const bool whole = rest_.samples == mesh_.vertices;
-    if (whole) {
-      out.f = f_;
-      if (!options.derivatives) return;
-      average_derivatives(out);
+    if (rest_.samples == mesh_.vertices) {
+      out.f = found.f;
+      if (options.derivatives) average_derivatives(found, out);
       return;
     }
     out.f.resize(count);
@@ -164,18 +169,20 @@ class ArapDeformer final : public Deformer {
     for (Index i = 0; i < count; ++i) {
       const Complex z = rest_.samples[static_cast<size_t>(i)];
       const Location at = locate_near(mesh_, z);
-      const Derivatives d = derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)]);
-      out.f[i] = at.in(mesh_, f);
+      const Derivatives d =
+          found.turn ? Derivatives{*found.turn, 0}
+                     : derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)], found.f);
+      out.f[i] = at.in(mesh_, as_span(found.f));
       out.fz[i] = d.fz;
       out.fzbar[i] = d.fzbar;
     }
   }
 
   /// The derivatives at a vertex are the mean over its triangles, weighted by area.
-  void average_derivatives(SampledMap& out) const {
-    const Index n = f_.size();
-    if (turn_) {
-      out.fz = VectorXc::Constant(n, *turn_);
+  void average_derivatives(const Found& found, SampledMap& out) const {
+    const Index n = found.f.size();
+    if (found.turn) {
+      out.fz = VectorXc::Constant(n, *found.turn);
       out.fzbar = VectorXc::Zero(n);
       return;
     }
@@ -183,7 +190,7 @@ class ArapDeformer final : public Deformer {
     out.fzbar = VectorXc::Zero(n);
     VectorXd areas = VectorXd::Zero(n);
     for (const Triangle& t : mesh_.triangles) {
-      const Derivatives d = derivatives_of(t);
+      const Derivatives d = derivatives_of(t, found.f);
       const double area = area_of(t);
       for (const int v : t) {
         out.fz[v] += area * d.fz;
@@ -202,8 +209,6 @@ class ArapDeformer final : public Deformer {
   double size_ = 1, handle_weight_ = 1;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
-  VectorXc f_;
-  std::optional<Complex> turn_;  ///< rotation of the whole picture when it moves rigidly
 };
 
 std::unique_ptr<Deformer> make_arap(const Rest& rest, const Deformer*) {

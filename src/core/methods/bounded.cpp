@@ -45,39 +45,58 @@ class BoundedDeformer final : public Deformer {
     if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     check_pose(rest_, pose);
-    if (options.draft && draft_) return draft_->deform(pose, options);
-    reference_->deform(pose, options.draft);
-    if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1)
-      return identity(pose, options);
+    if (options.draft && draft_) return draft_->deform(pose, options, from);
+    const auto* before = dynamic_cast<const Found*>(from);
+    if (!options.draft || (before && before->basis != basis_)) before = nullptr;
+    const auto found = std::make_shared<Found>();
+    found->basis = basis_;
     SampledMap out;
-    project(reference_->reference(out.zeros), pose, options.draft && warm_);
-    warm_ = true;
-    integrate(pose, options.draft);
-    answer(out, options);
-    out.status = solution_.certificate.holds && flipped_triangles_ == 0
+    solve(pose, options.draft, before, *found, out.zeros);
+    answer(*found, out, options);
+    out.status = found->solution.certificate.holds && found->flipped_triangles == 0
                      ? SampledMap::Status::certified
                      : SampledMap::Status::infeasible;
-    out.iterations = conformal_.iterations + solution_.iterations;
+    out.iterations = found->conformal.iterations + found->solution.iterations;
     out.ignores_pins = !reference_->uses_pins();
-    out.note = note(pose);
+    out.note = note(pose, *found);
+    out.solution = found;
     return out;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
-    if (posed_ != pose) {
-      BoundedDeformer copy(rest_, final_basis(rest_.cage));
-      SampledMap map = copy.deform(pose, {});
-      return copy.current();
-    }
-    return current();
+    BoundedDeformer copy(rest_, final_basis(rest_.cage));
+    Found found;
+    Points zeros;
+    copy.solve(pose, false, nullptr, found, zeros);
+    return std::make_unique<BoundedPointMap>(copy.basis_, rest_.mesh, found.solution.map, found.f);
   }
 
  private:
-  std::unique_ptr<PointMap> current() const {
-    return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, solution_.map, f_);
+  struct Found : Solution {
+    std::shared_ptr<const BoundaryBasis> basis;
+    BoundedMap solution, conformal;
+    bool is_identity = false;
+    int flipped_triangles = 0;  ///< triangles inverted because the mesh is too coarse
+    VectorXc f;                 ///< at the mesh's vertices
+    Derivatives first;
+    std::shared_ptr<const Solution> reference;
+  };
+
+  /// Drafts continue from `before` unless it is null.
+  void solve(const Pose& pose, bool draft, const Found* before, Found& found, Points& zeros) {
+    reference_->deform(pose, draft, before ? before->reference.get() : nullptr);
+    found.reference = reference_->solution();
+    if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1) {
+      set_identity(found);
+      return;
+    }
+    project(reference_->reference(zeros), pose, before && !before->is_identity ? before : nullptr,
+            found);
+    integrate(pose, draft, found);
   }
 
   /// The locations of the pins that the solve takes into account.
@@ -103,20 +122,22 @@ class BoundedDeformer final : public Deformer {
                                       std::move(rows));
   }
 
-  void project(const BoundedReference& followed, const Pose& pose, bool warm) {
+  void project(const BoundedReference& followed, const Pose& pose, const Found* before,
+               Found& found) const {
     if (nu_) {
-      solution_ = nu_->nearest(followed, warm ? &solution_ : nullptr);
+      found.solution = nu_->nearest(followed, before ? &before->solution : nullptr);
       return;
     }
     const BoundedReference target = space_ == "h" ? psi_->convexified(followed) : followed;
-    conformal_ = psi_->conformal(target, warm ? &conformal_ : nullptr);
-    solution_ = psi_->nearest(conformal_, target, psi_at_pins(pose), warm ? &solution_ : nullptr);
+    found.conformal = psi_->conformal(target, before ? &before->conformal : nullptr);
+    found.solution = psi_->nearest(found.conformal, target, psi_at_pins(pose, found),
+                                   before ? &before->solution : nullptr);
   }
 
   /// The values that Psi must have at the pins to take them to their targets.
-  VectorXc psi_at_pins(const Pose& pose) const {
+  VectorXc psi_at_pins(const Pose& pose, const Found& found) const {
     if (pin_locations().empty()) return {};
-    const VectorXc phi = on_mesh_->phi(conformal_.map.l);
+    const VectorXc phi = on_mesh_->phi(found.conformal.map.l);
     const std::span<const Complex> places(phi.data(), static_cast<size_t>(phi.size()));
     std::vector<Complex> left;
     for (size_t i = 0; i < pins_.size(); ++i)
@@ -125,48 +146,31 @@ class BoundedDeformer final : public Deformer {
     return Eigen::Map<const VectorXc>(left.data(), static_cast<Index>(left.size()));
   }
 
-  SampledMap identity(const Pose& pose, EvalOptions options) {
-    const Index count = static_cast<Index>(rest_.samples.size());
-    SampledMap out;
-    out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
-    if (options.derivatives) {
-      out.fz = VectorXc::Ones(count);
-      out.fzbar = VectorXc::Zero(count);
-    }
-    out.status = SampledMap::Status::certified;
-    out.ignores_pins = !reference_->uses_pins();
-    f_ = Eigen::Map<const VectorXc>(rest_.mesh->vertices.data(),
-                                    static_cast<Index>(rest_.mesh->vertices.size()));
-    solution_ = BoundedMap{};
-    solution_.map = {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())};
-    solution_.certificate.holds = true;
-    solution_.solution.status = ConeSolution::Status::solved;
-    conformal_ = BoundedMap{};
-    warm_ = false;
-    posed_ = pose;
-    flipped_triangles_ = 0;
-    out.note = note(pose);
-    return out;
+  void set_identity(Found& found) const {
+    found.is_identity = true;
+    found.f = Eigen::Map<const VectorXc>(rest_.mesh->vertices.data(),
+                                         static_cast<Index>(rest_.mesh->vertices.size()));
+    found.solution.map = {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())};
+    found.solution.certificate.holds = true;
+    found.solution.solution.status = ConeSolution::Status::solved;
   }
 
   /// Integrates the map along the mesh and aligns it.
-  void integrate(const Pose& pose, bool draft) {
-    auto [f, first] = on_mesh_->values(solution_.map);
-    f_ = std::move(f);
-    first_ = std::move(first);
+  void integrate(const Pose& pose, bool draft, Found& found) const {
+    MapOnMesh::Values values = on_mesh_->values(found.solution.map);
     // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel.
-    if (!draft) f_ = on_mesh_->integrated(solution_.map);
-    align(pose);
-    posed_ = pose;
-    flipped_triangles_ = flipped_triangles(*rest_.mesh, f_);
+    found.f = draft ? std::move(values.f) : on_mesh_->integrated(found.solution.map);
+    found.first = std::move(values.first);
+    align(pose, found);
+    found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
   }
 
   /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
   /// reference. A rotation preserves all bounds. A change of scale requires a new certificate. If
   /// that fails, the scale is not changed.
-  void align(const Pose& pose) {
+  void align(const Pose& pose, Found& found) const {
     Points from, to;
-    const std::span<const Complex> f = as_span(f_);
+    const std::span<const Complex> f = as_span(found.f);
     if (reference_->uses_pins())
       for (size_t i = 0; i < pins_.size(); ++i)
         if (pins_[i]) {
@@ -175,34 +179,43 @@ class BoundedDeformer final : public Deformer {
         }
     if (from.size() < 2) {
       from.clear();
-      for (const int v : reference_->anchors()) from.push_back(f_[v]);
+      for (const int v : reference_->anchors()) from.push_back(found.f[v]);
       to.assign(reference_->anchor_images().begin(), reference_->anchor_images().end());
     }
     const Similarity nearest = similarity_between(from, to);
     Complex factor = nearest.factor;
-    LogMap map = scaled(solution_.map, factor);
+    LogMap map = scaled(found.solution.map, factor);
     const Certificate certificate = nu_ ? nu_->certify(map) : psi_->certify(map);
     if (certificate.holds) {
-      solution_.certificate = certificate;
+      found.solution.certificate = certificate;
     } else {
       factor /= std::abs(factor);
-      map = scaled(solution_.map, factor);
+      map = scaled(found.solution.map, factor);
     }
-    solution_.map = std::move(map);
-    first_.phi *= factor;
-    first_.psi *= std::conj(factor);
-    for (Complex& w : f_) w = Similarity{factor, nearest.from, nearest.to}(w);
+    found.solution.map = std::move(map);
+    found.first.phi *= factor;
+    found.first.psi *= std::conj(factor);
+    for (Complex& w : found.f) w = Similarity{factor, nearest.from, nearest.to}(w);
   }
 
-  void answer(SampledMap& out, EvalOptions options) const {
-    if (rest_.samples == rest_.mesh->vertices) {
-      out.f = f_;
+  void answer(const Found& found, SampledMap& out, EvalOptions options) const {
+    if (found.is_identity) {
+      const Index count = static_cast<Index>(rest_.samples.size());
+      out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
       if (!options.derivatives) return;
-      out.fz = first_.phi;
-      out.fzbar = first_.psi.conjugate();
+      out.fz = VectorXc::Ones(count);
+      out.fzbar = VectorXc::Zero(count);
       return;
     }
-    SampledMap map = BoundedPointMap(basis_, rest_.mesh, solution_.map, f_).at(rest_.samples);
+    if (rest_.samples == rest_.mesh->vertices) {
+      out.f = found.f;
+      if (!options.derivatives) return;
+      out.fz = found.first.phi;
+      out.fzbar = found.first.psi.conjugate();
+      return;
+    }
+    SampledMap map =
+        BoundedPointMap(basis_, rest_.mesh, found.solution.map, found.f).at(rest_.samples);
     out.f = std::move(map.f);
     out.fz = std::move(map.fz);
     out.fzbar = std::move(map.fzbar);
@@ -219,24 +232,25 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// The result of the proof, and other remarks for the user.
-  std::string note(const Pose& pose) const {
-    if (!solution_.certificate.holds)
-      return std::string("Not proved: limit on ") + bound_name(solution_.certificate.failed) +
-             " near " + point_text(solution_.certificate.where);
-    std::string text = "No folds" + pin_note(pose);
+  std::string note(const Pose& pose, const Found& found) const {
+    const Certificate& certificate = found.solution.certificate;
+    if (!certificate.holds)
+      return std::string("Not proved: limit on ") + bound_name(certificate.failed) + " near " +
+             point_text(certificate.where);
+    std::string text = "No folds" + pin_note(pose, found);
     if (!reference_->note().empty()) text += ". " + reference_->note();
-    if (solution_.solution.status != ConeSolution::Status::solved)
+    if (found.solution.solution.status != ConeSolution::Status::solved)
       text += ". A nearer map may exist";
-    if (flipped_triangles_ > 0)
+    if (found.flipped_triangles > 0)
       return "No folds, but the mesh is too coarse for this map: " +
-             std::to_string(flipped_triangles_) + " inverted triangles";
+             std::to_string(found.flipped_triangles) + " inverted triangles";
     return text;
   }
 
   /// Names the pin that is farthest from its target, and the bound that holds it back.
-  std::string pin_note(const Pose& pose) const {
+  std::string pin_note(const Pose& pose, const Found& found) const {
     if (!reference_->uses_pins()) return pins_.empty() ? "" : ". The followed method ignores pins";
-    const std::span<const Complex> f = as_span(f_);
+    const std::span<const Complex> f = as_span(found.f);
     double farthest = 0;
     size_t which = 0;
     for (size_t i = 0; i < pins_.size(); ++i) {
@@ -248,7 +262,7 @@ class BoundedDeformer final : public Deformer {
     char more[120];
     std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
                   farthest < 10 ? 1 : 0, farthest);
-    const auto bound = binding_constraint({&conformal_.solution, &solution_.solution});
+    const auto bound = binding_constraint({&found.conformal.solution, &found.solution.solution});
     return more + (bound ? " (limit: " + limit_text(*bound) + ")" : ", as in the followed map");
   }
 
@@ -263,13 +277,6 @@ class BoundedDeformer final : public Deformer {
   std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
   std::unique_ptr<BoundedDeformer> draft_;
-
-  BoundedMap solution_, conformal_;
-  bool warm_ = false;          ///< whether a drag can start from the solution
-  int flipped_triangles_ = 0;  ///< triangles inverted because the mesh is too coarse
-  std::optional<Pose> posed_;
-  VectorXc f_;
-  Derivatives first_;
 };
 
 std::unique_ptr<Deformer> make_bounded(const Rest& rest, const Deformer*) {

@@ -19,6 +19,8 @@ class BoundedPointMap final : public PointMap {
     return {map.f[0], map.fz[0], map.fzbar[0]};
   }
 
+  const VectorXc& at_vertices() const { return f_; }
+
   SampledMap at(std::span<const Complex> points) const {
     SampledMap map;
     map.f.resize(static_cast<Index>(points.size()));

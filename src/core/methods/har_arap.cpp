@@ -5,9 +5,11 @@
 // = Phi' and f_zbar = conj(Psi').
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
+#include "core/mesh/area_samples.h"
 #include "core/methods/handles.h"
 #include "core/methods/linear.h"
 #include "core/methods/rows.h"
+#include "core/solvers/real_form.h"
 
 namespace holomorph {
 namespace {
@@ -36,47 +38,45 @@ class HarArapDeformer final : public Deformer {
         polygon, rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     const Points targets = handles_.targets(pose);
     SampledMap out;
     out.note = handles_.note();
     if (const auto rigid = handles_.rigid(targets))
       return moved_rigidly(*rigid, std::move(out), options);
-    out.iterations = minimize(targets, options.draft);
-    if (out.iterations == (options.draft ? kDraftIterations : kMostIterations))
-      out.status = SampledMap::Status::iterating;
-    out.f = product(values_, phi_) + product(values_, psi_).conjugate();
+    const VectorXd handles = handle_right(targets);
+    const auto* before = dynamic_cast<const Found*>(from);
+    const bool continues = options.draft && before && before->phi.size() == basis_.size();
+    const auto found =
+        std::make_shared<Found>(continues ? *before : unknowns(conformal_.solve(handles)));
+    const int most = options.draft ? kDraftIterations : kMostIterations;
+    out.iterations = minimize(handles, most, *found);
+    if (out.iterations == most) out.status = SampledMap::Status::iterating;
+    out.solution = found;
+    out.f = product(values_, found->phi) + product(values_, found->psi).conjugate();
     if (!options.derivatives) return out;
-    out.fz = product(slopes_, phi_);
-    out.fzbar = product(slopes_, psi_).conjugate();
+    out.fz = product(slopes_, found->phi);
+    out.fzbar = product(slopes_, found->psi).conjugate();
     return out;
   }
 
  private:
+  struct Found : Solution {
+    VectorXc phi, psi;
+  };
+
   /// Takes some of the mesh's vertices as samples, weighted by the area of their triangles.
   void set_up_energy() {
-    const Mesh& mesh = *rest_.mesh;
-    std::vector<double> areas(mesh.vertices.size(), 0);
-    double total = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const double area =
-          cross(mesh.vertices[static_cast<size_t>(b)] - mesh.vertices[static_cast<size_t>(a)],
-                mesh.vertices[static_cast<size_t>(c)] - mesh.vertices[static_cast<size_t>(a)]);
-      for (const int v : {a, b, c}) areas[static_cast<size_t>(v)] += area;
-      total += 3 * area;
-    }
-    // The weight of skipped vertices is added to the next sample.
-    const size_t step = std::max<size_t>(1, mesh.vertices.size() / kInnerSamples);
     Points points;
     std::vector<double> weights;
-    double weight = 0;
-    for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-      weight += areas[v] / total;
-      if (v % step != step - 1 && v + 1 < mesh.vertices.size()) continue;
-      points.push_back(mesh.vertices[v]);
-      weights.push_back(std::sqrt(weight));
-      weight = 0;
+    double total = 0;
+    for (const AreaSample& sample : area_samples(*rest_.mesh, kInnerSamples)) {
+      points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
+      weights.push_back(sample.area);
+      total += sample.area;
     }
+    for (double& weight : weights) weight = std::sqrt(weight / total);
     gradient_ = basis_.values(points, 1);
     for (size_t i = 0; i < points.size(); ++i) gradient_.row(static_cast<Index>(i)) *= weights[i];
     weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
@@ -123,24 +123,18 @@ class HarArapDeformer final : public Deformer {
     return handle_weight_ * (held_rows_ * stacked);
   }
 
-  void set_unknowns(const VectorXd& x) {
-    const Index n = basis_.size();
-    phi_.resize(n);
-    psi_.resize(n);
-    phi_.real() = x.segment(0, n);
-    phi_.imag() = x.segment(n, n);
-    psi_.real() = x.segment(2 * n, n);
-    psi_.imag() = x.segment(3 * n, n);
+  Found unknowns(const VectorXd& x) const {
+    Found found;
+    found.phi = complex_of(x.head(2 * basis_.size()));
+    found.psi = complex_of(x.tail(2 * basis_.size()));
+    return found;
   }
 
-  int minimize(const Points& targets, bool draft) {
-    const VectorXd handles = handle_right(targets);
-    if (!draft || phi_.size() == 0) set_unknowns(conformal_.solve(handles));
+  int minimize(const VectorXd& handles, int most, Found& found) const {
     const Index n = basis_.size();
-    const int most = draft ? kDraftIterations : kMostIterations;
     int iteration = 0;
     for (double moved = 1; iteration < most && moved > kSettled; ++iteration) {
-      VectorXc turn = gradient_ * phi_;  // `gradient_` includes the weights
+      VectorXc turn = gradient_ * found.phi;  // `gradient_` includes the weights
       for (Index i = 0; i < turn.size(); ++i) {
         const double size = std::abs(turn[i]);
         turn[i] = size > 0 ? weights_[i] * turn[i] / size : Complex(weights_[i]);
@@ -149,19 +143,18 @@ class HarArapDeformer final : public Deformer {
       VectorXd right = handles;
       right.segment(0, n) += pull.real();
       right.segment(n, n) += pull.imag();
-      const VectorXc before = phi_;
-      set_unknowns(rigid_.solve(right));
-      moved = (phi_ - before).cwiseAbs().maxCoeff() / size_;
+      Found next = unknowns(rigid_.solve(right));
+      moved = (next.phi - found.phi).cwiseAbs().maxCoeff() / size_;
+      found = std::move(next);
     }
     return iteration;
   }
 
-  SampledMap moved_rigidly(const Similarity& rigid, SampledMap out, EvalOptions options) {
+  SampledMap moved_rigidly(const Similarity& rigid, SampledMap out, EvalOptions options) const {
     const Index count = static_cast<Index>(rest_.samples.size());
     out.f = Eigen::Map<const VectorXc>(rest_.samples.data(), count);
     if (rigid.factor != Complex(1) || rigid.from != rigid.to)
       for (Complex& z : out.f) z = rigid(z);
-    phi_.resize(0);
     if (!options.derivatives) return out;
     out.fz = VectorXc::Constant(count, rigid.factor);
     out.fzbar = VectorXc::Zero(count);
@@ -177,7 +170,6 @@ class HarArapDeformer final : public Deformer {
   VectorXd weights_;
   PlanarMatrix<double> values_, slopes_;
   Cholesky rigid_, conformal_;
-  VectorXc phi_, psi_;
 };
 
 std::unique_ptr<Deformer> make_har_arap(const Rest& rest, const Deformer*) {

@@ -10,7 +10,7 @@ template <class T>
 LinearDeformer<T>::LinearDeformer(const Rest& rest) : rest_(rest) {}
 
 template <class T>
-SampledMap LinearDeformer<T>::deform(const Pose& pose, EvalOptions options) {
+SampledMap LinearDeformer<T>::deform(const Pose& pose, EvalOptions options, const Solution*) {
   check_pose(rest_, pose);
   const VectorXc by = controls(pose);
   const Eigen::Map<const VectorXc> z(rest_.samples.data(),

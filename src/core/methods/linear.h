@@ -16,7 +16,8 @@ class LinearDeformer : public Deformer {
  public:
   explicit LinearDeformer(const Rest& rest);
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override;
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution*) override;
   const PlanarMatrix<float>* operator_matrix() const override;
 
  protected:

@@ -28,10 +28,11 @@ class OutlineDeformer final : public Deformer {
     fit_ = new_fit();
     set_up_values();
     // Without pins, the solution does not depend on the pose, so it is computed here.
-    if (pins_.used.empty()) solve({}, false);
+    if (pins_.used.empty()) solve({}, false, nullptr);
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     check_pose(rest_, pose);
     if (fallback_) {
       SampledMap out = fallback_->deform(pose, options);
@@ -40,7 +41,10 @@ class OutlineDeformer final : public Deformer {
       return out;
     }
     SampledMap out;
-    solve(pin_targets(pose), options.draft);
+    solve(pin_targets(pose), options.draft, dynamic_cast<const Found*>(from));
+    const auto found = std::make_shared<Found>();
+    found->checkpoint = fit_->checkpoint();
+    out.solution = found;
     const int last = fit_->iterations();
     const OutlineMatch match = fit_->after(std::min(options.iteration.value_or(last), last));
     // The user can view an earlier iteration, which may have a different basis.
@@ -86,6 +90,10 @@ class OutlineDeformer final : public Deformer {
   }
 
  private:
+  struct Found : Solution {
+    OutlineFit::Checkpoint checkpoint;
+  };
+
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
   OutlineSettings settings() const {
@@ -112,15 +120,16 @@ class OutlineDeformer final : public Deformer {
     return pin_targets;
   }
 
-  void solve(Points targets, bool draft) {
-    if (targets == solved_ && (draft || !draft_)) return;
-    if (draft)
-      fit_->follow(targets);
+  void solve(Points targets, bool draft, const Found* from) {
+    // A map without pins does not depend on the pose.
+    if (targets == solved_ && (targets.empty() || (!draft && !draft_))) return;
+    if (draft && from)
+      fit_->follow(targets, from->checkpoint);
     else
       fit_->solve(targets);
     if (fit_->builds() != built_) set_up_values();
     solved_ = std::move(targets);
-    draft_ = draft;
+    draft_ = draft && from;
   }
 
   void set_up_values() {

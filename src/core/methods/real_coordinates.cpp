@@ -32,8 +32,9 @@ class RealDeformer final : public LinearDeformer<T> {
     this->value_ = planar(coordinates_->at(rest.samples, 0).real().template cast<Complex>());
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
-    SampledMap out = LinearDeformer<T>::deform(pose, {});
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution*) override {
+    SampledMap out = LinearDeformer<T>::deform(pose, {}, nullptr);
     if (!options.derivatives || out.f.size() == 0) return out;
     if (slope_.rows() != out.f.size())
       slope_ = planar(coordinates_->at(this->derivative_points(), 1));

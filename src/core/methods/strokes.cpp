@@ -138,7 +138,8 @@ class StrokesDeformer final : public Deformer {
     prepare(unit);
   }
 
-  SampledMap deform(const Pose& pose, EvalOptions options) override {
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
     check_pose(rest_, pose);
     if (strokes_.empty()) {
       SampledMap out = fallback_->deform(without_strokes(pose), options);
@@ -147,35 +148,29 @@ class StrokesDeformer final : public Deformer {
     }
     SampledMap out = cage_->deform(without_handles(pose), options);
     out.note = note_;
-    if (is_at_rest(pose)) {
-      correction_ = Correction{};
-      posed_.reset();
-      return out;
-    }
-    if (pose != posed_ || options.draft != draft_) {
-      solve(pose, options.draft);
-      posed_ = pose;
-      draft_ = options.draft;
-    }
-    out.iterations = correction_.iterations;
-    if (!correction_.settled) out.status = SampledMap::Status::iterating;
+    if (is_at_rest(pose)) return out;
+    const auto found = std::make_shared<const Correction>(
+        solved(pose, options.draft, dynamic_cast<const Correction*>(from)));
+    out.solution = found;
+    out.iterations = found->iterations;
+    if (!found->settled) out.status = SampledMap::Status::iterating;
     char text[80];
     constexpr double kMet = 0.005;  // px
-    if (correction_.miss < kMet)
+    if (found->miss < kMet)
       std::snprintf(text, sizeof text, "The picture meets the strokes");
     else
       std::snprintf(text, sizeof text, "The picture misses the strokes by %.1f px on average",
-                    correction_.miss);
+                    found->miss);
     out.note = text + (note_.empty() ? "" : ". " + note_);
-    out.f += product(value_, correction_.phi);
-    if (soft_) out.f += product(value_, correction_.psi).conjugate();
+    out.f += product(value_, found->phi);
+    if (soft_) out.f += product(value_, found->psi).conjugate();
     if (!options.derivatives || rest_.samples.empty()) return out;
     if (slope_.rows() == 0)
       slope_ = planar_coordinates<T>(
           polygon_cage(basis_->polygon()),
           rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples, 1);
-    out.fz += product(slope_, correction_.phi);
-    if (soft_) out.fzbar += product(slope_, correction_.psi).conjugate();
+    out.fz += product(slope_, found->phi);
+    if (soft_) out.fzbar += product(slope_, found->psi).conjugate();
     return out;
   }
 
@@ -185,12 +180,7 @@ class StrokesDeformer final : public Deformer {
     auto map = std::make_unique<SumMap>();
     map->terms.emplace_back(rest_.cage, cage_displacement(rest_, pose));
     if (is_at_rest(pose)) return map;
-    Correction moved = correction_;
-    if (pose != posed_ || draft_) {
-      StrokesDeformer other(*this);
-      other.solve(pose, false);
-      moved = std::move(other.correction_);
-    }
+    const Correction moved = solved(pose, false, nullptr);
     const Cage polygon = polygon_cage(basis_->polygon());
     map->terms.emplace_back(polygon, moved.phi);
     if (soft_) map->conjugates.emplace_back(polygon, moved.psi);
@@ -199,16 +189,15 @@ class StrokesDeformer final : public Deformer {
 
  private:
   /// The correction h = C phi + conj(C psi) over the polygon of the basis.
-  struct Correction {
+  struct Correction : Solution {
     VectorXc phi, psi;
     int iterations = 0;
     bool settled = true;
     double miss = 0;                ///< root mean square distance from the posed strokes
     std::vector<double> fractions;  ///< the samples' positions as fractions of the posed strokes
+    VectorXc unknowns;              ///< whitened
   };
   enum Term : size_t { on_strokes, rigid, on_pins };
-
-  StrokesDeformer(const StrokesDeformer&) = default;
 
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
@@ -303,39 +292,45 @@ class StrokesDeformer final : public Deformer {
     return true;
   }
 
-  void solve(const Pose& pose, bool draft) {
+  /// Drafts continue from `before` unless it is null.
+  Correction solved(const Pose& pose, bool draft, const Correction* before) const {
     const VectorXc cage = cage_displacement(rest_, pose);
     const auto targets =
         std::make_shared<StrokeTargets>(strokes_, pose.strokes, cage_on_ * cage,
                                         VectorXc((cage_inner_ * cage).array() + unit_), unit_);
-    AlternatingFit& fit = *fit_;
+    AlternatingFit fit = *fit_;
     fit.set_projection(on_strokes, [targets](const VectorXc& values, VectorXc& projected) {
       targets->project(values, projected);
     });
     fit.set_projection(rigid, [targets](const VectorXc& values, VectorXc& projected) {
       targets->make_rigid(values, projected);
     });
-    const bool warm = draft && !correction_.fractions.empty();
-    const VectorXc first = targets->at(warm ? correction_.fractions : targets->fractions());
+    const bool warm = draft && before && before->fractions.size() == targets->fractions().size();
+    const VectorXc first = targets->at(warm ? before->fractions : targets->fractions());
     if (!pins_.used.empty()) fit.set_targets(on_pins, pin_targets(pose, cage));
-    if (!warm) {
+    if (warm) {
+      fit.reset(before->unknowns);
+    } else {
       // The first solve has almost no rigidity. Full rigidity would keep parts near their original
       // directions even if they must rotate far.
-      if (!pins_.used.empty()) loose_->set_targets(on_pins, pin_targets(pose, cage));
-      loose_->start(first);
-      fit.reset(loose_->unknowns());
+      AlternatingFit loose = *loose_;
+      if (!pins_.used.empty()) loose.set_targets(on_pins, pin_targets(pose, cage));
+      loose.start(first);
+      fit.reset(loose.unknowns());
     }
     fit.start(first);
     const int most = draft ? kDraftSteps : kSteps;
-    correction_.iterations =
+    Correction found;
+    found.iterations =
         fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled, most);
-    correction_.settled = correction_.iterations < most;
-    correction_.fractions = targets->fractions();
-    correction_.miss = fit.distance(on_strokes);
-    const VectorXc x = fit.unknowns();
+    found.settled = found.iterations < most;
+    found.fractions = targets->fractions();
+    found.miss = fit.distance(on_strokes);
+    found.unknowns = fit.unknowns();
     const Index n = basis_->size();
-    correction_.phi = basis_->coefficients(x.head(n));
-    if (soft_) correction_.psi = basis_->coefficients(x.tail(n).conjugate());
+    found.phi = basis_->coefficients(found.unknowns.head(n));
+    if (soft_) found.psi = basis_->coefficients(found.unknowns.tail(n).conjugate());
+    return found;
   }
 
   VectorXc pin_targets(const Pose& pose, const VectorXc& cage) const {
@@ -361,9 +356,6 @@ class StrokesDeformer final : public Deformer {
   MatrixXc cage_on_, cage_inner_, cage_at_pins_;  ///< cage coordinates at strokes, inside, at pins
   PlanarMatrix<T> value_, slope_;
   std::optional<AlternatingFit> fit_, loose_;  ///< loose_ has almost no rigidity
-  Correction correction_;
-  std::optional<Pose> posed_;
-  bool draft_ = false;
 };
 
 std::unique_ptr<Deformer> make_strokes(const Rest& rest, const Deformer*) {

@@ -105,6 +105,7 @@ void OutlineFit::solve(const Points& pinned) {
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
   before_ = {};
+  if (start_) start_->use_sharp(false);
   if (start_ && !pins_.empty())
     build(start_->best(wanted));
   else if (refined_)
@@ -116,15 +117,25 @@ void OutlineFit::solve(const Points& pinned) {
   if (may_refine() && !is_matched()) refine();
 }
 
-void OutlineFit::follow(const Points& pinned) {
-  if (now_.iterates.empty() || (refined_ && pins_.empty())) return solve(pinned);
+OutlineFit::Checkpoint OutlineFit::checkpoint() const {
+  return {built_, refined_, start_ && start_->is_sharp(),
+          start_ ? start_->pairs() : ConformalStart::Pairs{},
+          now_.iterates.empty() ? VectorXc() : now_.iterates.back()};
+}
+
+void OutlineFit::follow(const Points& pinned, const Checkpoint& from) {
+  if (from.unknowns.size() == 0 || (from.refined && pins_.empty())) return solve(pinned);
   before_ = {};
   pinned_ = in(frame_, pinned);
   const Points wanted = held(pinned_);
   if (start_ && !pins_.empty()) {
-    const Correspondence start = start_->follow(wanted);
-    if (refined_) return follow_start(start);
-    if (difference(start, built_) > kFar) build(start);
+    start_->use_sharp(from.sharp);
+    const Correspondence start = start_->follow(wanted, from.pairs);
+    if (from.refined) return follow_start(start);
+    if (difference(start, from.built) > kFar)
+      build(start);
+    else if (refined_ || difference(built_, from.built) > 0)
+      build(from.built);
     begin(start, wanted);
     run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
     // A single pin selects a conformal map. If there are several pins, there may be no conformal
@@ -133,6 +144,7 @@ void OutlineFit::follow(const Points& pinned) {
     return;
   }
   if (!pins_.empty()) fit_->set_targets(kPinTerm, pin_targets(wanted));
+  fit_->reset(from.unknowns);
   fit_->resume();
   run(AlternatingFit::Mode::first_order, kRoughlySettled, kMostRough);
 }

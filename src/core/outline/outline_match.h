@@ -74,9 +74,19 @@ class OutlineFit {
   /// vertices as necessary. Cost for 200 vertices: 5 ms per iteration, plus 60 ms for a basis if
   /// there are pins. Fitting the conformal map takes 0.1 to 1 s.
   void solve(const Points& pinned);
+  /// What a drag continues from.
+  struct Checkpoint {
+    Correspondence built;         ///< the correspondence for which the basis was built
+    bool refined = false;         ///< whether the basis is graded
+    bool sharp = false;           ///< whether the conformal start uses its finer maps
+    ConformalStart::Pairs pairs;  ///< if there is a conformal start
+    VectorXc unknowns;
+  };
+  /// The state after the last call of `solve` or `follow`.
+  Checkpoint checkpoint() const;
   /// Like `solve`, but less accurate: makes at most four iterations. If there are pins, they begin
-  /// at a start near the last one; otherwise, they begin at the last solution.
-  void follow(const Points& pinned);
+  /// at a start near that of the checkpoint; otherwise, they begin at its solution.
+  void follow(const Points& pinned, const Checkpoint& from);
 
   const Cage& basis() const { return now_.given_basis; }
   /// How many bases have been built. Pins that move far require another basis.

@@ -37,7 +37,7 @@ void OutlineFit::refine() {
   before_ = now_;
   follow_start(built_);
   const bool may_sharpen = !start_->is_near_crowded();
-  if (may_sharpen && misses().total() > 1 && start_->sharpen())
+  if (may_sharpen && misses().total() > 1 && start_->use_sharp(true))
     follow_start(start_->last(held(pinned_)));
   Misses now = misses();
   if (may_sharpen && now.total() > 1 && settings_.upright > 0 && pins_.empty()) {

@@ -120,11 +120,10 @@ struct ConformalStart::Search {
   Points given_pins;                  ///< positions in the plane
   std::vector<Complex> pins, pinned;  ///< positions in the disks of source and target
 
-  /// Three arc lengths of the source and their images on the target.
-  struct Pairs {
-    std::array<double, 3> from, to;
-  };
   Pairs chosen{};
+  bool sharp = false;
+  /// The maps that are not in use: the finer ones or the usual ones.
+  std::optional<std::pair<MappedOutline, MappedOutline>> spare = {};
 
   DiskMap disk_map(const Pairs& pairs) const {
     std::array<double, 3> from{}, to{};
@@ -320,7 +319,7 @@ ConformalStart::ConformalStart(const Polyline& source, const Polyline& target, d
   std::optional<MappedOutline> from = mapped_outline(source, kUsual),
                                to = mapped_outline(target, kUsual);
   if (!from || !to) return;
-  search_.reset(new Search{std::move(*from), std::move(*to), upright, pins, {}, {}});
+  search_.reset(new Search{std::move(*from), std::move(*to), upright, pins, {}, {}, {}});
   search_->map_pins();
 }
 
@@ -358,17 +357,27 @@ Correspondence ConformalStart::best(const Points& pinned) {
   return search_->correspondence();
 }
 
-bool ConformalStart::sharpen() {
+bool ConformalStart::is_sharp() const {
+  return search_->sharp;
+}
+
+bool ConformalStart::use_sharp(bool sharp) {
+  Search& search = *search_;
+  if (sharp == search.sharp) return true;
   try {
-    std::optional<MappedOutline> source = mapped_outline(*search_->source.line, kSharp),
-                                 target = mapped_outline(*search_->target.line, kSharp);
-    if (!source || !target) return false;
-    search_->source = std::move(*source);
-    search_->target = std::move(*target);
+    if (!search.spare) {
+      std::optional<MappedOutline> source = mapped_outline(*search.source.line, kSharp),
+                                   target = mapped_outline(*search.target.line, kSharp);
+      if (!source || !target) return false;
+      search.spare.emplace(std::move(*source), std::move(*target));
+    }
   } catch (const Error&) {
     return false;  // finer vertices may coincide in the zipper even if coarser vertices do not
   }
-  search_->map_pins();
+  std::swap(search.source, search.spare->first);
+  std::swap(search.target, search.spare->second);
+  search.sharp = sharp;
+  search.map_pins();
   return true;
 }
 
@@ -384,15 +393,19 @@ Correspondence ConformalStart::least_stretched() {
   return result;
 }
 
-Correspondence ConformalStart::follow(const Points& pinned) {
+const ConformalStart::Pairs& ConformalStart::pairs() const {
+  return search_->chosen;
+}
+
+Correspondence ConformalStart::follow(const Points& pinned, const Pairs& from) {
   search_->set_targets(pinned);
-  std::vector<Search::Pairs> starts{search_->chosen};
+  std::vector<Pairs> starts{from};
   if (!pinned.empty()) {
     const auto more = search_->through_pin(search_->pins[0], search_->pinned[0]);
     starts.insert(starts.end(), more.begin(), more.end());
   }
   search_->chosen = search_->refined(*std::ranges::min_element(
-      starts, {}, [&](const Search::Pairs& pairs) { return search_->cost(pairs); }));
+      starts, {}, [&](const Pairs& pairs) { return search_->cost(pairs); }));
   return search_->correspondence();
 }
 

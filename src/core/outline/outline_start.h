@@ -5,6 +5,7 @@
 // which has three parameters.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "core/geometry/polyline.h"
@@ -52,17 +53,24 @@ class ConformalStart {
   /// The best correspondence for these pin targets. Without targets, pins are ignored. Cost: 3 to
   /// 25 ms.
   Correspondence best(const Points& pinned = {});
-  /// Computes finer maps to the disk, which resolve corners that correspond to long parts of the
-  /// other outline. Returns false and changes nothing if rounding does not allow this. Cost: about
-  /// 100 ms.
-  bool sharpen();
+  /// Uses finer maps to the disk, which resolve corners that correspond to long parts of the other
+  /// outline, or the usual ones again. Returns false and changes nothing if rounding does not allow
+  /// finer maps. Cost: about 100 ms the first time.
+  bool use_sharp(bool sharp);
+  bool is_sharp() const;
   /// The last correspondence, recomputed with the current maps to the disk. Cost: 1 ms.
   Correspondence last(const Points& pinned = {});
   /// The correspondence with the least stretch, ignoring pins and the picture's rotation. Cost: the
   /// same as for `best`.
   Correspondence least_stretched();
-  /// Like `best`, but continues from the last correspondence, which must exist. Cost: about 4 ms.
-  Correspondence follow(const Points& pinned);
+  /// Three arc lengths of the source and their images on the target. They define a correspondence.
+  struct Pairs {
+    std::array<double, 3> from{}, to{};
+  };
+  /// The pairs that define the last correspondence.
+  const Pairs& pairs() const;
+  /// Like `best`, but continues from the pairs of an earlier correspondence. Cost: about 4 ms.
+  Correspondence follow(const Points& pinned, const Pairs& from);
 
  private:
   struct Search;

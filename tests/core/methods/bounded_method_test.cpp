@@ -18,6 +18,7 @@ struct Setting {
   Rest rest;
   Pose pose;
   std::unique_ptr<Deformer> deformer;
+  std::shared_ptr<const Solution> last;
 
   explicit Setting(const Cage& cage, const Points& pins, const Parameters& parameters = {}) {
     rest.cage = cage;
@@ -32,7 +33,12 @@ struct Setting {
     deformer = method_named("bounded").prepare(rest, nullptr);
   }
 
-  SampledMap map(EvalOptions options = {true, false}) { return deformer->deform(pose, options); }
+  /// Drafts continue from the last map.
+  SampledMap map(EvalOptions options = {true, false}) {
+    SampledMap map = deformer->deform(pose, options, last.get());
+    last = map.solution;
+    return map;
+  }
 
   int flipped_triangle_count(const SampledMap& map) const {
     int count = 0;

@@ -53,7 +53,8 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
       for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
         // Other methods always compute in double precision, and raised edges give them the same
         // polygon.
-        if (precision == Precision::single && shape != Shape::straight && !is_linear(method))
+        if (!is_linear(method) && shape != Shape::straight &&
+            (precision == Precision::single || shape == Shape::raised))
           continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
                        << static_cast<int>(shape));
@@ -228,6 +229,35 @@ TEST_CASE("Contract: bad input throws, and the deformer still works afterwards")
         CHECK_THROWS_AS(method.prepare(crossed, nullptr), Error);
       },
       Outlines::too);
+}
+
+TEST_CASE("Contract: a draft depends only on the pose and the solution that it continues from") {
+  for (const Method& method : methods())
+    for (const bool onto : {false, true}) {
+      if (onto && !method.uses_outline) continue;
+      Setup s = setup(method, Precision::single);
+      if (onto) s = outlined(std::move(s));
+      INFO(method.id);
+      const auto deformer = method.prepare(s.rest, nullptr);
+      const auto at = [&](double part) {
+        Pose pose = s.pose;
+        for (PosePin& pin : pose.pins) pin.position += Complex(3 * part, -2 * part);
+        for (Points& segment : pose.cage.segments)
+          for (Complex& z : segment) z += part * Complex(0.01, 0.02) * z;
+        return pose;
+      };
+      constexpr EvalOptions kDraft{.derivatives = false, .draft = true};
+      const SampledMap start = deformer->deform(at(0), {}), near = deformer->deform(at(1), kDraft),
+                       next = deformer->deform(at(0.5), kDraft, start.solution.get());
+      // Other solves in between change nothing.
+      for (const double part : {0.2, 1.5}) {
+        const SampledMap other = deformer->deform(at(part), kDraft, next.solution.get());
+        CHECK(other.f.allFinite());
+      }
+      CHECK(deformer->deform(at(0.5), kDraft, start.solution.get()).f == next.f);
+      CHECK(deformer->deform(at(1), kDraft).f == near.f);
+      CHECK(deformer->deform(at(0), {}, next.solution.get()).f == start.f);
+    }
 }
 
 TEST_CASE("Contract: a previous deformer does not change the map") {

@@ -452,7 +452,7 @@ TEST_CASE("Outline: a pin selects one of the conformal maps, and nothing folds")
     for (const bool rough : {false, true}) {
       const Complex wanted = Complex(20, 10) + std::polar(radius, rough ? 1.1 : 1.0);
       if (rough)
-        fit.follow({wanted});
+        fit.follow({wanted}, fit.checkpoint());
       else
         fit.solve({wanted});
       const OutlineMatch match = fit.after(fit.iterations());
@@ -493,7 +493,7 @@ TEST_CASE("Outline: between shapes with corners, pins reach their targets and no
       for (const bool rough : {false, true}) {
         INFO(place << (rough ? " followed" : ""));
         if (rough)
-          fit.follow({place});
+          fit.follow({place}, fit.checkpoint());
         else
           fit.solve({place});
         const OutlineMatch match = fit.after(fit.iterations());
@@ -571,9 +571,11 @@ TEST_CASE(
   Onto onto(cage, outlines::random(42, false, 300));
   onto.rest.pins = {{{0, 0}}};
   onto.deformer = method_named("outline").prepare(onto.rest, nullptr);
+  std::shared_ptr<const Solution> last;
   const auto map_of = [&](Complex pin, bool draft) {
     Pose pose{cage, {{pin}}};
-    SampledMap map = onto.deformer->deform(pose, {false, draft});
+    SampledMap map = onto.deformer->deform(pose, {false, draft}, last.get());
+    last = map.solution;
     return map.f;
   };
   const VectorXc start = map_of({0, 0}, false);
