@@ -36,6 +36,15 @@ double playback_ms(int runs);
 /// `linear_blend`, positions are blended linearly.
 double inbetween_loss_percent(bool linear_blend);
 
+/// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and
+/// evaluation on the mesh, for a basis with about this many vertices.
+struct PuppetFigures {
+  double median_ms = 0, longest_ms = 0;
+  int unproved = 0;
+  double behind_percent = 0;  ///< frames whose value is more than 5 % above the converged one
+};
+PuppetFigures puppet_drag(int vertices);
+
 /// The time of a frame in which one of five strokes is dragged, without evaluating the map on the
 /// mesh. Each stroke has 20 samples.
 double strokes_drag_ms(int runs);

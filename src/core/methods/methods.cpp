@@ -12,6 +12,7 @@ const std::vector<Method>& methods() {
                              har_arap_method(), outline_method(),  strokes_method(),
                              angles_method(),   harmonic_method(), mean_value_method()};
     rows.push_back(bounded_method(rows, "pins"));
+    rows.push_back(puppet_method());
     return rows;
   }();
   return table;

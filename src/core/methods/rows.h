@@ -39,4 +39,7 @@ Method mean_value_method();
 /// method's map (Levi, Weber 2016). By default, it follows the method `usual_id`.
 Method bounded_method(const std::vector<Method>& references, const std::string& usual_id);
 
+/// `puppet`: keeps sizes and shapes as far as possible, and never folds.
+Method puppet_method();
+
 }  // namespace holomorph

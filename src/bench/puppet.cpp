@@ -1,0 +1,82 @@
+// Benchmarks of puppet drags: a body with eight limbs, of which one is dragged.
+#include <algorithm>
+
+#include "bench/measures.h"
+#include "core/clock.h"
+#include "core/isometric/isometric_space.h"
+#include "core/isometric/mesh_display.h"
+#include "core/mesh/area_samples.h"
+#include "core/mesh/mesher.h"
+
+namespace holomorph::bench {
+namespace {
+
+constexpr int kLimbs = 8;
+
+/// A body of radius 100 with limbs that are 60 wide at the body and 200 long.
+Points limbed_body() {
+  Points outline;
+  for (int limb = 0; limb < kLimbs; ++limb) {
+    const double middle = 2 * kPi * limb / kLimbs;
+    for (const auto& [radius, side] :
+         {std::pair(100.0, -0.3), std::pair(200.0, -0.1), std::pair(300.0, -0.05),
+          std::pair(300.0, 0.05), std::pair(200.0, 0.1), std::pair(100.0, 0.3)})
+      outline.push_back(std::polar(radius, middle + side));
+  }
+  return outline;
+}
+
+}  // namespace
+
+PuppetFigures puppet_drag(int vertices) {
+  const Cage cage = polygon_cage(limbed_body());
+  const Mesh mesh = domain_mesh(cage, {10000});
+  const auto basis = std::make_shared<const BoundaryBasis>(cage, vertices, 6 * vertices);
+  IsometricHandles handles;
+  handles.stations = {{0, 0}, {20, 30}};
+  for (int limb = 0; limb < kLimbs; ++limb)
+    handles.stations.push_back(std::polar(280.0, 2 * kPi * limb / kLimbs));
+  const Index pins = static_cast<Index>(handles.stations.size());
+  handles.turned = pins;
+  handles.weights = VectorXd::Ones(pins);
+  InnerSamples inner;
+  const std::vector<AreaSample> areas = area_samples(mesh, 300);
+  inner.weights.resize(static_cast<Index>(areas.size()));
+  for (size_t i = 0; i < areas.size(); ++i) {
+    inner.points.push_back(mesh.vertices[static_cast<size_t>(areas[i].vertex)]);
+    inner.weights[static_cast<Index>(i)] = areas[i].area;
+  }
+  const IsometricSpace space(basis, mesh, handles, inner, {}, {});
+  const MeshDisplay display(*basis, mesh);
+
+  IsometricTarget target;
+  target.stations = VectorXc::Zero(pins);
+  const IsometricSpace::Settings settings;
+  IsometricMap map = space.solved(target, settings);
+  PuppetFigures figures;
+  std::vector<double> times;
+  MeshDisplay::Values shown;
+  int behind = 0, compared = 0;
+  constexpr int kFrames = 120, kComparedEvery = 10;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    const double t = static_cast<double>(frame) / kFrames;
+    target.stations[3] = 150 * std::sin(kPi * t) * std::polar(1.0, 2 + 2 * t);
+    const double start = now_ms();
+    map = space.followed(target, settings, map);
+    shown = display.values(map.map);
+    times.push_back(now_ms() - start);
+    figures.unproved += !map.certificate.holds;
+    if (frame % kComparedEvery != 0) continue;
+    ++compared;
+    const IsometricMap converged = space.solved(target, settings, map.turns);
+    constexpr double kClose = 1.05;
+    behind += map.solution.total > kClose * converged.solution.total;
+  }
+  figures.behind_percent = 100.0 * behind / compared;
+  figures.longest_ms = *std::ranges::max_element(times);
+  std::ranges::nth_element(times, times.begin() + kFrames / 2);
+  figures.median_ms = times[kFrames / 2];
+  return figures;
+}
+
+}  // namespace holomorph::bench

@@ -1,0 +1,398 @@
+// Newton's method. A step goes at most 0.9 of the way to |nu| = 1, then is halved until the value
+// decreases. One correction for the curvature of the stations uses the same factorization.
+#include "core/isometric/isometric_program.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/arithmetic.h"
+#include "core/error.h"
+#include "core/solvers/real_form.h"
+
+namespace holomorph {
+namespace {
+
+/// The values of a program at x.
+struct State {
+  VectorXd x;
+  VectorXd u, a, b;   ///< Re l, Re nu and Im nu at samples
+  VectorXc phi, psi;  ///< weight * e^l and weight * nu e^l at the nodes of the paths
+  VectorXc grown;     ///< weight * (e^l - 1)
+  VectorXc offsets;   ///< c
+  Complex move;
+  VectorXc l_off, nu_off;  ///< deviations of l and nu at the frames
+  double energy = 0, total = 0;
+};
+
+class Solver {
+ public:
+  Solver(const IsometricSystem& system, const IsometricTarget& target,
+         const IsometricSettings& settings)
+      : system_(system), target_(target), settings_(settings), n_(system.size()) {
+    check(target.stations.size() == system.station_weights.size() &&
+              target.frames.size() == system.frames.rows(),
+          "isometric program: sizes agree");
+    all_ = system.station_weights.sum();
+  }
+
+  /// The values at x; the total is infinite if |nu| >= 1 at a sample.
+  State at(VectorXd x) const {
+    State s;
+    s.x = std::move(x);
+    const auto l = s.x.head(2 * n_), nu = s.x.tail(2 * n_);
+    s.u = transposed_product(system_.re, l);
+    s.a = transposed_product(system_.re, nu);
+    s.b = transposed_product(system_.im, nu);
+    const Index m = s.u.size();
+    for (Index i = 0; i < m; ++i) {
+      if (!(s.a[i] * s.a[i] + s.b[i] * s.b[i] < 1)) {
+        s.total = std::numeric_limits<double>::infinity();
+        return s;
+      }
+      s.energy += system_.weights[i] * system_.energy.value(s.u[i], s.a[i], s.b[i]);
+    }
+    s.total = s.energy;
+    const VectorXc xl = complex_of(l), xnu = complex_of(nu);
+    if (target_.stations.size() > 0) {
+      const VectorXc log = system_.nodes.transpose() * xl, second = system_.nodes.transpose() * xnu;
+      s.grown = log.unaryExpr([](Complex l) { return exp_minus_one(l); });
+      s.phi = system_.paths.weights().cwiseProduct((s.grown.array() + 1).matrix());
+      s.grown = s.grown.cwiseProduct(system_.paths.weights()).eval();
+      s.psi = s.phi.cwiseProduct(second);
+      set_offsets(s);
+      for (Index j = 0; j < s.offsets.size(); ++j)
+        s.total += settings_.penalty * system_.station_weights[j] * std::norm(s.offsets[j]);
+    }
+    if (target_.frames.size() > 0) {
+      s.l_off = system_.frames * xl - target_.frames;
+      s.nu_off = system_.frames * xnu;
+      for (Index k = 0; k < s.l_off.size(); ++k)
+        s.total += system_.frame_weights[k] * (std::norm(s.l_off[k]) + std::norm(s.nu_off[k]));
+    }
+    if (!std::isfinite(s.total)) s.total = std::numeric_limits<double>::infinity();
+    return s;
+  }
+
+  /// Sets the gradient and the lower triangle of the matrix at a state.
+  void linearize(const State& s) {
+    const Index N = system_.unknowns();
+    gradient_.setZero(N);
+    hessian_.setZero(N, N);
+    add_energy(s);
+    if (target_.stations.size() > 0) add_stations(s);
+    if (target_.frames.size() > 0) add_frames(s);
+    hessian_.diagonal().array() += kRidge;
+  }
+
+  IsometricSolution run(VectorXd start) {
+    State s = at(std::move(start));
+    check(std::isfinite(s.total), "isometric program: |nu| < 1 at the start");
+    IsometricSolution out;
+    for (; out.iterations < settings_.iterations; ++out.iterations) {
+      linearize(s);
+      if (!factor()) break;
+      const VectorXd d = -cholesky_.solve(gradient_);
+      const double slope = gradient_.dot(d);
+      if (-slope <= settings_.tolerance * s.total) {
+        out.converged = true;
+        break;
+      }
+      if (!advance(d, slope, s)) {
+        out.converged = true;  // rounding prevents any further decrease
+        break;
+      }
+    }
+    out.x = s.x;
+    out.offsets = s.offsets;
+    out.move = s.move;
+    out.energy = s.energy;
+    out.total = s.total;
+    return out;
+  }
+
+  IsometricDerivatives derivatives(const VectorXd& x) {
+    const State s = at(x);
+    linearize(s);
+    return {s.total, gradient_, hessian_};
+  }
+
+ private:
+  static constexpr double kRidge = 1e-9;
+
+  void set_offsets(State& s) const {
+    const auto& pieces = system_.paths.pieces();
+    constexpr Index kNodes = PathTree::kNodes;
+    std::vector<Complex> f(pieces.size());
+    for (size_t e = 0; e < pieces.size(); ++e) {
+      const Index first = static_cast<Index>(e) * kNodes;
+      f[e] = s.grown.segment(first, kNodes).sum() + std::conj(s.psi.segment(first, kNodes).sum());
+      if (pieces[e].parent >= 0) f[e] += f[static_cast<size_t>(pieces[e].parent)];
+    }
+    const std::vector<Index>& ends = system_.paths.ends();
+    s.offsets.resize(static_cast<Index>(ends.size()));
+    Complex mean = 0;
+    for (size_t j = 0; j < ends.size(); ++j) {
+      const Index i = static_cast<Index>(j);
+      s.offsets[i] = (ends[j] >= 0 ? f[static_cast<size_t>(ends[j])] : 0) - target_.stations[i];
+      mean += system_.station_weights[i] * s.offsets[i];
+    }
+    mean /= all_;
+    s.offsets.array() -= mean;
+    s.move = -mean;
+  }
+
+  void add_energy(const State& s) {
+    if (settings_.single)
+      add_energy(s, single_);
+    else
+      add_energy(s, double_);
+  }
+
+  template <class Scalar>
+  struct Workspace {
+    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    Matrix u, nu, mixed, sum;
+  };
+
+  template <class Scalar>
+  void add_energy(const State& s, Workspace<Scalar>& work) {
+    const Index m = s.u.size(), rows = 2 * n_;
+    work.u.resize(rows, m);
+    work.nu.resize(rows, 2 * m);
+    work.mixed.resize(rows, m);
+    VectorXd gu(m), ga(m), gb(m);
+    for (Index i = 0; i < m; ++i) {
+      const auto e = system_.energy.with_derivatives(s.u[i], s.a[i], s.b[i]);
+      const double w = system_.weights[i];
+      gu[i] = w * e.gradient[0];
+      ga[i] = w * e.gradient[1];
+      gb[i] = w * e.gradient[2];
+      // The columns' Gram matrices are the blocks of w h.
+      const Eigen::Matrix3d h = w * e.hessian;
+      const auto re = system_.re.col(i), im = system_.im.col(i);
+      const double root = std::sqrt(h(0, 0)), p = std::sqrt(h(1, 1)), q = h(2, 1) / p,
+                   r = std::sqrt(std::max(h(2, 2) - q * q, 0.0));
+      work.u.col(i) = (root * re).template cast<Scalar>();
+      work.mixed.col(i) = (h(1, 0) / root * re + h(2, 0) / root * im).template cast<Scalar>();
+      work.nu.col(2 * i) = (p * re + q * im).template cast<Scalar>();
+      work.nu.col(2 * i + 1) = (r * im).template cast<Scalar>();
+    }
+    gradient_.head(rows) += product(system_.re, gu);
+    gradient_.tail(rows) += product(system_.re, ga) + product(system_.im, gb);
+    work.sum.setZero(2 * rows, 2 * rows);
+    add_gram(work.u, m, 0, work.sum);
+    add_gram(work.nu, 2 * m, rows, work.sum);
+    add_product(work.mixed, work.u, m, rows, 0, work.sum);
+    hessian_ += work.sum.template cast<double>();
+  }
+
+  /// Sets the rows of J: 4n x 2 stations, real and imaginary parts of sqrt(penalty s) c.
+  void set_rows(const State& s) {
+    const auto& pieces = system_.paths.pieces();
+    const Index count = static_cast<Index>(pieces.size());
+    constexpr Index kNodes = PathTree::kNodes;
+    // Derivatives of the integrals of e^l and nu e^l with respect to l; the first is also that of
+    // the second with respect to nu.
+    MatrixXc phi(n_, count), psi(n_, count);
+    Eigen::Matrix<Complex, kNodes, 2> both;
+    for (Index e = 0; e < count; ++e) {
+      both.col(0) = s.phi.segment<kNodes>(e * kNodes);
+      both.col(1) = s.psi.segment<kNodes>(e * kNodes);
+      const MatrixXc sums = system_.nodes.middleCols<kNodes>(e * kNodes) * both;
+      phi.col(e) = sums.col(0);
+      psi.col(e) = sums.col(1);
+      const Index parent = pieces[static_cast<size_t>(e)].parent;
+      if (parent >= 0) {
+        phi.col(e) += phi.col(parent);
+        psi.col(e) += psi.col(parent);
+      }
+    }
+    const std::vector<Index>& ends = system_.paths.ends();
+    const Index stations = static_cast<Index>(ends.size());
+    rows_.setZero(4 * n_, 2 * stations);
+    for (Index j = 0; j < stations; ++j) {
+      const Index end = ends[static_cast<size_t>(j)];
+      if (end < 0) continue;
+      auto re = rows_.col(2 * j), im = rows_.col(2 * j + 1);
+      const auto a = phi.col(end), b = psi.col(end);
+      re.segment(0, n_) = a.real() + b.real();
+      re.segment(n_, n_) = -a.imag() - b.imag();
+      re.segment(2 * n_, n_) = a.real();
+      re.segment(3 * n_, n_) = -a.imag();
+      im.segment(0, n_) = a.imag() - b.imag();
+      im.segment(n_, n_) = a.real() - b.real();
+      im.segment(2 * n_, n_) = -a.imag();
+      im.segment(3 * n_, n_) = -a.real();
+    }
+    VectorXd mean_re = VectorXd::Zero(4 * n_), mean_im = mean_re;
+    for (Index j = 0; j < stations; ++j) {
+      mean_re += system_.station_weights[j] / all_ * rows_.col(2 * j);
+      mean_im += system_.station_weights[j] / all_ * rows_.col(2 * j + 1);
+    }
+    for (Index j = 0; j < stations; ++j) {
+      const double scale = std::sqrt(settings_.penalty * system_.station_weights[j]);
+      rows_.col(2 * j) = scale * (rows_.col(2 * j) - mean_re);
+      rows_.col(2 * j + 1) = scale * (rows_.col(2 * j + 1) - mean_im);
+    }
+  }
+
+  /// sqrt(penalty s) c as real numbers, in the order of the rows.
+  VectorXd scaled(const VectorXc& offsets) const {
+    VectorXd real(2 * offsets.size());
+    for (Index j = 0; j < offsets.size(); ++j) {
+      const double scale = std::sqrt(settings_.penalty * system_.station_weights[j]);
+      real[2 * j] = scale * offsets[j].real();
+      real[2 * j + 1] = scale * offsets[j].imag();
+    }
+    return real;
+  }
+
+  void add_stations(const State& s) {
+    set_rows(s);
+    gradient_ += 2 * product(rows_, scaled(s.offsets));
+    const MatrixXd columns = std::sqrt(2.0) * rows_;
+    add_gram(columns, columns.cols(), 0, hessian_);
+    if (s.offsets.cwiseAbs().maxCoeff() > settings_.far) add_curvature(s);
+  }
+
+  /// Adds the positive part of 2 penalty s Re(conj(c) c''). At each node of a path, the second
+  /// derivative of f is w e^l dl^2 + conj(w e^l (nu dl^2 + 2 dl dnu)).
+  void add_curvature(const State& s) {
+    const auto& pieces = system_.paths.pieces();
+    const std::vector<Index>& ends = system_.paths.ends();
+    // The pull on each piece: the sum of s conj(c) over the stations behind it. The mean of the
+    // offsets is zero, so the centering does not matter.
+    std::vector<Complex> pull(pieces.size(), 0);
+    for (size_t j = 0; j < ends.size(); ++j)
+      if (ends[j] >= 0)
+        pull[static_cast<size_t>(ends[j])] += 2 * settings_.penalty *
+                                              system_.station_weights[static_cast<Index>(j)] *
+                                              std::conj(s.offsets[static_cast<Index>(j)]);
+    for (size_t e = pieces.size(); e-- > 0;)
+      if (pieces[e].parent >= 0) pull[static_cast<size_t>(pieces[e].parent)] += pull[e];
+    constexpr Index kNodes = PathTree::kNodes;
+    MatrixXd columns(4 * n_, 2 * s.phi.size());
+    Index used = 0;
+    for (Index k = 0; k < s.phi.size(); ++k) {
+      const Complex g = pull[static_cast<size_t>(k / kNodes)];
+      const Complex alpha = g * s.phi[k] + std::conj(g) * s.psi[k], beta = std::conj(g) * s.phi[k];
+      // Re(alpha dl^2 + 2 beta dl dnu) as a form in (Re dl, Im dl, Re dnu, Im dnu). Its eigenvalues
+      // come in pairs of opposite sign.
+      Eigen::Matrix4d form;
+      const double ar = alpha.real(), ai = alpha.imag(), br = beta.real(), bi = beta.imag();
+      form << ar, -ai, br, -bi, -ai, -ar, -bi, -br, br, -bi, 0, 0, -bi, -br, 0, 0;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(form);
+      for (int i = 2; i < 4; ++i) {
+        const double value = eigen.eigenvalues()[i];
+        if (!(value > 0)) continue;
+        const Eigen::Vector4d v = std::sqrt(value) * eigen.eigenvectors().col(i);
+        const auto q = system_.nodes.col(k);
+        auto column = columns.col(used++);
+        column.segment(0, n_) = v[0] * q.real() + v[1] * q.imag();
+        column.segment(n_, n_) = -v[0] * q.imag() + v[1] * q.real();
+        column.segment(2 * n_, n_) = v[2] * q.real() + v[3] * q.imag();
+        column.segment(3 * n_, n_) = -v[2] * q.imag() + v[3] * q.real();
+      }
+    }
+    add_gram(columns, used, 0, hessian_);
+  }
+
+  void add_frames(const State& s) {
+    for (Index k = 0; k < s.l_off.size(); ++k) {
+      const double weight = system_.frame_weights[k];
+      MatrixXd columns = MatrixXd::Zero(4 * n_, 4);
+      MatrixXd re, im;
+      real_columns(system_.frames.row(k), re, im);
+      columns.col(0).head(2 * n_) = re;
+      columns.col(1).head(2 * n_) = im;
+      columns.col(2).tail(2 * n_) = re;
+      columns.col(3).tail(2 * n_) = im;
+      const Eigen::Vector4d off(s.l_off[k].real(), s.l_off[k].imag(), s.nu_off[k].real(),
+                                s.nu_off[k].imag());
+      gradient_ += 2 * weight * (columns * off);
+      columns *= std::sqrt(2 * weight);
+      add_gram(columns, 4, 0, hessian_);
+    }
+  }
+
+  bool factor() {
+    if (!hessian_.allFinite()) return false;
+    double ridge = 1e-12 * hessian_.diagonal().maxCoeff();
+    for (int attempt = 0; attempt < 8; ++attempt, ridge *= 10) {
+      if (cholesky_.factor(hessian_)) return true;
+      hessian_.diagonal().array() += ridge;
+    }
+    return false;
+  }
+
+  /// The fraction of d that is 0.9 of the way to |nu| = 1 at a sample, but at most 1.
+  double longest_step(const State& s, const VectorXd& d) const {
+    const VectorXd a = transposed_product(system_.re, d.tail(2 * n_)),
+                   b = transposed_product(system_.im, d.tail(2 * n_));
+    double step = 1;
+    constexpr double kShare = 0.9;
+    for (Index i = 0; i < a.size(); ++i) {
+      const double square = a[i] * a[i] + b[i] * b[i];
+      if (square == 0) continue;
+      const double half = s.a[i] * a[i] + s.b[i] * b[i],
+                   room = 1 - s.a[i] * s.a[i] - s.b[i] * s.b[i];
+      // The positive root t of square t^2 + 2 half t - room = 0.
+      const double root = std::sqrt(half * half + square * room);
+      const double t = half > 0 ? room / (half + root) : (root - half) / square;
+      step = std::min(step, kShare * t);
+    }
+    return step;
+  }
+
+  /// Takes a step along d. Returns false if the value cannot be decreased.
+  bool advance(const VectorXd& d, double slope, State& s) {
+    constexpr double kArmijo = 1e-4, kShortest = 1e-10;
+    const VectorXd along = s.offsets.size() > 0 ? transposed_product(rows_, d) : VectorXd();
+    for (double step = longest_step(s, d); step > kShortest; step *= 0.5) {
+      State next = at(s.x + step * d);
+      if (std::isfinite(next.total) && s.offsets.size() > 0) {
+        const VectorXd bent = scaled(next.offsets) - scaled(s.offsets) - step * along;
+        State better = at(next.x - 2 * cholesky_.solve(product(rows_, bent)));
+        if (better.total < next.total) next = std::move(better);
+      }
+      if (next.total <= s.total + kArmijo * step * slope) {
+        s = std::move(next);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const IsometricSystem& system_;
+  const IsometricTarget& target_;
+  const IsometricSettings& settings_;
+  Index n_;
+  double all_ = 0;  ///< sum of the stations' weights
+  VectorXd gradient_;
+  MatrixXd hessian_, rows_;
+  Workspace<double> double_;
+  Workspace<float> single_;
+  Cholesky cholesky_;
+};
+
+}  // namespace
+
+IsometricSolution minimized(const IsometricSystem& system, const IsometricTarget& target,
+                            const IsometricSettings& settings, VectorXd start) {
+  return Solver(system, target, settings).run(std::move(start));
+}
+
+double isometric_value(const IsometricSystem& system, const IsometricTarget& target,
+                       const IsometricSettings& settings, const VectorXd& x) {
+  return Solver(system, target, settings).at(x).total;
+}
+
+IsometricDerivatives isometric_derivatives(const IsometricSystem& system,
+                                           const IsometricTarget& target,
+                                           const IsometricSettings& settings, const VectorXd& x) {
+  return Solver(system, target, settings).derivatives(x);
+}
+
+}  // namespace holomorph

@@ -1,0 +1,82 @@
+// Minimizes the isometric energy of a map whose pins are soft.
+//
+//     minimize   sum of w_i e(u_i, nu_i) + penalty * sum of s_j |c_j|^2 + sum of r_k |z_k|^2
+//
+// u_i = Re l and nu_i are linear in the unknowns, which are the whitened coefficients of l and nu.
+// Therefore the first sum is convex. c_j = f(p_j) - target_j - (the weighted mean of these
+// differences) is not linear: f - z is the integral of e^l - 1 and of conj(nu e^l) along paths. z_k
+// are the deviations of l and nu from prescribed values, for pins with rotation and scale.
+#pragma once
+
+#include <limits>
+
+#include "core/isometric/energy.h"
+#include "core/isometric/path_tree.h"
+#include "core/solvers/dense.h"
+
+namespace holomorph {
+
+/// The part of a program that does not change while handles are moved. There are n unknowns each
+/// for l and nu, m samples, and one weight for each station of the paths.
+struct IsometricSystem {
+  IsometricEnergy energy;
+  MatrixXd re, im;   ///< 2n x m: the real and imaginary parts of a basis function at the samples
+  VectorXd weights;  ///< w: m
+  PathTree paths;
+  MatrixXc nodes;            ///< n x nodes of the paths: the whitened basis
+  VectorXd station_weights;  ///< s
+  MatrixXc frames;           ///< the whitened basis at points where l is prescribed, one per row
+  VectorXd frame_weights;    ///< r
+
+  Index size() const { return re.rows() / 2; }      ///< n
+  Index unknowns() const { return 2 * re.rows(); }  ///< real: (Re, Im) of l, then of nu
+};
+
+/// The part of a program that changes when handles move.
+struct IsometricTarget {
+  VectorXc stations;  ///< displacements, target_j - p_j
+  VectorXc frames;    ///< the prescribed values of l
+};
+
+/// An iterate. |nu| < 1 at all samples.
+struct IsometricSolution {
+  VectorXd x;
+  VectorXc offsets;   ///< c, one for each station
+  Complex move;       ///< the displacement of the root
+  double energy = 0;  ///< weighted mean of e, without the other terms
+  double total = 0;   ///< the value that is minimized
+  int iterations = 0;
+  bool converged = false;
+};
+
+struct IsometricSettings {
+  double penalty = 1;
+  int iterations = 200;
+  /// The iteration stops when the Newton decrement is below this fraction of the total.
+  double tolerance = 1e-13;
+  /// Pins that miss by more than this add the positive part of their second derivatives. Use it for
+  /// final answers; impossible poses then need fewer iterations.
+  double far = std::numeric_limits<double>::infinity();
+  bool single = false;  ///< compute the Hessian in single precision
+};
+
+/// Minimizes from a start, at which |nu| < 1 must hold at all samples (checked). The value
+/// decreases in every iteration. Method: Newton's, with Gauss-Newton for the stations. Cost of an
+/// iteration: 10 m n^2 multiplications and one Cholesky factorization of size 4n.
+IsometricSolution minimized(const IsometricSystem& system, const IsometricTarget& target,
+                            const IsometricSettings& settings, VectorXd start);
+
+/// The value at x; infinite unless |nu| < 1 at all samples.
+double isometric_value(const IsometricSystem& system, const IsometricTarget& target,
+                       const IsometricSettings& settings, const VectorXd& x);
+/// The value, its gradient, and the matrix of a Newton step at x, for tests.
+struct IsometricDerivatives {
+  double value = 0;
+  VectorXd gradient;
+  MatrixXd hessian;  ///< lower triangle
+};
+IsometricDerivatives isometric_derivatives(const IsometricSystem& system,
+                                           const IsometricTarget& target,
+                                           const IsometricSettings& settings, const VectorXd& x);
+
+}  // namespace holomorph

@@ -1,0 +1,91 @@
+// Maps of least isometric energy: f_z = e^l, conj(f_zbar) = nu e^l with l and nu in a basis, |nu| <
+// 1 everywhere, and pins.
+//
+// Every map is certified: |nu| < 1 is proved on the boundary, and therefore inside. e^l has no
+// zeros. The map does not fold.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/bounded/certificate.h"
+#include "core/isometric/isometric_program.h"
+
+namespace holomorph {
+
+/// Where the energy is measured inside, in addition to the boundary, which then counts half.
+struct InnerSamples {
+  Points points;
+  VectorXd weights;  ///< areas, in any unit
+};
+
+/// Points whose images are prescribed, and points where l is prescribed.
+struct IsometricHandles {
+  Points stations;
+  Index turned = 0;  ///< how many of the stations, the first ones, have turns
+  VectorXd weights;
+  Points frames;
+  VectorXd frame_weights;
+};
+
+struct IsometricMap {
+  LogMap map;
+  IsometricSolution solution;
+  Certificate certificate;
+  VectorXd turns;  ///< Im l at the stations, in radians, unwrapped
+  /// The program that was solved. It has more samples than usual if the proof needed them.
+  std::shared_ptr<const IsometricSystem> system;
+};
+
+class IsometricSpace {
+ public:
+  /// The factors by which energies are multiplied at the samples: of the boundary's samples, then
+  /// of the inner samples. Empty: 1.
+  using Stiffness = VectorXd;
+
+  /// Cost: that of the whitened basis at the nodes of the paths.
+  IsometricSpace(std::shared_ptr<const BoundaryBasis> basis, const Mesh& mesh,
+                 IsometricHandles handles, const InnerSamples& inner, const Stiffness& stiffness,
+                 IsometricEnergy energy);
+
+  struct Settings {
+    double pin_weight = 1e5;  ///< penalty of a squared miss, in units of the domain's diagonal
+    bool exact = false;       ///< meet the stations exactly in final answers
+  };
+
+  /// The final answer. If the turns of the first stations are known, the start has these turns;
+  /// which of several minima is found depends on them. Otherwise, the start is the best rotation of
+  /// all stations. The result depends on the arguments alone.
+  IsometricMap solved(const IsometricTarget& target, const Settings& settings,
+                      const VectorXd& turns = {}) const;
+  /// A draft: a few steps from an earlier map of this space.
+  IsometricMap followed(const IsometricTarget& target, const Settings& settings,
+                        const IsometricMap& from) const;
+
+  const BoundaryBasis& basis() const { return *basis_; }
+  const Certifier& certifier() const { return certifier_; }
+  const IsometricSystem& system() const { return *system_; }
+  /// Tries to prove that |nu| < 1.
+  Certificate certify(const LogMap& map) const;
+
+ private:
+  double penalty(const Settings& settings) const;
+  VectorXd start(const VectorXd& turns) const;
+  VectorXd rotated(const IsometricTarget& target) const;
+  LogMap map_of(const VectorXd& x) const;
+  std::shared_ptr<const IsometricSystem> with_samples(const IsometricSystem& system,
+                                                      const Points& points) const;
+  void prove(IsometricMap& map) const;
+  void retreat(const VectorXd& certified, IsometricMap& map) const;
+  void finish(const IsometricTarget& target, IsometricMap& map) const;
+
+  std::shared_ptr<const BoundaryBasis> basis_;
+  IsometricHandles handles_;
+  double size_;
+  Certifier certifier_;
+  std::shared_ptr<const IsometricSystem> system_;
+  MatrixXc at_stations_;  ///< the whitened basis
+  Cholesky from_turns_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,230 @@
+// Method `puppet`: pins move parts of the picture, which keeps its sizes and shapes as far as
+// possible and cannot fold. The energy is the symmetric Dirichlet energy, in unknowns in which it
+// is convex.
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/geometry/stiffness.h"
+#include "core/isometric/isometric_space.h"
+#include "core/isometric/mesh_display.h"
+#include "core/maps/distortion.h"
+#include "core/mesh/area_samples.h"
+#include "core/methods/bounded_points.h"
+#include "core/methods/linear.h"
+#include "core/methods/parameters.h"
+#include "core/methods/puppet_handles.h"
+#include "core/methods/rows.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kSamplesPerVertex = 6;
+constexpr size_t kInnerSamples = 300;
+
+class PuppetDeformer final : public Deformer {
+ public:
+  explicit PuppetDeformer(const Rest& rest)
+      : rest_(rest),
+        method_(method_named("puppet")),
+        basis_(std::make_shared<const BoundaryBasis>(rest.cage, size_for(rest.cage),
+                                                     kSamplesPerVertex * size_for(rest.cage))),
+        handles_(rest_, *basis_, {.frame_weight = value("frame_weight")}),
+        display_(*basis_, *rest_.mesh) {
+    const InnerSamples inner = inner_samples();
+    space_ = std::make_unique<IsometricSpace>(basis_, *rest_.mesh, handles_.isometric(), inner,
+                                              stiffness(inner), energy());
+    settings_.pin_weight = value("pin_weight");
+    settings_.exact = value("exact") != 0;
+    for (const Complex& z : handles_.isometric().stations)
+      locations_.push_back(locate_near(*rest_.mesh, z));
+  }
+
+  using Deformer::deform;
+  SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
+    const IsometricTarget target = handles_.target(pose);
+    const auto* before = dynamic_cast<const Found*>(from);
+    const auto found = std::make_shared<Found>();
+    found->basis = basis_;
+    if (options.draft && before && before->basis == basis_)
+      found->map = space_->followed(target, settings_, before->map);
+    else
+      found->map = space_->solved(target, settings_, handles_.turns(pose));
+    SampledMap out;
+    answer(target, options, *found, out);
+    out.iterations = found->map.solution.iterations;
+    out.turns.resize(rest_.pins.size());
+    for (size_t k = 0; k < handles_.pins().size(); ++k)
+      out.turns[handles_.pins()[k]] = found->map.turns[static_cast<Index>(k)];
+    out.note = note(target, *found, out);
+    out.solution = found;
+    return out;
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    const IsometricTarget target = handles_.target(pose);
+    const IsometricMap map = space_->solved(target, settings_, handles_.turns(pose));
+    return points_of(target, map);
+  }
+
+ private:
+  struct Found : Solution {
+    std::shared_ptr<const BoundaryBasis> basis;
+    IsometricMap map;
+  };
+
+  double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
+
+  static int size_for(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
+
+  IsometricEnergy energy() const {
+    const std::string form = choice(method_, rest_.parameters, "energy");
+    if (form == "exponential") return {IsometricEnergy::Form::exponential, value("sharpness")};
+    if (form == "power") return {IsometricEnergy::Form::power, value("sharpness")};
+    return {};
+  }
+
+  InnerSamples inner_samples() const {
+    InnerSamples inner;
+    // Each dab of the brush that is wide enough to matter has a sample.
+    constexpr double kWide = 0.02;
+    const double size = box_of(rest_.mesh->vertices).diagonal();
+    Points wanted;
+    for (const BrushDab& dab : rest_.stiffness)
+      if (dab.radius > kWide * size) wanted.push_back(dab.at);
+    for (const AreaSample& sample : area_samples(*rest_.mesh, kInnerSamples, wanted)) {
+      inner.points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
+      inner.weights.conservativeResize(inner.weights.size() + 1);
+      inner.weights[inner.weights.size() - 1] = sample.area;
+    }
+    return inner;
+  }
+
+  VectorXd stiffness(const InnerSamples& inner) const {
+    if (rest_.stiffness.empty()) return {};
+    const Index m = static_cast<Index>(basis_->samples().size());
+    VectorXd factors(m + static_cast<Index>(inner.points.size()));
+    for (Index i = 0; i < factors.size(); ++i) {
+      const Complex z = i < m ? basis_->samples()[static_cast<size_t>(i)]
+                              : inner.points[static_cast<size_t>(i - m)];
+      factors[i] = std::pow(10, stiffness_level(rest_.stiffness, z));
+    }
+    return factors;
+  }
+
+  /// The map at any point, exact up to rounding.
+  std::unique_ptr<BoundedPointMap> points_of(const IsometricTarget& target,
+                                             const IsometricMap& map) const {
+    VectorXc f = integrated_along(display_.tree(), *basis_, map.map);
+    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, f);
+    const Complex first = handles_.image(0, target, map.solution.offsets);
+    const Complex off = first - points->at(handles_.isometric().stations[0]).f;
+    f.array() += off;
+    return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, std::move(f));
+  }
+
+  void answer(const IsometricTarget& target, EvalOptions options, const Found& found,
+              SampledMap& out) const {
+    const IsometricMap& map = found.map;
+    out.status =
+        map.certificate.holds ? SampledMap::Status::certified : SampledMap::Status::infeasible;
+    const Index count = static_cast<Index>(rest_.samples.size());
+    const Eigen::Map<const VectorXc> z(rest_.samples.data(), count);
+    if (map.solution.x.isZero(0)) {
+      out.f = z;
+      if (map.solution.move != Complex(0)) out.f.array() += map.solution.move;
+      if (!options.derivatives) return;
+      out.fz = VectorXc::Ones(count);
+      out.fzbar = VectorXc::Zero(count);
+      return;
+    }
+    if (rest_.samples == rest_.mesh->vertices && rest_.precision == Precision::single) {
+      MeshDisplay::Values values = display_.values(map.map);
+      if (options.draft) {
+        out.f = z + values.moved;
+        Complex off = 0;
+        for (size_t i = 0; i < locations_.size(); ++i)
+          off += handles_.image(static_cast<Index>(i), target, map.solution.offsets) -
+                 locations_[i].in(*rest_.mesh, as_span(out.f));
+        if (!locations_.empty()) out.f.array() += off / static_cast<double>(locations_.size());
+      } else {
+        out.f = points_of(target, map)->at_vertices();
+      }
+      if (!options.derivatives) return;
+      out.fz = std::move(values.first.phi);
+      out.fzbar = values.first.psi.conjugate();
+      return;
+    }
+    SampledMap at = points_of(target, map)->at(rest_.samples);
+    out.f = std::move(at.f);
+    out.fz = std::move(at.fz);
+    out.fzbar = std::move(at.fzbar);
+  }
+
+  std::string note(const IsometricTarget&, const Found& found, const SampledMap& out) const {
+    const IsometricMap& map = found.map;
+    if (!map.certificate.holds) return "Not proved near " + point_text(map.certificate.where);
+    std::string text = "No folds";
+    if (rest_.samples == rest_.mesh->vertices)
+      if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
+        text += ", but the mesh is too coarse for this map: " + std::to_string(flipped) +
+                " inverted triangles";
+    double farthest = 0;
+    size_t which = 0;
+    for (size_t i = 0; i < handles_.pins().size(); ++i)
+      if (const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]); off > farthest)
+        farthest = off, which = handles_.pins()[i];
+    if (farthest >= 0.005 * box_of(rest_.mesh->vertices).diagonal()) {
+      char more[120];
+      std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
+                    farthest < 10 ? 1 : 0, farthest);
+      text += more;
+    }
+    if (!handles_.note().empty()) text += ". " + handles_.note();
+    return text;
+  }
+
+  Rest rest_;
+  const Method& method_;
+  std::shared_ptr<const BoundaryBasis> basis_;
+  PuppetHandles handles_;
+  MeshDisplay display_;
+  std::unique_ptr<IsometricSpace> space_;
+  IsometricSpace::Settings settings_;
+  std::vector<Location> locations_;  ///< of the stations
+};
+
+std::unique_ptr<Deformer> make_puppet(const Rest& rest, const Deformer*) {
+  return std::make_unique<PuppetDeformer>(rest);
+}
+
+}  // namespace
+
+Method puppet_method() {
+  return {
+      .id = "puppet",
+      .label = "Puppet",
+      .hint =
+          "Pins move parts of the picture. Sizes and shapes are kept as far as possible, and "
+          "nothing folds. Paint stiffness (B) on parts that should change least. Without pins, "
+          "the cage points stay where you put them.",
+      .parameters =
+          {toggle("exact", "Exact pins", "Meet the pins exactly when the pointer is released"),
+           one_of("energy", "Large changes",
+                  "How much more the largest changes of size and shape cost",
+                  {{"plain", "normal"}, {"exponential", "expensive"}, {"power", "in between"}}),
+           by_decades("sharpness", "Expense", "Higher values lower the largest change", 1.5, 1, 4),
+           by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1e5,
+                      1e2, 1e7),
+           by_decades("frame_weight", "Rotation weight",
+                      "Higher values meet the rotations and scales of pins more closely", 10, 0.1,
+                      1000)},
+      .uses_pins = true,
+      .uses_strokes = true,
+      .uses_stiffness = true,
+      .similar = false,
+      .needs_mesh = true,
+      .make = make_puppet,
+  };
+}
+
+}  // namespace holomorph

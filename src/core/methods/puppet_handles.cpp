@@ -1,0 +1,147 @@
+#include "core/methods/puppet_handles.h"
+
+#include "core/geometry/polyline.h"
+#include "core/methods/acting_pins.h"
+#include "core/methods/linear.h"
+
+namespace holomorph {
+namespace {
+
+void append(VectorXd& values, double value) {
+  values.conservativeResize(values.size() + 1);
+  values[values.size() - 1] = value;
+}
+
+}  // namespace
+
+PuppetHandles::PuppetHandles(const Rest& rest, const BoundaryBasis& basis, const Settings& settings)
+    : rest_(rest) {
+  const double size = box_of(basis.samples()).diagonal();
+  UsablePins usable = usable_pins(rest);
+  note_ = std::move(usable.note);
+  for (const size_t i : usable.used) {
+    add_station(rest.pins[i].position, 1);
+    pins_.push_back(i);
+  }
+  handles_.turned = static_cast<Index>(pins_.size());
+  for (const size_t i : usable.used)
+    if (rest.pins[i].has_frame) add_frame(rest.pins[i], i, settings, size);
+  add_strokes(size);
+  if (handles_.stations.empty()) add_cage(basis);
+}
+
+void PuppetHandles::add_station(Complex z, double weight) {
+  handles_.stations.push_back(z);
+  append(handles_.weights, weight);
+}
+
+void PuppetHandles::add_frame(const RestPin& pin, size_t index, const Settings& settings,
+                              double size) {
+  constexpr int kAround = 6;
+  const size_t before = handles_.frames.size();
+  handles_.frames.push_back(pin.position);
+  for (int k = 0; k < kAround; ++k) {
+    const Complex z =
+        pin.position + std::polar(settings.frame_radius * size, 2 * kPi * k / kAround);
+    if (contains(rest_.cage, z)) handles_.frames.push_back(z);
+  }
+  const size_t count = handles_.frames.size() - before;
+  for (size_t k = 0; k < count; ++k) {
+    append(handles_.frame_weights, settings.frame_weight / static_cast<double>(count));
+    framed_.push_back(index);
+  }
+}
+
+void PuppetHandles::add_strokes(double size) {
+  constexpr double kSpacing = 0.05;  // in units of the size
+  for (size_t s = 0; s < rest_.strokes.size(); ++s) {
+    const Polyline line(without_repeats(rest_.strokes[s]), false);
+    const int parts = std::max(1, static_cast<int>(std::ceil(line.length() / (kSpacing * size))));
+    bool clipped = false;
+    const size_t before = strokes_.size();
+    for (int k = 0; k <= parts; ++k) {
+      const double fraction = static_cast<double>(k) / parts;
+      const Complex z = line.at(fraction * line.length());
+      if (!contains(rest_.cage, z)) {
+        clipped = true;
+        continue;
+      }
+      add_station(z, 1);
+      strokes_.push_back({s, fraction});
+    }
+    if (clipped)
+      note_ += (note_.empty() ? "" : ". ") + ("Stroke " + std::to_string(s + 1)) +
+               (strokes_.size() == before ? " is outside the cage and has no effect"
+                                          : " leaves the cage; only the part inside has an effect");
+  }
+}
+
+/// Every second sample of the boundary, with half the length to the next ones as its weight.
+void PuppetHandles::add_cage(const BoundaryBasis& basis) {
+  const std::vector<BoundaryPiece>& pieces = basis.pieces();
+  const size_t m = pieces.size();
+  double all = 0;
+  for (const BoundaryPiece& piece : pieces) all += std::abs(piece.end - piece.start);
+  for (size_t i = 0; i < m; i += 2) {
+    const BoundaryPiece &before = pieces[(i + m - 1) % m], &after = pieces[i];
+    add_station(after.start,
+                (std::abs(before.end - before.start) + std::abs(after.end - after.start)) / all);
+    cage_.push_back({after.segment, after.from});
+  }
+}
+
+IsometricTarget PuppetHandles::target(const Pose& pose) const {
+  check_pose(rest_, pose);
+  IsometricTarget target;
+  target.stations.resize(static_cast<Index>(handles_.stations.size()));
+  Index row = 0;
+  for (const size_t i : pins_)
+    target.stations[row++] = pose.pins[i].position - rest_.pins[i].position;
+  std::vector<Polyline> posed;
+  for (const Points& stroke : pose.strokes) posed.emplace_back(without_repeats(stroke), false);
+  for (const StrokePoint& at : strokes_) {
+    const Polyline& line = posed[at.stroke];
+    // At rest, the displacement must be exactly zero.
+    if (pose.strokes[at.stroke] == rest_.strokes[at.stroke])
+      target.stations[row] = 0;
+    else
+      target.stations[row] =
+          line.at(at.fraction * line.length()) - handles_.stations[static_cast<size_t>(row)];
+    ++row;
+  }
+  if (!cage_.empty()) {
+    const bool rests = pose.cage == rest_.cage;
+    Cage cage = elevated_to(pose.cage, rest_.cage);
+    if (signed_area(outline_of(rest_.cage)) < 0) cage = reversed(cage);
+    for (const auto& [segment, t] : cage_) {
+      target.stations[row] = rests ? Complex(0)
+                                   : bezier_point(cage.controls(segment), t) -
+                                         handles_.stations[static_cast<size_t>(row)];
+      ++row;
+    }
+  }
+  target.frames.resize(static_cast<Index>(framed_.size()));
+  for (size_t k = 0; k < framed_.size(); ++k) {
+    const PosePin& pin = pose.pins[framed_[k]];
+    target.frames[static_cast<Index>(k)] = {std::log(pin.scale), pin.angle};
+  }
+  return target;
+}
+
+VectorXd PuppetHandles::turns(const Pose& pose) const {
+  VectorXd turns(static_cast<Index>(pins_.size()));
+  for (size_t k = 0; k < pins_.size(); ++k) {
+    const std::optional<double>& turn = pose.pins[pins_[k]].turn;
+    if (!turn) return {};
+    turns[static_cast<Index>(k)] = *turn;
+  }
+  return turns;
+}
+
+Complex PuppetHandles::image(Index station, const IsometricTarget& target,
+                             const VectorXc& offsets) const {
+  return handles_.stations[static_cast<size_t>(station)] + target.stations[station] +
+         offsets[station];
+}
+
+}  // namespace holomorph

@@ -1,0 +1,384 @@
+// Tests the isometric energy and its minimization: derivatives against differences, minima against
+// Ipopt and against the figures of the specification, and the certificate of every answer.
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/isometric/isometric_space.h"
+#include "core/mesh/mesher.h"
+#include "core/solvers/real_form.h"
+#include "support/seeds.h"
+
+using namespace holomorph;
+
+namespace {
+
+const Points kBar{{0, -.5}, {6, -.5}, {6, .5}, {0, .5}};
+
+/// A domain, its pins, and their targets. Energies are measured as in the specification: at the
+/// boundary alone, with a penalty of 1e4 / size^2.
+struct Problem {
+  Points domain, pins, targets;
+  int vertices = 50;
+};
+
+struct Prepared {
+  Mesh mesh;
+  std::shared_ptr<const BoundaryBasis> basis;
+  IsometricSpace space;
+  IsometricTarget target;
+
+  explicit Prepared(const Problem& problem, IsometricEnergy energy = {})
+      : mesh(domain_mesh(polygon_cage(problem.domain), {1500})),
+        basis(std::make_shared<const BoundaryBasis>(polygon_cage(problem.domain), problem.vertices,
+                                                    6 * problem.vertices)),
+        space(basis, mesh, handles(problem), {}, {}, energy) {
+    target.stations.resize(static_cast<Index>(problem.pins.size()));
+    for (size_t i = 0; i < problem.pins.size(); ++i)
+      target.stations[static_cast<Index>(i)] = problem.targets[i] - problem.pins[i];
+  }
+
+ private:
+  static IsometricHandles handles(const Problem& problem) {
+    const Index count = static_cast<Index>(problem.pins.size());
+    return {problem.pins, count, VectorXd::Ones(count), {}, {}};
+  }
+};
+
+constexpr IsometricSpace::Settings kSettings{.pin_weight = 1e4};
+
+Problem bent_by_270_degrees() {
+  Problem problem{kBar, {}, {}};
+  const double radius = 10 / (3 * kPi);
+  for (int s = 0; s <= 5; ++s) {
+    problem.pins.push_back({0.5 + s, 0});
+    problem.targets.push_back(
+        {radius * std::sin(s / radius), radius - radius * std::cos(s / radius)});
+  }
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("Isometric energy: derivatives agree with differences, and the Hessian is definite") {
+  for (const unsigned seed : seeds_of("isometric energy", {1, 2})) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (int k = 0; k < 200; ++k) {
+      using Form = IsometricEnergy::Form;
+      const IsometricEnergy energy{std::array{Form::plain, Form::exponential, Form::power}[k % 3],
+                                   uniform(1, 2)};
+      const double u = uniform(-0.7, 0.7);
+      const Complex nu = std::polar(uniform(0, 0.8), uniform(0, 7));
+      const auto value = energy.with_derivatives(u, nu.real(), nu.imag());
+      CHECK(value.value == Approx(energy.value(u, nu.real(), nu.imag())).epsilon(1e-12));
+      CHECK(value.value >= 2 - 1e-12);
+      Eigen::Vector3d x(u, nu.real(), nu.imag());
+      for (int i = 0; i < 3; ++i) {
+        // The error is h^2 / 6 times the third derivative plus the rounding error over h.
+        constexpr double kStep = 1e-5;
+        const auto at = [&](double step) {
+          Eigen::Vector3d y = x;
+          y[i] += step;
+          return energy.with_derivatives(y[0], y[1], y[2]);
+        };
+        const auto before = at(-kStep), after = at(kStep);
+        const double scale = 1 + value.hessian.cwiseAbs().maxCoeff();
+        CHECK(std::abs((after.value - before.value) / (2 * kStep) - value.gradient[i]) <=
+              1e-5 * scale);
+        CHECK(((after.gradient - before.gradient) / (2 * kStep) - value.hessian.col(i)).norm() <=
+              1e-5 * scale);
+      }
+      // Convex: positive definite up to rounding.
+      CHECK(value.hessian.ldlt().vectorD().minCoeff() > 0);
+    }
+  }
+}
+
+TEST_CASE("Isometric energy: rigid motions have the value 2, and inverse maps equal values") {
+  const IsometricEnergy energy;
+  CHECK(energy.value(0, 0, 0) == 2);
+  // Stretches a and b: u = ln((a + b) / 2), |nu| = (a - b) / (a + b).
+  const auto of = [&](double a, double b) {
+    return energy.value(std::log((a + b) / 2), (a - b) / (a + b), 0);
+  };
+  const auto expected = [](double a, double b) {
+    return 0.5 * (a * a + b * b + 1 / (a * a) + 1 / (b * b));
+  };
+  for (const auto& [a, b] : {std::pair(2.0, 1.0), std::pair(1.5, 0.4), std::pair(1.0, 0.1)}) {
+    CHECK(of(a, b) == Approx(expected(a, b)).epsilon(1e-13));
+    CHECK(of(1 / b, 1 / a) == Approx(of(a, b)).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("Isometric program: gradients agree with differences, and Hessians where pins are met") {
+  for (const unsigned seed : seeds_of("isometric program", {5})) {
+    const Prepared prepared(
+        {kBar, {{0.5, 0}, {3, 0.2}, {5.5, 0}}, {{0.5, 0}, {3, 0.3}, {5, 1}}, 25});
+    const IsometricSystem& system = prepared.space.system();
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    VectorXd x(system.unknowns()), direction(system.unknowns());
+    for (double& value : x) value = 0.02 * normal(random);
+    for (double& value : direction) value = normal(random);
+    direction.normalize();
+    IsometricSettings settings;
+    settings.penalty = 30;
+    const auto at = [&](double step) {
+      return isometric_derivatives(system, prepared.target, settings, x + step * direction);
+    };
+    constexpr double kStep = 1e-5;
+    const auto here = at(0), before = at(-kStep), after = at(kStep);
+    const double slope = here.gradient.dot(direction);
+    CHECK(std::abs((after.value - before.value) / (2 * kStep) - slope) <=
+          1e-6 * (1 + std::abs(slope)));
+
+    // With targets where the pins are, the offsets vanish, and Gauss-Newton is exact.
+    IsometricTarget met = prepared.target;
+    IsometricSettings nothing;
+    nothing.iterations = 0;
+    met.stations += minimized(system, prepared.target, nothing, x).offsets;
+    const auto exact = [&](double step) {
+      return isometric_derivatives(system, met, settings, x + step * direction);
+    };
+    const MatrixXd hessian = exact(0).hessian.selfadjointView<Eigen::Lower>();
+    const VectorXd curved = (exact(kStep).gradient - exact(-kStep).gradient) / (2 * kStep);
+    CHECK((hessian * direction - curved).norm() <= 1e-5 * curved.norm());
+  }
+}
+
+TEST_CASE("Path tree: the nodes integrate functions of the basis almost to rounding") {
+  const Points shape{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  const Mesh mesh = domain_mesh(polygon_cage(shape), {2000});
+  const BoundaryBasis basis(polygon_cage(shape), 50, 300);
+  for (const unsigned seed : seeds_of("path tree", {1})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 3);
+    Points stations;
+    while (stations.size() < 12)
+      if (const Complex z(uniform(random), uniform(random)); winding_number(shape, z) != 0)
+        stations.push_back(z);
+    const PathTree tree(mesh, basis.polygon(), stations);
+    // A function with a pole just outside the polygon, as close as a basis function's vertex.
+    const Complex pole = basis.polygon()[7] + 0.01 * (basis.polygon()[7] - Complex(0.5, 0.5));
+    const auto integral = [&](Complex z) { return std::log(z - pole); };
+    std::vector<Complex> f(tree.pieces().size());
+    for (size_t e = 0; e < f.size(); ++e) {
+      const auto& piece = tree.pieces()[e];
+      CHECK(std::abs(piece.to - piece.from) <=
+            1.5000001 *
+                nearest_on_polygon(basis.polygon(), 0.5 * (piece.from + piece.to)).distance);
+      if (piece.parent >= 0) f[e] = f[static_cast<size_t>(piece.parent)];
+      for (Index k = 0; k < PathTree::kNodes; ++k) {
+        const Index node = static_cast<Index>(e) * PathTree::kNodes + k;
+        f[e] += tree.weights()[node] / (tree.nodes()[static_cast<size_t>(node)] - pole);
+      }
+    }
+    for (size_t i = 1; i < stations.size(); ++i) {
+      const Complex expected = integral(stations[i]) - integral(stations[0]);
+      const Complex off = f[static_cast<size_t>(tree.ends()[i])] - expected;
+      const double turns = std::round(off.imag() / (2 * kPi));
+      // The pole is nearer than the basis' own singularities, so the error is larger than theirs.
+      CHECK(std::abs(off - 2 * kPi * turns * kI) <= 1e-5);
+    }
+  }
+}
+
+TEST_CASE("Isometric maps: the energies of the specification, certified") {
+  struct Row {
+    Problem problem;
+    double energy;
+  };
+  const std::vector<Row> rows{
+      {{kBar, {{.5, 0}, {3, 0}, {5.5, 0}}, {{.5, 0}, {3, 0}, {3, 2.5}}}, 2.211},
+      {{kBar, {{.5, 0}, {5.5, 0}, {5, 0}}, {{.5, 0}, {.5, 2.2}, {1, 2.2}}}, 2.364},
+      {bent_by_270_degrees(), 2.592},
+      {{kBar, {{.5, 0}, {5.5, 0}}, {{.5, 0}, {8, 0}}}, 2.283},
+      {{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
+        {{.5, .5}, {.5, 2.5}, {2.5, .5}},
+        {{.5, .5}, {.5, 2.5}, {2, 1.7}}},
+       2.065}};
+  for (const Row& row : rows) {
+    const Prepared prepared(row.problem);
+    const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
+    INFO("energy " << map.solution.energy << " for " << row.energy << ", "
+                   << map.solution.iterations << " iterations");
+    CHECK(std::abs(map.solution.energy - row.energy) <= 0.01 * row.energy);
+    CHECK(map.certificate.holds);
+    CHECK(map.solution.converged);
+    // Twice as many vertices hardly lower the energy.
+    Problem finer = row.problem;
+    finer.vertices *= 2;
+    const Prepared twice(finer);
+    const IsometricMap again = twice.space.solved(twice.target, kSettings);
+    CHECK(std::abs(again.solution.energy - map.solution.energy) <= 0.01 * row.energy);
+  }
+}
+
+TEST_CASE("Isometric maps: rest is exactly the identity, and rigid motions are reproduced") {
+  Problem problem{kBar, {{.5, 0}, {3, .2}, {5.5, 0}}, {{.5, 0}, {3, .2}, {5.5, 0}}};
+  const Prepared rest(problem);
+  CHECK(rest.space.solved(rest.target, kSettings).solution.x.isZero(0));
+  for (const unsigned seed : seeds_of("rigid motions", {1, 2})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-3, 3);
+    const Complex turn = std::polar(1.0, uniform(random)), move(uniform(random), uniform(random));
+    for (size_t i = 0; i < problem.pins.size(); ++i)
+      problem.targets[i] = turn * problem.pins[i] + move;
+    const Prepared prepared(problem);
+    const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
+    CHECK(map.solution.offsets.cwiseAbs().maxCoeff() <= 1e-9);
+    CHECK(std::abs(map.solution.energy - 2) <= 1e-9);
+    const VectorXc l = rest.basis->values(rest.basis->samples()) * map.map.l;
+    CHECK((l.array().exp() - turn).abs().maxCoeff() <= 1e-9);
+  }
+}
+
+TEST_CASE("Isometric maps: exact pins are met, and soft pins give way only where they must") {
+  const Problem problem{kBar, {{.5, 0}, {3, 0}, {5.5, 0}}, {{.5, 0}, {3, 0}, {3, 2.5}}};
+  const Prepared prepared(problem);
+  const IsometricMap soft = prepared.space.solved(prepared.target, kSettings),
+                     exact = prepared.space.solved(prepared.target, {1e4, true});
+  CHECK(soft.solution.offsets.cwiseAbs().maxCoeff() > 1e-5);
+  CHECK(exact.solution.offsets.cwiseAbs().maxCoeff() <= 1e-8);
+  CHECK(exact.solution.energy > soft.solution.energy);
+  CHECK(exact.certificate.holds);
+}
+
+TEST_CASE("Isometric maps: drafts converge to the final answer that starts from their turns") {
+  for (const unsigned seed : seeds_of("isometric drags", {1})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const Prepared prepared({kBar, {{.5, 0}, {3, 0}, {5.5, 0}}, {{.5, 0}, {3, 0}, {5.5, 0}}});
+    IsometricTarget target = prepared.target;
+    IsometricMap map = prepared.space.solved(target, kSettings);
+    const Complex end(uniform(random) * 2, 1 + uniform(random));
+    for (int frame = 1; frame <= 40; ++frame) {
+      target.stations[2] = end * std::min(frame / 25.0, 1.0);
+      map = prepared.space.followed(target, kSettings, map);
+      INFO("frame " << frame);
+      CHECK(map.certificate.holds);
+    }
+    const IsometricMap final_map = prepared.space.solved(target, kSettings, map.turns);
+    CHECK(final_map.certificate.holds);
+    CHECK(std::abs(final_map.solution.total - map.solution.total) <=
+          1e-6 * final_map.solution.total);
+    CHECK((final_map.solution.offsets - map.solution.offsets).cwiseAbs().maxCoeff() <= 1e-4);
+  }
+}
+
+TEST_CASE("Isometric maps: impossible poses are certified, too") {
+  for (const unsigned seed : seeds_of("impossible poses", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Problem problem{kBar, {{.5, 0}, {2, .3}, {4, -.3}, {5.5, 0}}, {}};
+    for (size_t i = 0; i < problem.pins.size(); ++i) {
+      const double reach = seed % 3 == 0 ? 1e-3 : seed % 3 == 1 ? 3 : 60;
+      problem.targets.push_back(reach * Complex(uniform(random), uniform(random)));
+    }
+    const Prepared prepared(problem);
+    const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
+    INFO("energy " << map.solution.energy << " in " << map.solution.iterations);
+    CHECK(map.certificate.holds);
+    CHECK(map.solution.x.allFinite());
+  }
+}
+
+namespace {
+
+/// The same minimization for Ipopt, with gradients only.
+class Program final : public Ipopt::TNLP {
+ public:
+  Program(const IsometricSystem& system, const IsometricTarget& target,
+          const IsometricSettings& settings, VectorXd start)
+      : system_(system), target_(target), settings_(settings), start_(std::move(start)) {}
+
+  VectorXd solution;
+
+  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& jacobian, Ipopt::Index& hessian,
+                    IndexStyleEnum& style) override {
+    n = static_cast<Ipopt::Index>(start_.size());
+    m = 0;
+    jacobian = hessian = 0;
+    style = C_STYLE;
+    return true;
+  }
+  bool get_bounds_info(Ipopt::Index n, double* xl, double* xu, Ipopt::Index, double*,
+                       double*) override {
+    std::fill(xl, xl + n, -1e19);
+    std::fill(xu, xu + n, 1e19);
+    return true;
+  }
+  bool get_starting_point(Ipopt::Index, bool, double* x, bool, double*, double*, Ipopt::Index, bool,
+                          double*) override {
+    std::copy(start_.begin(), start_.end(), x);
+    return true;
+  }
+  bool eval_f(Ipopt::Index n, const double* x, bool, double& f) override {
+    f = value(n, x);
+    return std::isfinite(f);
+  }
+  bool eval_grad_f(Ipopt::Index n, const double* x, bool, double* gradient) override {
+    if (!std::isfinite(value(n, x))) return false;
+    Eigen::Map<VectorXd>(gradient, n) =
+        isometric_derivatives(system_, target_, settings_, Eigen::Map<const VectorXd>(x, n))
+            .gradient;
+    return true;
+  }
+  bool eval_g(Ipopt::Index, const double*, bool, Ipopt::Index, double*) override { return true; }
+  bool eval_jac_g(Ipopt::Index, const double*, bool, Ipopt::Index, Ipopt::Index, Ipopt::Index*,
+                  Ipopt::Index*, double*) override {
+    return true;
+  }
+  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const double* x, const double*,
+                         const double*, Ipopt::Index, const double*, const double*, double,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    solution = Eigen::Map<const VectorXd>(x, n);
+  }
+
+ private:
+  double value(Ipopt::Index n, const double* x) const {
+    return isometric_value(system_, target_, settings_, Eigen::Map<const VectorXd>(x, n));
+  }
+
+  const IsometricSystem& system_;
+  const IsometricTarget& target_;
+  const IsometricSettings& settings_;
+  VectorXd start_;
+};
+
+}  // namespace
+
+TEST_CASE("Isometric program: its minimum equals Ipopt's from the same start") {
+  for (const Problem& problem :
+       {Problem{kBar, {{.5, 0}, {3, 0}, {5.5, 0}}, {{.5, 0}, {3, 0}, {5, 1}}, 25},
+        Problem{kBar, {{.5, 0}, {5.5, 0}}, {{.5, 0}, {7, 0}}, 25},
+        Problem{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
+                {{.5, .5}, {.5, 2.5}, {2.5, .5}},
+                {{.5, .5}, {.5, 2.5}, {2, 1.7}},
+                25}}) {
+    const Prepared prepared(problem);
+    const IsometricSystem& system = prepared.space.system();
+    IsometricSettings settings;
+    settings.penalty = 5;
+    const VectorXd start = VectorXd::Zero(system.unknowns());
+    const IsometricSolution own = minimized(system, prepared.target, settings, start);
+    const Ipopt::SmartPtr<Program> program = new Program(system, prepared.target, settings, start);
+    const Ipopt::SmartPtr<Ipopt::IpoptApplication> solver = IpoptApplicationFactory();
+    solver->Options()->SetIntegerValue("print_level", 0);
+    solver->Options()->SetStringValue("sb", "yes");
+    solver->Options()->SetStringValue("hessian_approximation", "limited-memory");
+    solver->Options()->SetNumericValue("tol", 1e-9);
+    solver->Options()->SetIntegerValue("max_iter", 3000);
+    REQUIRE(solver->Initialize() == Ipopt::Solve_Succeeded);
+    const auto status = solver->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(program)));
+    CHECK((status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level));
+    const double other = isometric_value(system, prepared.target, settings, program->solution);
+    INFO("own " << own.total << ", Ipopt " << other);
+    CHECK(own.converged);
+    CHECK(std::abs(own.total - other) <= 1e-7 * other);
+  }
+}
