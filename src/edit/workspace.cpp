@@ -54,7 +54,22 @@ bool Workspace::accepts(const Scene& scene) {
   return true;
 }
 
+/// A dragged pose with the turns of the map that shows it, so that the file decides which of
+/// several maps is found again.
+Deformation Workspace::with_turns(Deformation deformation) const {
+  const LiveMap& live = map();
+  const auto& turns = live.map().turns;
+  if (turns.size() != deformation.pins.size() || !live.posed() ||
+      !same_rest(*live.posed(), deformation))
+    return deformation;
+  constexpr double kSteps = 1000;  // per radian
+  for (size_t i = 0; i < turns.size(); ++i)
+    if (turns[i]) deformation.pins[i].turn = std::round(kSteps * *turns[i]) / kSteps;
+  return deformation;
+}
+
 bool Workspace::commit(const std::string& label, Deformation deformation, EditBase base) {
+  if (shown.preview == deformation) deformation = with_turns(std::move(deformation));
   mergeable_selection_.reset();
   shown.preview.reset();
   const std::optional<double> at = shown.time();

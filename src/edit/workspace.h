@@ -175,6 +175,7 @@ struct Workspace {
   Deformation keyed(Deformation deformation);
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
+  Deformation with_turns(Deformation deformation) const;
   void leave_layer();
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);

@@ -64,10 +64,11 @@ void check_corner(const std::string& what, const PoseCorner& pose) {
   check_range(what, pose.tension, 0, 1);
 }
 
-void check_pin(const std::string& what, Complex position, double angle, double scale) {
-  check_point(what, position);
-  check_range(what + "'s angle", angle, -kMaxPinTurn, kMaxPinTurn);
-  check_range(what + "'s scale", scale, kMinPinScale, kMaxPinScale);
+void check_pin(const std::string& what, const PosePin& pin) {
+  check_point(what, pin.position);
+  check_range(what + "'s angle", pin.angle, -kMaxPinTurn, kMaxPinTurn);
+  check_range(what + "'s scale", pin.scale, kMinPinScale, kMaxPinScale);
+  if (pin.turn) check_range(what + "'s turn", *pin.turn, -kMaxPinTurn, kMaxPinTurn);
 }
 
 void check_handles(const Deformation& deformation) {
@@ -83,7 +84,7 @@ void check_handles(const Deformation& deformation) {
     const Pin& pin = deformation.pins[i];
     const std::string what = numbered("pin", i);
     check_point(what, pin.rest);
-    check_pin(what, pin.pose, pin.angle.value_or(0), pin.scale);
+    check_pin(what, {pin.pose, pin.angle.value_or(0), pin.scale, pin.turn});
     check_range(what + "'s depth", pin.depth, -kMaxDepth, kMaxDepth);
   }
   check_count("strokes", deformation.strokes.size(), kMaxStrokes);
@@ -138,7 +139,7 @@ void check_keyframes(const Deformation& deformation) {
     check_range(what, key.turns, -kMaxTurns, kMaxTurns);
     check_cage(what, key.pose.cage);
     check_count(std::string("pins in ") + what, key.pose.pins.size(), kMaxPins);
-    for (const PosePin& pin : key.pose.pins) check_pin(what, pin.position, pin.angle, pin.scale);
+    for (const PosePin& pin : key.pose.pins) check_pin(what, pin);
     check_count(std::string("strokes in ") + what, key.pose.strokes.size(), kMaxStrokes);
     for (const Points& stroke : key.pose.strokes) check_curve(what, stroke, check_stroke);
     check_count(std::string("corners in ") + what, key.pose.corners.size(), kMaxSegments);

@@ -32,7 +32,7 @@ Rest rest_of(const Deformation& deformation, Precision precision) {
 Pose whole_pose_of(const Deformation& deformation) {
   Pose pose{deformation.pose, {}};
   for (const Pin& pin : deformation.pins)
-    pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale});
+    pose.pins.push_back({pin.pose, pin.angle.value_or(0.0), pin.scale, pin.turn});
   for (const Stroke& stroke : deformation.strokes) pose.strokes.push_back(stroke.pose);
   for (const Corner& corner : deformation.corners) pose.corners.push_back(corner.pose);
   return pose;
@@ -59,6 +59,7 @@ Deformation posed_as(Deformation deformation, const Pose& pose) {
     pin.pose = pose.pins[i].position;
     if (pin.angle) pin.angle = pose.pins[i].angle;
     pin.scale = pose.pins[i].scale;
+    pin.turn = pose.pins[i].turn;
   }
   for (size_t i = 0; i < deformation.strokes.size(); ++i)
     deformation.strokes[i].pose = pose.strokes[i];
@@ -72,6 +73,7 @@ Deformation at_rest(Deformation deformation) {
   for (Pin& pin : deformation.pins) {
     pin.pose = pin.rest;
     if (pin.angle) pin.angle = 0.0;
+    if (pin.turn) pin.turn = 0.0;
     pin.scale = 1;
   }
   for (Stroke& stroke : deformation.strokes) stroke.pose = stroke.rest;

@@ -44,7 +44,8 @@ std::vector<PosePin> mirrored_pins(const Mirror& mirror, const std::vector<Pin>&
   std::vector<PosePin> result;
   for (const Complex& z : positions) {
     const PosePin& other = posed[counterpart(mirror, positions, z, "pin")];
-    result.push_back({mirror(other.position), -other.angle, other.scale});
+    result.push_back({mirror(other.position), -other.angle, other.scale, {}});
+    if (other.turn) result.back().turn = -*other.turn;
   }
   return result;
 }

@@ -310,7 +310,9 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
     const PosePin &from = a.pose.pins[p], &to = b.pose.pins[p];
     pose.pins[p] = {carried(deformation.pins[p].rest, from.position, to.position),
                     (1 - s) * from.angle + s * to.angle,
-                    std::pow(from.scale, 1 - s) * std::pow(to.scale, s)};
+                    std::pow(from.scale, 1 - s) * std::pow(to.scale, s),
+                    {}};
+    if (from.turn && to.turn) pose.pins[p].turn = (1 - s) * *from.turn + s * *to.turn;
   }
   for (size_t k = 0; k < pose.strokes.size(); ++k) {
     const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k],

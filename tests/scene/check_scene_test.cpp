@@ -75,6 +75,7 @@ const std::vector<std::pair<const char*, Change>> kNumbersChanged{
      }},
     {"angle", [](Layer& l, double x) { l.deformation.pins[0].angle = x; }},
     {"scale", [](Layer& l, double x) { l.deformation.pins[0].scale = x; }},
+    {"turn", [](Layer& l, double x) { l.deformation.pins[0].turn = x; }},
     {"depth", [](Layer& l, double x) { l.deformation.pins[0].depth = whole(x); }},
     {"stroke",
      [](Layer& l, double x) {
@@ -104,6 +105,7 @@ const std::vector<std::pair<const char*, Change>> kNumbersChanged{
      }},
     {"a key's angle",
      [](Layer& l, double x) { l.deformation.keyframes[0].pose.pins[0].angle = x; }},
+    {"a key's turn", [](Layer& l, double x) { l.deformation.keyframes[0].pose.pins[0].turn = x; }},
     {"a key's scale",
      [](Layer& l, double x) { l.deformation.keyframes[1].pose.pins[0].scale = x; }},
     {"a key's tension",

@@ -277,6 +277,7 @@ Deformation reset(Deformation deformation, const Selection& selection) {
       Pin& pin = deformation.pins[handle.index];
       pin.pose = pin.rest;
       if (pin.angle) pin.angle = 0.0;
+      if (pin.turn) pin.turn = 0.0;
       pin.scale = 1;
     } else if (handle.kind == Handle::Kind::stroke) {
       curve(deformation, handle.index, EditMode::pose) =

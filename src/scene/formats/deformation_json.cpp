@@ -35,7 +35,8 @@ Pin read_pin(const Reader& reader) {
   if (reader.has("angle")) pin.angle = reader["angle"].within(-kMaxPinTurn, kMaxPinTurn);
   if (reader.has("scale")) pin.scale = reader["scale"].within(kMinPinScale, kMaxPinScale);
   if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMaxDepth, kMaxDepth);
-  pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth"});
+  if (reader.has("turn")) pin.turn = reader["turn"].within(-kMaxPinTurn, kMaxPinTurn);
+  pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth", "turn"});
   return pin;
 }
 
@@ -142,6 +143,7 @@ Json pin_json(const Pin& pin) {
   if (pin.angle) item["angle"] = *pin.angle;
   if (pin.scale != 1) item["scale"] = pin.scale;
   if (pin.depth != 0) item["depth"] = pin.depth;
+  if (pin.turn) item["turn"] = *pin.turn;
   add_extra(item, pin.extra);
   return item;
 }

@@ -34,6 +34,7 @@ PosePin read_pose_pin(const Reader& reader) {
   pin.position = reader["pose"].point();
   if (reader.has("angle")) pin.angle = reader["angle"].within(-kMaxPinTurn, kMaxPinTurn);
   if (reader.has("scale")) pin.scale = reader["scale"].within(kMinPinScale, kMaxPinScale);
+  if (reader.has("turn")) pin.turn = reader["turn"].within(-kMaxPinTurn, kMaxPinTurn);
   return pin;
 }
 
@@ -75,6 +76,7 @@ Json pose_json(const Pose& pose, const Deformation& deformation) {
     item["pose"] = point_json(pin.position);
     if (pin.angle != 0) item["angle"] = pin.angle;
     if (pin.scale != 1) item["scale"] = pin.scale;
+    if (pin.turn) item["turn"] = *pin.turn;
     json["pins"].push_back(std::move(item));
   }
   for (const Points& stroke : pose.strokes) json["strokes"].push_back(curve_json(stroke));
