@@ -56,11 +56,13 @@ class Solver {
     s.total = s.energy;
     const VectorXc xl = complex_of(l), xnu = complex_of(nu);
     if (target_.stations.size() > 0) {
-      const VectorXc log = system_.nodes.transpose() * xl, second = system_.nodes.transpose() * xnu;
-      s.grown = log.unaryExpr([](Complex l) { return exp_minus_one(l); });
+      MatrixXc both(n_, 2);
+      both << xl, xnu;
+      const MatrixXc at_nodes = matrix_product(system_.nodes, both);
+      s.grown = at_nodes.col(0).unaryExpr([](Complex l) { return exp_minus_one(l); });
       s.phi = system_.paths.weights().cwiseProduct((s.grown.array() + 1).matrix());
       s.grown = s.grown.cwiseProduct(system_.paths.weights()).eval();
-      s.psi = s.phi.cwiseProduct(second);
+      s.psi = s.phi.cwiseProduct(at_nodes.col(1));
       set_offsets(s);
       for (Index j = 0; j < s.offsets.size(); ++j)
         s.total += settings_.penalty * system_.station_weights[j] * std::norm(s.offsets[j]);
@@ -195,18 +197,22 @@ class Solver {
     constexpr Index kNodes = PathTree::kNodes;
     // Derivatives of the integrals of e^l and nu e^l with respect to l; the first is also that of
     // the second with respect to nu.
-    MatrixXc phi(n_, count), psi(n_, count);
-    Eigen::Matrix<Complex, kNodes, 2> both;
+    PlanarMatrix<double> phi(n_, count), psi(n_, count);
+    const auto add = [](Complex factor, const auto& re, const auto& im, Index e,
+                        PlanarMatrix<double>& to) {
+      to.re.col(e) += factor.real() * re - factor.imag() * im;
+      to.im.col(e) += factor.real() * im + factor.imag() * re;
+    };
     for (Index e = 0; e < count; ++e) {
-      both.col(0) = s.phi.segment<kNodes>(e * kNodes);
-      both.col(1) = s.psi.segment<kNodes>(e * kNodes);
-      const MatrixXc sums = system_.nodes.middleCols<kNodes>(e * kNodes) * both;
-      phi.col(e) = sums.col(0);
-      psi.col(e) = sums.col(1);
-      const Index parent = pieces[static_cast<size_t>(e)].parent;
-      if (parent >= 0) {
-        phi.col(e) += phi.col(parent);
-        psi.col(e) += psi.col(parent);
+      for (PlanarMatrix<double>* sum : {&phi, &psi}) {
+        const Index parent = pieces[static_cast<size_t>(e)].parent;
+        sum->re.col(e) = parent >= 0 ? VectorXd(sum->re.col(parent)) : VectorXd::Zero(n_);
+        sum->im.col(e) = parent >= 0 ? VectorXd(sum->im.col(parent)) : VectorXd::Zero(n_);
+      }
+      for (Index k = e * kNodes; k < (e + 1) * kNodes; ++k) {
+        const auto re = system_.nodes_by_column.re.col(k), im = system_.nodes_by_column.im.col(k);
+        add(s.phi[k], re, im, e, phi);
+        add(s.psi[k], re, im, e, psi);
       }
     }
     const std::vector<Index>& ends = system_.paths.ends();
@@ -216,15 +222,14 @@ class Solver {
       const Index end = ends[static_cast<size_t>(j)];
       if (end < 0) continue;
       auto re = rows_.col(2 * j), im = rows_.col(2 * j + 1);
-      const auto a = phi.col(end), b = psi.col(end);
-      re.segment(0, n_) = a.real() + b.real();
-      re.segment(n_, n_) = -a.imag() - b.imag();
-      re.segment(2 * n_, n_) = a.real();
-      re.segment(3 * n_, n_) = -a.imag();
-      im.segment(0, n_) = a.imag() - b.imag();
-      im.segment(n_, n_) = a.real() - b.real();
-      im.segment(2 * n_, n_) = -a.imag();
-      im.segment(3 * n_, n_) = -a.real();
+      re.segment(0, n_) = phi.re.col(end) + psi.re.col(end);
+      re.segment(n_, n_) = -phi.im.col(end) - psi.im.col(end);
+      re.segment(2 * n_, n_) = phi.re.col(end);
+      re.segment(3 * n_, n_) = -phi.im.col(end);
+      im.segment(0, n_) = phi.im.col(end) - psi.im.col(end);
+      im.segment(n_, n_) = phi.re.col(end) - psi.re.col(end);
+      im.segment(2 * n_, n_) = -phi.im.col(end);
+      im.segment(3 * n_, n_) = -phi.re.col(end);
     }
     VectorXd mean_re = VectorXd::Zero(4 * n_), mean_im = mean_re;
     for (Index j = 0; j < stations; ++j) {
@@ -288,12 +293,12 @@ class Solver {
         const double value = eigen.eigenvalues()[i];
         if (!(value > 0)) continue;
         const Eigen::Vector4d v = std::sqrt(value) * eigen.eigenvectors().col(i);
-        const auto q = system_.nodes.col(k);
+        const auto re = system_.nodes_by_column.re.col(k), im = system_.nodes_by_column.im.col(k);
         auto column = columns.col(used++);
-        column.segment(0, n_) = v[0] * q.real() + v[1] * q.imag();
-        column.segment(n_, n_) = -v[0] * q.imag() + v[1] * q.real();
-        column.segment(2 * n_, n_) = v[2] * q.real() + v[3] * q.imag();
-        column.segment(3 * n_, n_) = -v[2] * q.imag() + v[3] * q.real();
+        column.segment(0, n_) = v[0] * re + v[1] * im;
+        column.segment(n_, n_) = -v[0] * im + v[1] * re;
+        column.segment(2 * n_, n_) = v[2] * re + v[3] * im;
+        column.segment(3 * n_, n_) = -v[2] * im + v[3] * re;
       }
     }
     add_gram(columns, used, 0, hessian_);

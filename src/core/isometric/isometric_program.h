@@ -10,6 +10,7 @@
 
 #include <limits>
 
+#include "core/cauchy/cauchy_array.h"
 #include "core/isometric/energy.h"
 #include "core/isometric/path_tree.h"
 #include "core/solvers/dense.h"
@@ -23,10 +24,11 @@ struct IsometricSystem {
   MatrixXd re, im;   ///< 2n x m: the real and imaginary parts of a basis function at the samples
   VectorXd weights;  ///< w: m
   PathTree paths;
-  MatrixXc nodes;            ///< n x nodes of the paths: the whitened basis
-  VectorXd station_weights;  ///< s
-  MatrixXc frames;           ///< the whitened basis at points where l is prescribed, one per row
-  VectorXd frame_weights;    ///< r
+  MatrixXc nodes;                        ///< nodes of the paths x n: the whitened basis
+  PlanarMatrix<double> nodes_by_column;  ///< its transpose, for sums over nodes
+  VectorXd station_weights;              ///< s
+  MatrixXc frames;         ///< the whitened basis at points where l is prescribed, one per row
+  VectorXd frame_weights;  ///< r
 
   Index size() const { return re.rows() / 2; }      ///< n
   Index unknowns() const { return 2 * re.rows(); }  ///< real: (Re, Im) of l, then of nu

@@ -56,7 +56,9 @@ IsometricSpace::IsometricSpace(std::shared_ptr<const BoundaryBasis> basis, const
   }
   if (stiffness.size() > 0) system->weights = system->weights.cwiseProduct(stiffness).eval();
   system->paths = PathTree(mesh, basis_->polygon(), handles_.stations);
-  system->nodes = basis_->whitened(basis_->values(system->paths.nodes())).transpose();
+  system->nodes = basis_->whitened(basis_->values(system->paths.nodes()));
+  system->nodes_by_column.re = system->nodes.real().transpose();
+  system->nodes_by_column.im = system->nodes.imag().transpose();
   system->station_weights = handles_.weights;
   system->frames = basis_->whitened(basis_->values(handles_.frames));
   system->frame_weights = handles_.frame_weights;
@@ -143,6 +145,7 @@ std::shared_ptr<const IsometricSystem> IsometricSpace::with_samples(const Isomet
 /// Moves a solution toward one that is known to be certified until it is certified, too.
 void IsometricSpace::retreat(const VectorXd& certified, IsometricMap& map) const {
   const VectorXd x = map.solution.x;
+  map.solution.offsets.resize(0);  // they belong to another x
   for (double part = 0.5; !map.certificate.holds && part > 1e-3; part *= 0.5) {
     map.solution.x = certified + part * (x - certified);
     map.solution.converged = false;
@@ -155,7 +158,7 @@ void IsometricSpace::retreat(const VectorXd& certified, IsometricMap& map) const
 
 void IsometricSpace::finish(const IsometricTarget& target, IsometricMap& map) const {
   map.turns = (at_stations_ * complex_of(map.solution.x.head(2 * basis_->size()))).imag();
-  // After a retreat, the offsets belong to another x.
+  if (map.solution.offsets.size() == target.stations.size()) return;
   IsometricSettings nothing;
   nothing.iterations = 0;
   const IsometricSolution now = minimized(*map.system, target, nothing, map.solution.x);
@@ -220,6 +223,7 @@ IsometricMap IsometricSpace::solved(const IsometricTarget& target, const Setting
     retreat(conformal, map);
   }
   map.solution.iterations = iterations;
+  if (settings.exact) map.solution.offsets.resize(0);  // they belong to shifted targets
   finish(target, map);
   return map;
 }
