@@ -365,7 +365,8 @@ const Entry kEntries[] = {
      [](int) { return puppet_drag(225).longest_ms; }},
     {"puppet: frames of these drags without a proof", "", 0, 1,
      [](int) {
-       return 1.0 * puppet_drag(50).unproved + puppet_drag(100).unproved + puppet_drag(225).unproved;
+       return 1.0 * puppet_drag(50).unproved + puppet_drag(100).unproved +
+              puppet_drag(225).unproved;
      }},
     {"puppet: frames more than 5 % above the converged value, 100 vertices", "%", 5, 1,
      [](int) { return puppet_drag(100).behind_percent; }},

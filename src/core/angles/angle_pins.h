@@ -23,8 +23,8 @@ class AnglePins {
   };
   /// Changes `placed` by Gauss-Newton steps that penalize jumps and bends of the angles. A pin with
   /// a frame also prescribes f' at its position. With `draft`, the iteration takes only a
-  /// few steps, and starts from the unknowns of an earlier answer unless `from` is null. Cost of a step: one integration per angle along the paths
-  /// to the pins.
+  /// few steps, and starts from the unknowns of an earlier answer unless `from` is null. Cost of a
+  /// step: one integration per angle along the paths to the pins.
   Answer pull(const std::vector<PosePin>& targets, bool draft, const VectorXd* from,
               PlacedAngles& placed);
 

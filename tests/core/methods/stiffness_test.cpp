@@ -81,5 +81,6 @@ TEST_CASE("Stiffness: only methods that use it receive it") {
   Rest rest;
   rest.stiffness = {{{0, 0}, 10, 1}};
   for (const Method& method : methods())
-    CHECK(used_by(method, rest).stiffness.empty() == (method.id != "arap" && method.id != "puppet"));
+    CHECK(used_by(method, rest).stiffness.empty() ==
+          (method.id != "arap" && method.id != "puppet"));
 }
