@@ -3,8 +3,8 @@
 // With u = ln |f_z| and nu = conj(f_zbar) / f_z, p = |nu|^2 < 1, the energy is
 //     e = (1 + p) (e^2u + e^-2u / (1 - p)^2),
 // which is half the sum of the squared stretches and their inverse squares: 2 for a rigid motion,
-// and infinite for a fold. It is convex in (u, nu). In the unknowns of Chen and Weber 2017, which
-// are f_z and f_zbar, it is not.
+// and infinite for a fold. It is convex in (u, nu). In the unknowns of Chen and Weber 2017 ("GPU-
+// accelerated locally injective shape deformation"), which are f_z and f_zbar, it is not.
 #pragma once
 
 #include <cmath>

@@ -12,6 +12,9 @@ namespace holomorph {
 namespace {
 
 constexpr double kTurnWeight = 300, kTurnRidge = 1e-6;
+/// A start with a larger energy does not come from a drag. The turns of neighboring pins contradict
+/// each other, perhaps in a damaged file.
+constexpr double kWildest = 1e4;
 constexpr int kDraftSteps = 2, kFinalSteps = 200;
 constexpr double kFar = 1e-3;  ///< relative to the size: a miss that needs second derivatives
 constexpr int kSingleFrom =
@@ -116,6 +119,15 @@ VectorXd IsometricSpace::rotated(const IsometricTarget& target) const {
   return x;
 }
 
+/// The mean energy of a conformal map, nu = 0.
+double IsometricSpace::conformal_energy(const VectorXd& x) const {
+  const VectorXd u = transposed_product(system_->re, x.head(2 * basis_->size()));
+  double sum = 0;
+  for (Index i = 0; i < u.size(); ++i)
+    sum += system_->weights[i] * system_->energy.value(u[i], 0, 0);
+  return sum / system_->weights.sum();
+}
+
 Certificate IsometricSpace::certify(const LogMap& map) const {
   constexpr double kBelowOne = 1 - 1e-9;
   constexpr int kDepth = 8;
@@ -175,9 +187,8 @@ IsometricMap IsometricSpace::solved(const IsometricTarget& target, const Setting
   map.system = system_;
   VectorXd x;
   int iterations = 0;
-  if (turns.size() > 0) {
-    x = start(turns);
-  } else {
+  if (turns.size() > 0) x = start(turns);
+  if (turns.size() == 0 || !(conformal_energy(x) <= kWildest)) {
     x = rotated(target);
     steps.iterations = 1;
     for (double part = 1e-6; part < 0.5; part *= 10) {

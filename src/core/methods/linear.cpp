@@ -75,7 +75,8 @@ void check_pose(const Rest& rest, const Pose& pose) {
     for (const Complex& z : segment)
       if (!is_finite(z)) throw Error(ErrorKind::bad_input, "a posed cage point is not finite");
   for (const PosePin& pin : pose.pins)
-    if (!is_finite(pin.position) || !std::isfinite(pin.angle) || !(pin.scale >= kMinPinScale) ||
+    if (!is_finite(pin.position) || !std::isfinite(pin.angle) ||
+        !std::isfinite(pin.turn.value_or(0)) || !(pin.scale >= kMinPinScale) ||
         !(pin.scale <= kMaxPinScale))
       throw Error(ErrorKind::bad_input,
                   "a posed pin is not finite, or its scale is below 0.01 or above 100");

@@ -1,5 +1,6 @@
 #include "core/methods/puppet_handles.h"
 
+#include "core/error.h"
 #include "core/geometry/polyline.h"
 #include "core/methods/acting_pins.h"
 #include "core/methods/linear.h"
@@ -120,6 +121,10 @@ IsometricTarget PuppetHandles::target(const Pose& pose) const {
       ++row;
     }
   }
+  for (const Complex& displacement : target.stations)
+    if (!is_moderate(displacement))
+      throw Error(ErrorKind::bad_input,
+                  "a posed handle has a coordinate that is too large (more than 1e70)");
   target.frames.resize(static_cast<Index>(framed_.size()));
   for (size_t k = 0; k < framed_.size(); ++k) {
     const PosePin& pin = pose.pins[framed_[k]];

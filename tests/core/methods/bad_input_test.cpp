@@ -117,6 +117,8 @@ std::vector<Damage> damages() {
       {"too few posed pins", [](Setup& s) { s.pose.pins.pop_back(); }, pins},
       {"too many posed pins", [](Setup& s) { s.pose.pins.push_back({}); }},
       {"a posed pin that is not finite", [=](Setup& s) { s.pose.pins[1].position = nan; }, pins},
+      {"a posed pin with a turn that is not finite", [](Setup& s) { s.pose.pins[1].turn = NAN; },
+       pins},
       {"a posed pin without size", [](Setup& s) { s.pose.pins[1].scale = 0; }, pins},
       {"too many posed strokes",
        [](Setup& s) {
@@ -160,6 +162,14 @@ TEST_CASE("Contract: unusual input gives finite numbers or an Error, and never a
       {"a pin posed very far away",
        [](Setup& s) {
          for (PosePin& pin : s.pose.pins) pin.position = 1e60;
+       }},
+      {"pins with turns that contradict each other",
+       [](Setup& s) {
+         for (size_t i = 0; i < s.pose.pins.size(); ++i) s.pose.pins[i].turn = i % 2 ? 1e5 : -1e5;
+       }},
+      {"a pin posed beyond all numbers",
+       [](Setup& s) {
+         for (PosePin& pin : s.pose.pins) pin.position = 1e200;
        }},
       {"samples far outside",
        [](Setup& s) {
