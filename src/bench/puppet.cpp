@@ -5,7 +5,6 @@
 #include "core/clock.h"
 #include "core/isometric/isometric_space.h"
 #include "core/isometric/mesh_display.h"
-#include "core/mesh/area_samples.h"
 #include "core/mesh/mesher.h"
 
 namespace holomorph::bench {
@@ -39,14 +38,7 @@ PuppetFigures puppet_drag(int vertices) {
   const Index pins = static_cast<Index>(handles.stations.size());
   handles.turned = pins;
   handles.weights = VectorXd::Ones(pins);
-  InnerSamples inner;
-  const std::vector<AreaSample> areas = area_samples(mesh, 300);
-  inner.weights.resize(static_cast<Index>(areas.size()));
-  for (size_t i = 0; i < areas.size(); ++i) {
-    inner.points.push_back(mesh.vertices[static_cast<size_t>(areas[i].vertex)]);
-    inner.weights[static_cast<Index>(i)] = areas[i].area;
-  }
-  const IsometricSpace space(basis, mesh, handles, inner, {}, {});
+  const IsometricSpace space(basis, mesh, handles, area_samples(mesh, 300), {}, {});
   const MeshDisplay display(*basis, mesh);
 
   IsometricTarget target;

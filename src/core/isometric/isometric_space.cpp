@@ -36,7 +36,7 @@ VectorXd boundary_weights(const BoundaryBasis& basis) {
 }  // namespace
 
 IsometricSpace::IsometricSpace(std::shared_ptr<const BoundaryBasis> basis, const Mesh& mesh,
-                               IsometricHandles handles, const InnerSamples& inner,
+                               IsometricHandles handles, const std::vector<AreaSample>& inner,
                                const Stiffness& stiffness, IsometricEnergy energy)
     : basis_(std::move(basis)),
       handles_(std::move(handles)),
@@ -45,17 +45,22 @@ IsometricSpace::IsometricSpace(std::shared_ptr<const BoundaryBasis> basis, const
   auto system = std::make_shared<IsometricSystem>();
   system->energy = energy;
   const Index m = static_cast<Index>(basis_->samples().size()),
-              k = static_cast<Index>(inner.points.size());
+              k = static_cast<Index>(inner.size());
   real_columns(basis_->at_samples(), system->re, system->im);
   system->weights.resize(m + k);
   system->weights.head(m) = boundary_weights(*basis_);
   if (k > 0) {
+    Points points;
+    for (Index i = 0; i < k; ++i) {
+      points.push_back(mesh.vertices[static_cast<size_t>(inner[static_cast<size_t>(i)].vertex)]);
+      system->weights[m + i] = inner[static_cast<size_t>(i)].area;
+    }
     MatrixXd re, im;
-    real_columns(basis_->whitened(basis_->values(inner.points)), re, im);
+    real_columns(basis_->whitened(basis_->values(points)), re, im);
     append_columns(re, system->re);
     append_columns(im, system->im);
     system->weights.head(m) *= 0.5;
-    system->weights.tail(k) = 0.5 / inner.weights.sum() * inner.weights;
+    system->weights.tail(k) *= 0.5 / system->weights.tail(k).sum();
   }
   if (stiffness.size() > 0) system->weights = system->weights.cwiseProduct(stiffness).eval();
   system->paths = PathTree(mesh, basis_->polygon(), handles_.stations);

@@ -9,14 +9,9 @@
 
 #include "core/bounded/certificate.h"
 #include "core/isometric/isometric_program.h"
+#include "core/mesh/area_samples.h"
 
 namespace holomorph {
-
-/// Where the energy is measured inside, in addition to the boundary, which then counts half.
-struct InnerSamples {
-  Points points;
-  VectorXd weights;  ///< areas, in any unit
-};
 
 /// Points whose images are prescribed, and points where l and nu = 0 are prescribed.
 struct IsometricHandles {
@@ -43,11 +38,12 @@ class IsometricSpace {
   /// of the inner samples. Empty: 1.
   using Stiffness = VectorXd;
 
-  /// The mesh must belong to the basis' domain. Without inner samples, the energy is measured at
-  /// the boundary alone. Cost: (nodes + samples) n^2 for n polygon vertices.
+  /// The mesh must belong to the basis' domain. The boundary and the inner samples, which are
+  /// vertices of the mesh, contribute half of the energy each. Without inner samples, the energy is
+  /// measured at the boundary alone. Cost: (nodes + samples) n^2 for n polygon vertices.
   IsometricSpace(std::shared_ptr<const BoundaryBasis> basis, const Mesh& mesh,
-                 IsometricHandles handles, const InnerSamples& inner, const Stiffness& stiffness,
-                 IsometricEnergy energy);
+                 IsometricHandles handles, const std::vector<AreaSample>& inner,
+                 const Stiffness& stiffness, IsometricEnergy energy);
 
   struct Settings {
     double pin_weight = 1e5;  ///< penalty of a squared miss, in units of the domain's diagonal

@@ -12,6 +12,7 @@
 #include "core/maps/distortion.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/linear.h"
+#include "core/methods/notes.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 
@@ -241,9 +242,7 @@ class BoundedDeformer final : public Deformer {
     if (!reference_->note().empty()) text += ". " + reference_->note();
     if (found.solution.solution.status != ConeSolution::Status::solved)
       text += ". A nearer map may exist";
-    if (found.flipped_triangles > 0)
-      return "No folds, but the mesh is too coarse for this map: " +
-             std::to_string(found.flipped_triangles) + " inverted triangles";
+    if (found.flipped_triangles > 0) return coarse_mesh_text(found.flipped_triangles);
     return text;
   }
 
@@ -258,12 +257,10 @@ class BoundedDeformer final : public Deformer {
       const double off = std::abs(pins_[i]->in(*rest_.mesh, f) - pose.pins[i].position);
       if (off > farthest) farthest = off, which = i;
     }
-    if (farthest < 0.005 * box_of(rest_.mesh->vertices).diagonal()) return "";
-    char more[120];
-    std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
-                  farthest < 10 ? 1 : 0, farthest);
+    if (farthest < kMissed * box_of(rest_.mesh->vertices).diagonal()) return "";
     const auto bound = binding_constraint({&found.conformal.solution, &found.solution.solution});
-    return more + (bound ? " (limit: " + limit_text(*bound) + ")" : ", as in the followed map");
+    return short_pin_text(which, farthest) +
+           (bound ? " (limit: " + limit_text(*bound) + ")" : ", as in the followed map");
   }
 
   Rest rest_;

@@ -20,6 +20,8 @@ class BoundedPointMap final : public PointMap {
   }
 
   const VectorXc& at_vertices() const { return f_; }
+  /// Adds a translation to the map.
+  void move(Complex by) { f_.array() += by; }
 
   SampledMap at(std::span<const Complex> points) const {
     SampledMap map;

@@ -1,16 +1,13 @@
 // Method `puppet`: pins move parts of the picture, which keeps its sizes and shapes as far as
 // possible and cannot fold. The energy is the symmetric Dirichlet energy, in unknowns in which it
 // is convex.
-#include <cstdio>
-
 #include "core/error.h"
 #include "core/geometry/stiffness.h"
 #include "core/isometric/isometric_space.h"
 #include "core/isometric/mesh_display.h"
 #include "core/maps/distortion.h"
-#include "core/mesh/area_samples.h"
 #include "core/methods/bounded_points.h"
-#include "core/methods/linear.h"
+#include "core/methods/notes.h"
 #include "core/methods/parameters.h"
 #include "core/methods/puppet_handles.h"
 #include "core/methods/rows.h"
@@ -30,7 +27,7 @@ class PuppetDeformer final : public Deformer {
                                                      kSamplesPerVertex * size_for(rest.cage))),
         handles_(rest_, *basis_, {.frame_weight = value("frame_weight")}),
         display_(*basis_, *rest_.mesh) {
-    const InnerSamples inner = inner_samples();
+    const std::vector<AreaSample> inner = inner_samples();
     space_ = std::make_unique<IsometricSpace>(basis_, *rest_.mesh, handles_.isometric(), inner,
                                               stiffness(inner), energy());
     settings_.pin_weight = value("pin_weight");
@@ -55,7 +52,7 @@ class PuppetDeformer final : public Deformer {
     out.turns.resize(rest_.pins.size());
     for (size_t k = 0; k < handles_.pins().size(); ++k)
       out.turns[handles_.pins()[k]] = found->map.turns[static_cast<Index>(k)];
-    out.note = note(target, *found, out);
+    out.note = note(found->map, out);
     out.solution = found;
     return out;
   }
@@ -83,43 +80,35 @@ class PuppetDeformer final : public Deformer {
     return {};
   }
 
-  InnerSamples inner_samples() const {
-    InnerSamples inner;
+  std::vector<AreaSample> inner_samples() const {
     // Each dab of the brush that is wide enough to matter has a sample.
     constexpr double kWide = 0.02;
     const double size = box_of(rest_.mesh->vertices).diagonal();
     Points wanted;
     for (const BrushDab& dab : rest_.stiffness)
       if (dab.radius > kWide * size) wanted.push_back(dab.at);
-    for (const AreaSample& sample : area_samples(*rest_.mesh, kInnerSamples, wanted)) {
-      inner.points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
-      inner.weights.conservativeResize(inner.weights.size() + 1);
-      inner.weights[inner.weights.size() - 1] = sample.area;
-    }
-    return inner;
+    return area_samples(*rest_.mesh, kInnerSamples, wanted);
   }
 
-  VectorXd stiffness(const InnerSamples& inner) const {
+  VectorXd stiffness(const std::vector<AreaSample>& inner) const {
     if (rest_.stiffness.empty()) return {};
-    const Index m = static_cast<Index>(basis_->samples().size());
-    VectorXd factors(m + static_cast<Index>(inner.points.size()));
-    for (Index i = 0; i < factors.size(); ++i) {
-      const Complex z = i < m ? basis_->samples()[static_cast<size_t>(i)]
-                              : inner.points[static_cast<size_t>(i - m)];
-      factors[i] = std::pow(10, stiffness_level(rest_.stiffness, z));
-    }
+    Points points = basis_->samples();
+    for (const AreaSample& sample : inner)
+      points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
+    VectorXd factors(static_cast<Index>(points.size()));
+    for (Index i = 0; i < factors.size(); ++i)
+      factors[i] = std::pow(10, stiffness_level(rest_.stiffness, points[static_cast<size_t>(i)]));
     return factors;
   }
 
   /// The map at any point, exact up to rounding.
   std::unique_ptr<BoundedPointMap> points_of(const IsometricTarget& target,
                                              const IsometricMap& map) const {
-    VectorXc f = integrated_along(display_.tree(), *basis_, map.map);
-    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, f);
-    const Complex first = handles_.image(0, target, map.solution.offsets);
-    const Complex off = first - points->at(handles_.isometric().stations[0]).f;
-    f.array() += off;
-    return std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, std::move(f));
+    auto points = std::make_unique<BoundedPointMap>(
+        basis_, rest_.mesh, map.map, integrated_along(display_.tree(), *basis_, map.map));
+    points->move(handles_.image(0, target, map.solution.offsets) -
+                 points->at(handles_.isometric().stations[0]).f);
+    return points;
   }
 
   void answer(const IsometricTarget& target, EvalOptions options, const Found& found,
@@ -160,25 +149,19 @@ class PuppetDeformer final : public Deformer {
     out.fzbar = std::move(at.fzbar);
   }
 
-  std::string note(const IsometricTarget&, const Found& found, const SampledMap& out) const {
-    const IsometricMap& map = found.map;
+  std::string note(const IsometricMap& map, const SampledMap& out) const {
     if (!map.certificate.holds) return "Not proved near " + point_text(map.certificate.where);
     std::string text = "No folds";
     if (rest_.samples == rest_.mesh->vertices)
       if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
-        text += ", but the mesh is too coarse for this map: " + std::to_string(flipped) +
-                " inverted triangles";
+        text = coarse_mesh_text(flipped);
     double farthest = 0;
     size_t which = 0;
     for (size_t i = 0; i < handles_.pins().size(); ++i)
       if (const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]); off > farthest)
         farthest = off, which = handles_.pins()[i];
-    if (farthest >= 0.005 * box_of(rest_.mesh->vertices).diagonal()) {
-      char more[120];
-      std::snprintf(more, sizeof more, ". Pin %d stops %.*f px short", static_cast<int>(which) + 1,
-                    farthest < 10 ? 1 : 0, farthest);
-      text += more;
-    }
+    if (farthest >= kMissed * box_of(rest_.mesh->vertices).diagonal())
+      text += short_pin_text(which, farthest);
     if (!handles_.note().empty()) text += ". " + handles_.note();
     return text;
   }
