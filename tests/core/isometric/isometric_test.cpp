@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/isometric/isometric_space.h"
+#include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
 #include "core/solvers/real_form.h"
 #include "support/seeds.h"
@@ -267,6 +268,26 @@ TEST_CASE("Isometric maps: drafts converge to the final answer that starts from 
     CHECK(std::abs(final_map.solution.total - map.solution.total) <=
           1e-6 * final_map.solution.total);
     CHECK((final_map.solution.offsets - map.solution.offsets).cwiseAbs().maxCoeff() <= 1e-4);
+  }
+}
+
+TEST_CASE("Puppet: a pin with rotation turns a small disk, by 45 degrees to within 2") {
+  const Method& method = method_named("puppet");
+  Rest rest;
+  rest.cage = polygon_cage(Points{{0, 0}, {600, 0}, {600, 200}, {0, 200}});
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {1500}));
+  rest.precision = Precision::full;
+  const Complex center(300, 100);
+  rest.pins = {{center, true}, {{40, 100}}, {{560, 100}}};
+  const double radius = 0.03 * std::hypot(600, 200);
+  for (int k = 0; k < 6; ++k) rest.samples.push_back(center + std::polar(radius, 2 * kPi * k / 6));
+  const Pose pose{rest.cage, {{center, kPi / 4}, {{40, 100}}, {{560, 100}}}};
+  const SampledMap map = method.prepare(rest, nullptr)->deform(pose, {.derivatives = true});
+  CHECK(map.status == SampledMap::Status::certified);
+  for (Index i = 0; i < map.fz.size(); ++i) {
+    CHECK(std::abs(std::arg(map.fz[i]) - kPi / 4) <= 2 * kPi / 180);
+    CHECK(std::abs(map.fz[i]) + std::abs(map.fzbar[i]) <= 1.05);
+    CHECK(std::abs(map.fz[i]) - std::abs(map.fzbar[i]) >= 0.95);
   }
 }
 
