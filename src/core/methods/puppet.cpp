@@ -15,7 +15,7 @@
 namespace holomorph {
 namespace {
 
-constexpr int kSamplesPerVertex = 6;
+constexpr int kBoundarySamples = 6;
 constexpr size_t kInnerSamples = 300;
 
 class PuppetDeformer final : public Deformer {
@@ -24,7 +24,7 @@ class PuppetDeformer final : public Deformer {
       : rest_(rest),
         method_(method_named("puppet")),
         basis_(std::make_shared<const BoundaryBasis>(rest.cage, size_for(rest.cage),
-                                                     kSamplesPerVertex * size_for(rest.cage))),
+                                                     kBoundarySamples * size_for(rest.cage))),
         handles_(rest_, *basis_, {.frame_weight = value("frame_weight")}),
         display_(*basis_, *rest_.mesh) {
     const std::vector<AreaSample> inner = inner_samples();
