@@ -96,8 +96,10 @@ class Editor {
     window_.begin_frame(navigates_items(window_focus()));
     const PanelSizes sizes = PanelSizes::at(window_.scale());
     layout(sizes);
+    const double start = now_ms();
     handle_events();
     Input input = read_input();
+    if (input.pressed) slowest_work_ms_ = 0;
     if (input.wheel != 0 && current_tool().scroll(input, workspace_)) input.wheel = 0;
     split_line_.drag(input, workspace_.display);
     navigate(input);
@@ -114,6 +116,7 @@ class Editor {
     show_whole_map();
     update_title();
     files_.autosave();
+    slowest_work_ms_ = std::max(slowest_work_ms_, now_ms() - start);
     draw_canvas();
     draw_panels(input);
     ImGui::Render();
@@ -135,6 +138,7 @@ class Editor {
     parts.theme = window_.theme();
     parts.scale = window_.scale();
     parts.slowest_ms = slowest_ms_;
+    parts.slowest_work_ms = slowest_work_ms_;
     parts.distance = surface_pane_.camera().distance;
     state_file_->write(workspace_, parts);
   }
@@ -419,7 +423,7 @@ class Editor {
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, was_active_ = false, restyle_ = false,
        menu_was_open_ = false, goes_to_menu_ = false;
-  double watched_ms_ = 0, slowest_ms_ = 0;
+  double watched_ms_ = 0, slowest_ms_ = 0, slowest_work_ms_ = 0;
   Navigation navigation_;
   SplitLine split_line_;
   ComparisonPanel comparison_;

@@ -75,6 +75,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"pending", parts.pending},
       {"taken", parts.taken},
       {"slowest_ms", parts.slowest_ms},
+      {"slowest_work_ms", parts.slowest_work_ms},
   };
 }
 

@@ -13,6 +13,7 @@ struct PartsState {
   bool on_surface = false;       ///< the surface in space shows the picture
   double yaw = 0, distance = 0;  ///< position of the surface's camera
   double slowest_ms = 0;         ///< longest frame so far, from its first event to its last pixel
+  double slowest_work_ms = 0;    ///< longest time between drawing since the last press of a button
   bool settling = false;         ///< the view will move in the next frame
   bool pending = false;          ///< input events are queued for later frames
   int taken = 0;                 ///< presses and releases of keys and buttons handled so far

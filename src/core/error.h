@@ -1,8 +1,10 @@
 // The two kinds of failure: bad input (Error, caught at the edges of the program) and bugs (check).
+// Also the end of work that is no longer wanted (Stopped).
 #pragma once
 
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 
 #include "core/types.h"
@@ -28,6 +30,14 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
   std::optional<Complex> where_;
 };
+
+/// Thrown by a computation that was asked to stop.
+struct Stopped : std::exception {
+  const char* what() const noexcept override { return "stopped"; }
+};
+inline void throw_if_stopped(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Stopped();
+}
 
 /// The message of an exception as readable text. Also handles exceptions from the standard library.
 std::string what_of(const std::exception& error);

@@ -175,10 +175,8 @@ Deformation Workspace::keyed(Deformation deformation) {
       there < before.keyframes.size() && !fits(before, before.keyframes[there].pose))
     messages.say("A keyframe that did not fit the scene was replaced. Undo to restore it.");
   deformation = with_key(std::move(deformation), time);
-  if (map().posed() && map().posed()->keyframes == before.keyframes) {
-    map().follow_keys();
+  if (map().posed() && map().posed()->keyframes == before.keyframes && map().follow_keys())
     preserve_turns(deformation, before, map().motion());
-  }
   const Pose own = whole_pose_of(before);
   return fits(deformation, own) ? posed_as(std::move(deformation), own) : deformation;
 }
@@ -209,7 +207,9 @@ void Workspace::set_key() {
 
 std::vector<Points> Workspace::keyframe_images(std::span<const Complex> rest) {
   const Deformation& deformation = shown.own();
-  if (deformation.keyframes.empty() || !map().has_map() || map().posed() != deformation) return {};
+  if (deformation.keyframes.empty() || !map().has_map() || map().posed() != deformation ||
+      !map().follow_keys())
+    return {};
   std::vector<Points> images;
   for (const Keyframe& key : deformation.keyframes)
     images.push_back(map().images_at(key.time, rest));
@@ -234,8 +234,8 @@ bool Workspace::update_map(EvalOptions options) {
   const bool changed =
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
   if (shown.preview) shown.timeline.playing = false;
-  if (shown.timeline.onion && map().has_map()) map().follow_keys();
   if (shown.preview) return changed;  // a preview already has the handles at the displayed time
+  if (!own.keyframes.empty()) map().follow_keys();  // edits and the onion skin need their maps
   // While another method is being prepared, the handles keep their positions at this time.
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());

@@ -1,5 +1,8 @@
 // There are no dirty flags. Inputs are compared by value, and the worker receives a request when
-// the input of the preparation changes.
+// they change.
+//
+// A deformer is used by one thread at a time: by the worker while busy_ is true or if the method
+// iterates, and otherwise by the caller of update().
 #include "scene/live_map.h"
 
 #include <algorithm>
@@ -9,141 +12,162 @@
 #include "scene/keyframes.h"
 
 namespace holomorph {
+namespace {
 
-void LiveMap::order(const Deformation& deformation) {
-  std::vector<Depth> depths = depths_of(deformation);
-  if (drawn_ && depths == depths_) return;
-  depths_ = std::move(depths);
-  drawn_ = drawn_mesh(prepared_->mesh, depths_);
+bool iterates(const Deformation& deformation) {
+  return method_named(deformation.method).iterates;
 }
 
-LiveMap::LiveMap(MeshOptions options) : options_(options) {}
+/// Whether two deformations have the same map. Their keyframes may differ.
+bool same_map(const Deformation& a, const Deformation& b) {
+  return a == b || (same_rest(a, b) && pose_of(a) == pose_of(b) && depths_of(a) == depths_of(b));
+}
 
-LiveMap::~LiveMap() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
+}  // namespace
+
+/// Whether the deformation's animation is wanted, not its own pose.
+bool LiveMap::plays(const Deformation& deformation) const {
+  return moment_.time && !deformation.keyframes.empty();
+}
+
+/// Whether the map of the deformation's own pose is displayed.
+bool LiveMap::displays(const Deformation& deformation, const EvalOptions& options) const {
+  return !posed_moment_.time && posed_.deformation && posed_.options == options &&
+         same_map(*posed_.deformation, deformation);
+}
+
+/// Whether the maps at keyframes are unknown and computing them here would take long. Keys that
+/// still lack a map after a request have no valid map and are not requested again.
+bool LiveMap::needs_keys(const Deformation& deformation) const {
+  constexpr double kNoticed = 50, kShape = 4;  // ms; kShape is the time for the logarithms of a key
+  if (requested_ && requested_->keys && requested_->linear_blend == moment_.linear_blend &&
+      requested_->deformation.keyframes == deformation.keyframes &&
+      same_rest(requested_->deformation, deformation))
+    return false;
+  const size_t unknown = motion_.unknown(deformation, prepared_);
+  if (iterates(deformation)) return unknown > 0;
+  const double each = std::max(key_milliseconds_, posed_.milliseconds) + kShape;
+  return static_cast<double>(unknown) * each > kNoticed;
+}
+
+bool LiveMap::needs_request(const Deformation& deformation, const EvalOptions& options) const {
+  if (!requested_ || !same_rest(requested_->deformation, deformation)) return true;
+  if (failed_) return false;
+  if (prepared_ && plays(deformation)) {
+    if (needs_keys(deformation)) return true;
+    if (busy_ || motion_.plays()) return false;
   }
-  changed_.notify_all();
-  if (worker_.joinable()) worker_.join();
+  if (!iterates(deformation) || displays(deformation, options)) return false;
+  return !(requested_->options == options && same_map(requested_->deformation, deformation)) ||
+         (!busy_ && !error_);
 }
 
-void LiveMap::work() {
-  std::unique_lock lock(mutex_);
-  constexpr auto kIdle = std::chrono::milliseconds(300);
-  std::shared_ptr<PreparedMap> tried;  ///< the map whose in-betweens were last attempted
-  while (true) {
-    const auto wanted_now = [this] { return stop_ || waiting_; };
-    if (!base_ || base_ == tried || base_->between.load()) {
-      changed_.wait(lock, wanted_now);
-    } else if (!changed_.wait_for(lock, kIdle, wanted_now)) {
-      // The worker is idle, so it prepares what playback will need.
-      const std::shared_ptr<PreparedMap> base = tried = base_;
-      lock.unlock();
-      try {
-        inbetween_of(*base);
-      } catch (const std::exception&) {
-        // Playback will fail for the same reason and report it.
-      }
-      lock.lock();
-      continue;
-    }
-    if (stop_) return;
-    const Deformation deformation = *std::exchange(waiting_, std::nullopt);
-    const bool with_keys = waiting_keys_, linear_blend = waiting_blend_;
-    const std::shared_ptr<PreparedMap> base = base_;
-    const unsigned wanted = generation_, document = document_;
-    working_ = true;
-    lock.unlock();
-    std::shared_ptr<PreparedMap> result;
-    std::optional<Error> failure;
-    Motion motion;
-    double milliseconds = 0;
-    try {
-      result = prepared_map(deformation, Precision::single, options_, base.get());
-      const double start = now_ms();
-      if (with_keys) motion.follow(deformation, linear_blend, result);
-      if (const size_t keys = playing_keys(deformation).size(); with_keys && keys > 0)
-        milliseconds = (now_ms() - start) / static_cast<double>(keys);
-    } catch (const Error& error) {
-      failure = error;
-    } catch (const std::exception& error) {
-      failure = Error(ErrorKind::failed, "the map could not be prepared: " + what_of(error));
-    }
-    lock.lock();
-    working_ = false;
-    if (result) base_ = result;
-    // If the deformation has changed in the meantime, the map of the earlier state is displayed
-    // until the next map is ready. Errors of the earlier state are ignored.
-    if (document == document_ && (result || wanted == generation_)) {
-      finished_ = true;
-      result_ = std::move(result);
-      result_motion_ = std::move(motion);
-      if (milliseconds > 0) result_milliseconds_ = milliseconds;
-      result_deformation_ = deformation;
-      failure_ = std::move(failure);
-    }
-    changed_.notify_all();
-    if (wake_) wake_();
+void LiveMap::request(MapRequest request) {
+  requested_ = request;
+  busy_ = true;
+  failed_ = false;
+  number_ = worker_.request(std::move(request));
+}
+
+void LiveMap::adopt(MapAnswer answer) {
+  if (answer.number == number_ && answer.complete) busy_ = false;
+  error_ = std::move(answer.error);
+  failed_ = !answer.prepared;
+  if (failed_) return;
+  if (answer.prepared != prepared_) {
+    prepared_ = std::move(answer.prepared);
+    posed_ = {};
+    timed_.reset();
+    motion_.clear();
+    ++preparation_;
   }
+  if (answer.motion) {
+    motion_ = std::move(*answer.motion);
+    key_milliseconds_ = answer.key_milliseconds;
+  }
+  if (!answer.posed) return;
+  posed_ = std::move(*answer.posed);
+  posed_moment_ = {};
+  timed_.reset();
 }
 
-void LiveMap::adopt_result(const Deformation& deformation, EvalOptions options) {
-  const std::lock_guard lock(mutex_);
-  busy_ = working_ || waiting_;
-  if (!std::exchange(finished_, false)) return;
-  error_ = std::move(failure_);
-  failed_ = error_.has_value();
-  failure_.reset();
-  if (!result_) return;
-  prepared_ = std::move(result_);
-  drawn_.reset();
-  motion_ = std::exchange(result_motion_, Motion());
-  solve_milliseconds_ = std::max(solve_milliseconds_, std::exchange(result_milliseconds_, 0));
-  posed_.reset();
-  map_ = SampledMap{};
-  ++preparation_;
-  // Mesh and map must match. If the rest state has changed since the request, pose the deformation
-  // that was requested.
-  pose(same_rest(*result_deformation_, deformation) ? deformation : *result_deformation_, options);
+bool LiveMap::update(const Deformation& deformation, EvalOptions options, const Moment& moment) {
+  bool changed = false;
+  moment_ = moment;
+  if (std::optional<MapAnswer> answer = worker_.take()) {
+    adopt(std::move(*answer));
+    changed = true;
+  }
+  if (!deformation.has_cage()) {
+    changed = changed || prepared_;
+    clear();
+    return changed;
+  }
+  if (needs_request(deformation, options))
+    request({deformation, options, plays(deformation), moment.linear_blend});
+  if (!prepared_ || failed_ || !same_rest(requested_->deformation, deformation)) return changed;
+  const bool timed = plays(deformation);
+  if (timed && !busy_ && pose_at_time(deformation, options)) return true;
+  if (timed && motion_.plays()) return changed;
+  if (displays(deformation, options))
+    posed_.deformation = deformation;
+  else if (!busy_ && !iterates(deformation))
+    return pose(deformation, options) || changed;
+  return changed;
 }
 
 bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
-  if (!prepared_ ||
-      (posed_ == deformation && posed_options_ == options && posed_moment_ == moment_))
-    return false;
-  const double start = now_ms();
-  timed_.reset();
   try {
-    const bool timed = moment_.time && !deformation.keyframes.empty();
-    if (timed) motion_.follow(deformation, moment_.linear_blend, prepared_);
-    SampledMap map;
-    if (timed && motion_.plays()) {
-      map = blended_map(*prepared_->mesh, motion_.map_at(*moment_.time), options.derivatives);
-      if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
-      timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
-    } else {
-      map = prepared_->deformer->deform(pose_of(deformation), options, map_.solution.get());
-      if (!options.draft) solve_milliseconds_ = now_ms() - start;
-    }
-    map_ = std::move(map);
-    error_.reset();
+    posed_ = posed_map(*prepared_, deformation, options, &posed_);
   } catch (const Error& error) {
     error_ = error;
     return false;
   }
-  pose_milliseconds_ = now_ms() - start;
-  order(deformation);
-  evaluate_map();
-  posed_ = deformation;
-  posed_options_ = options;
+  posed_moment_ = {};
+  timed_.reset();
+  error_.reset();
+  return true;
+}
+
+bool LiveMap::pose_at_time(const Deformation& deformation, EvalOptions options) {
+  if (posed_.deformation == deformation && posed_.options == options && posed_moment_ == moment_)
+    return false;
+  const double start = now_ms();
+  try {
+    // Only the worker may use the deformer of a method that iterates.
+    if (!iterates(deformation) || motion_.unknown(deformation, prepared_) == 0)
+      motion_.follow(deformation, moment_.linear_blend, prepared_);
+    if (!motion_.plays()) return false;
+    SampledMap map =
+        blended_map(*prepared_->mesh, motion_.map_at(*moment_.time), options.derivatives);
+    if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
+    timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
+    posed_ = examined_map(*prepared_, deformation, options, std::move(map), &posed_);
+  } catch (const Error& error) {
+    error_ = error;
+    return false;
+  }
+  posed_.milliseconds = now_ms() - start;
   posed_moment_ = moment_;
+  error_.reset();
+  return true;
+}
+
+bool LiveMap::follow_keys() {
+  if (!prepared_ || !posed_.deformation) return false;
+  const Deformation& deformation = *posed_.deformation;
+  const bool known = motion_.unknown(deformation, prepared_) == 0;
+  if (!known && busy_) return false;
+  if (!known && needs_keys(deformation)) {
+    request({deformation, posed_.options, true, moment_.linear_blend});
+    return false;
+  }
+  if (known || !iterates(deformation)) motion_.follow(deformation, moment_.linear_blend, prepared_);
   return true;
 }
 
 Points LiveMap::images_at(double time, std::span<const Complex> rest) {
   Points places(rest.begin(), rest.end());
-  follow_keys();
   if (!motion_.plays()) return places;
   const VectorXc f = motion_.map_at(time);
   for (Complex& z : places)
@@ -153,91 +177,31 @@ Points LiveMap::images_at(double time, std::span<const Complex> rest) {
 }
 
 std::optional<Complex> LiveMap::pin_image(const Deformation& deformation, size_t i) const {
-  return posed_ && same_rest(*posed_, deformation) ? pin_image(i) : std::nullopt;
+  return posed() && same_rest(*posed(), deformation) ? pin_image(i) : std::nullopt;
 }
 
 std::optional<Complex> LiveMap::pin_image(size_t i) const {
-  if (!has_map() || map_.ignores_pins || i >= prepared_->pins.size() || !prepared_->pins[i])
+  if (!has_map() || map().ignores_pins || i >= prepared_->pins.size() || !prepared_->pins[i])
     return {};
-  return prepared_->pins[i]->in(*prepared_->mesh, as_span(map_.f));
-}
-
-/// Computes the injectivity and the images of the zeros of a newly posed map.
-void LiveMap::evaluate_map() {
-  const Mesh& mesh = *prepared_->mesh;
-  injectivity_ = injectivity_of(mesh, map_.f);
-  zero_images_.clear();
-  for (const Complex& zero : map_.zeros)
-    if (const auto at = locate(mesh, mesh.vertices, zero))
-      zero_images_.push_back(at->in(mesh, as_span(map_.f)));
+  return prepared_->pins[i]->in(*prepared_->mesh, as_span(map().f));
 }
 
 void LiveMap::clear() {
+  if (!requested_) return;
+  worker_.discard();
   prepared_.reset();
-  drawn_.reset();
-  map_ = SampledMap{};
-  posed_.reset();
+  posed_ = {};
+  posed_moment_ = {};
   timed_.reset();
   motion_.clear();
   requested_.reset();
   error_.reset();
-  failed_ = false;
-  injectivity_ = {};
-  zero_images_.clear();
-  const std::lock_guard lock(mutex_);
-  ++generation_;
-  ++document_;
-  waiting_.reset();
-  result_.reset();
-  finished_ = false;
-}
-
-/// Whether the maps at keyframes are needed and computing them would noticeably block the caller.
-/// Keys that still lack a map after a request have no valid map and are not requested again.
-bool LiveMap::needs_worker(const Deformation& deformation) const {
-  constexpr double kNoticed = 50, kShape = 4;  // ms; kShape is the time for the logarithms of a key
-  if (!moment_.time || !prepared_ || busy_ || failed_) return false;
-  if (requested_keys_ && requested_->keyframes == deformation.keyframes) return false;
-  if (posed_moment_.time && posed_ && posed_->keyframes == deformation.keyframes) return false;
-  return static_cast<double>(motion_.unknown(deformation, prepared_)) *
-             (solve_milliseconds_ + kShape) >
-         kNoticed;
-}
-
-bool LiveMap::update(const Deformation& deformation, EvalOptions options, const Moment& moment) {
-  const unsigned before = preparation_;
-  moment_ = moment;
-  adopt_result(deformation, options);
-  if (!deformation.has_cage()) {
-    const bool changed = prepared_ != nullptr;
-    clear();
-    return changed;
-  }
-  if (!requested_ || !same_rest(*requested_, deformation) || needs_worker(deformation)) {
-    if (!worker_.joinable()) worker_ = std::thread([this] { work(); });
-    requested_ = deformation;
-    requested_keys_ = moment_.time.has_value();
-    error_.reset();
-    failed_ = false;
-    const std::lock_guard lock(mutex_);
-    ++generation_;
-    waiting_ = deformation;
-    waiting_keys_ = requested_keys_;
-    waiting_blend_ = moment_.linear_blend;
-    busy_ = true;
-    changed_.notify_all();
-    return before != preparation_;
-  }
-  if (busy_ || failed_) return before != preparation_;
-  return pose(deformation, options) || before != preparation_;
+  busy_ = failed_ = false;
 }
 
 void LiveMap::finish(const Deformation& deformation, EvalOptions options) {
   update(deformation, options);
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !working_ && !waiting_; });
-  }
+  worker_.wait();
   update(deformation, options);
 }
 

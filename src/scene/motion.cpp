@@ -77,8 +77,8 @@ size_t Motion::unknown(const Deformation& deformation,
 }
 
 void Motion::follow(const Deformation& deformation, bool linear_blend,
-                    std::shared_ptr<PreparedMap> prepared) {
-  bool changed = linear_blend_ != linear_blend;
+                    std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop) {
+  bool changed = linear_blend_ != linear_blend || stopped_;
   linear_blend_ = linear_blend;
   if (prepared != prepared_) {
     if (!between_ || &between_->mesh() != prepared->mesh.get()) {
@@ -104,6 +104,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
     error_.reset();
     return;
   }
+  stopped_ = true;
   std::optional<Error> wrong;
   for (const size_t i : playing) {
     const Keyframe& frame = deformation.keyframes[i];
@@ -113,8 +114,14 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
       key.f = known->f;
     } else {
       try {
-        SampledMap map = prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), {});
+        EvalOptions options;
+        options.stop = stop;
+        SampledMap map =
+            prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), options);
         key.f = std::move(map.f);
+      } catch (const Stopped&) {
+        std::ranges::move(keys, std::back_inserter(keys_));
+        throw;
       } catch (const Error& error) {
         char when[48];
         std::snprintf(when, sizeof when, "the keyframe at %.2f s: ", frame.time);
@@ -127,6 +134,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   const auto same = [](const Key& a, const Key& b) {
     return a.time == b.time && a.ease == b.ease && a.turns == b.turns && a.pose == b.pose;
   };
+  stopped_ = false;
   error_ = wrong;
   if (!changed && std::ranges::equal(keys, keys_, same)) return;
   keys_ = std::move(keys);

@@ -27,9 +27,10 @@ class Motion {
   /// Updates the maps at a deformation's keyframes. Only maps of changed poses are recomputed.
   /// `prepared` must be the prepared map of the deformation. Keyframes without a valid map are left
   /// out, and error() returns the first reason. Cost: one final pose for each changed keyframe.
-  /// Throws Error{bad_input} if the maps would need more memory than the budget allows.
+  /// Throws Error{bad_input} if the maps would need more memory than the budget allows, and Stopped
+  /// on request. The maps found until then are kept for the next call; nothing plays before it.
   void follow(const Deformation& deformation, bool linear_blend,
-              std::shared_ptr<PreparedMap> prepared);
+              std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop = {});
   void clear() { *this = Motion(); }
 
   /// The number of final poses that follow() would compute.
@@ -37,7 +38,7 @@ class Motion {
                  const std::shared_ptr<PreparedMap>& prepared) const;
 
   /// Whether any key has a map. If so, there is a map at any time.
-  bool plays() const { return !keys_.empty(); }
+  bool plays() const { return !keys_.empty() && !stopped_; }
   const std::optional<Error>& error() const { return error_; }
 
   /// The map at the last key before a time, or at the first key after it if `later` is true. Null
@@ -102,6 +103,7 @@ class Motion {
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Inbetween> between_;
   bool linear_blend_ = false;
+  bool stopped_ = false;  ///< whether the last call of follow() was stopped
   std::optional<Error> error_;
   std::map<std::pair<double, double>, Location> locations_;
   // A shape needs eight times as much memory as its map. Therefore only the shapes near the

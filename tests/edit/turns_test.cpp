@@ -30,7 +30,7 @@ void drag_last_pin(TestWorkspace& desk, const std::vector<Complex>& path) {
   desk.press(workspace.shown.deformation().pins[2].pose);
   for (const Complex& z : path) {
     desk.move(z);
-    workspace.update_map({.derivatives = false, .draft = true});
+    workspace.map().finish(workspace.shown.deformation(), {.derivatives = false, .draft = true});
   }
   desk.release(path.back());
   desk.settle();

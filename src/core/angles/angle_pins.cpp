@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostIterations = 40, kDraftIterations = 3, kMostHalvings = 5;
 constexpr double kMostStep = 0.5;  ///< largest change of an angle per iteration, in radians
-constexpr double kSettled = 1e-9;  ///< largest residual or step, relative to the size or in radians
+constexpr double kSolved = 1e-9;   ///< largest residual or step, relative to the size or in radians
 constexpr double kMeanAngleWeight = 0.05;  ///< weight of the mean angle relative to jumps and bends
 constexpr double kScaleWeight = 0.05, kTranslationWeight = 0.05;
 
@@ -126,8 +126,8 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
     halved = 0;
     least = std::min(least, off);
     answer.largest_miss = linear.largest_miss;
-    answer.settled = off <= kSettled ||
-                     (answer.iterations > 0 && step.head(n + 1).cwiseAbs().maxCoeff() <= kSettled);
+    answer.settled = off <= kSolved ||
+                     (answer.iterations > 0 && step.head(n + 1).cwiseAbs().maxCoeff() <= kSolved);
     if (answer.settled || answer.iterations == (draft ? kDraftIterations : kMostIterations)) break;
     ++answer.iterations;
     const MatrixXd soft = inverse_penalty_ * linear.by.transpose();

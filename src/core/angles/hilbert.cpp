@@ -15,7 +15,7 @@ namespace {
 constexpr int kDegree = 3, kSamplesPerPiece = 16;  ///< per piece
 constexpr int kCornerSamples = 4;
 constexpr int kMaxRounds = 7, kRefinements = 3;
-constexpr double kHighestPower = 3.2, kFlat = 8 * kPi / 180;
+constexpr double kHighestPower = 3.2, kFlatTurn = 8 * kPi / 180;
 constexpr size_t kMaxPowers = 6;
 
 /// The length of a ray up to its next intersection with the polygon, or infinity if there is none.
@@ -55,7 +55,7 @@ Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle
 /// sides of the wedge are smooth.
 std::vector<double> powers_of(double angle) {
   std::vector<double> powers;
-  if (std::abs(angle - kPi) <= kFlat) return powers;
+  if (std::abs(angle - kPi) <= kFlatTurn) return powers;
   for (double base = kPi / angle; base < kHighestPower; base += kPi / angle)
     for (double power = base; power < kHighestPower; ++power)
       if (std::abs(power - std::round(power)) > 1e-3) powers.push_back(power);
@@ -139,7 +139,7 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
   correction_weights_ =
       (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
   const auto bends = [&](Index vertex) {
-    return std::abs(angle(vertex % cage_.size()) - kPi) > kFlat;
+    return std::abs(angle(vertex % cage_.size()) - kPi) > kFlatTurn;
   };
   for (Index e = 0; e < cage_.size(); ++e) {
     if (bends(e) || bends(e + 1) || cage_.degree(e) > 1)

@@ -47,8 +47,9 @@ void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basi
   for (const int v : anchors_) points_.inner.push_back(mesh.vertices[static_cast<size_t>(v)]);
 }
 
-void ReferenceSampler::deform(const Pose& pose, bool draft, const Solution* from) {
-  map_ = deformer_->deform(used_by(method_, pose), {true, draft}, from);
+void ReferenceSampler::deform(const Pose& pose, EvalOptions options, const Solution* from) {
+  options.derivatives = true;
+  map_ = deformer_->deform(used_by(method_, pose), options, from);
   if (!map_.f.allFinite())
     throw Error(ErrorKind::failed,
                 "the reference map has values that are not finite; move its handles apart");

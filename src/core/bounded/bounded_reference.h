@@ -28,9 +28,9 @@ class ReferenceSampler {
   /// Whether the method uses pins.
   bool uses_pins() const { return method_.uses_pins; }
 
-  /// Samples the map of a pose. A draft may continue from an earlier solution of the method. Throws
-  /// Error when the method does or when the map is not finite.
-  void deform(const Pose& pose, bool draft, const Solution* from);
+  /// Samples the map of a pose and its derivatives. A draft may continue from an earlier solution
+  /// of the method. Throws Error when the method does or when the map is not finite.
+  void deform(const Pose& pose, EvalOptions options, const Solution* from);
   /// The method's solution for the sampled map.
   const std::shared_ptr<const Solution>& solution() const { return map_.solution; }
   /// Whether the sampled map is the identity, to the last bit.

@@ -45,7 +45,7 @@ Element nearest_bounded(const Element& element, const Bounds& bounds) {
 
 namespace {
 
-constexpr double kSettled = 1e-6;  ///< largest distance of an element from its projection
+constexpr double kProjected = 1e-6;  ///< largest distance of an element from its projection
 
 VectorXd projected(const VectorXd& y, const Bounds& bounds) {
   VectorXd result(y.size());
@@ -143,7 +143,7 @@ Projected by_half_spaces(DerivativeOperator& t, const VectorXd& start,
       spaces.normals.segment<4>(4 * i) = difference / length;
       spaces.limits[i] = difference.dot(p.segment<4>(4 * i)) / length;
     }
-    result.settled = worst < kSettled;
+    result.settled = worst < kProjected;
     if (result.settled) break;
     result.x = quadratic_program(t, y, result.x, spaces, settings.stop);
   }
@@ -161,7 +161,7 @@ Projected by_tangent_planes(DerivativeOperator& t, const VectorXd& start,
     double worst = 0;
     for (Index i = 0; i < t.elements(); ++i)
       worst = std::max(worst, difference.segment<4>(4 * i).norm());
-    result.settled = worst < kSettled;
+    result.settled = worst < kProjected;
     if (result.settled) break;
     const VectorXd pull = t.adjoint(weighted(t, difference)), dx = t.solve(pull);
     const double step = difference.dot(weighted(t, difference)) / pull.dot(dx);

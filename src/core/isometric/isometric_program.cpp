@@ -93,6 +93,7 @@ class Solver {
     check(std::isfinite(s.total), "isometric program: |nu| < 1 at the start");
     IsometricSolution out;
     for (; out.iterations < settings_.iterations; ++out.iterations) {
+      throw_if_stopped(settings_.stop);
       linearize(s);
       if (!factor()) break;
       const VectorXd d = -cholesky_.solve(gradient_);

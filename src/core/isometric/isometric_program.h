@@ -9,6 +9,7 @@
 #pragma once
 
 #include <limits>
+#include <stop_token>
 
 #include "core/cauchy/cauchy_array.h"
 #include "core/isometric/energy.h"
@@ -60,11 +61,13 @@ struct IsometricSettings {
   /// final answers; impossible poses then need fewer iterations.
   double far = std::numeric_limits<double>::infinity();
   bool single = false;  ///< compute the Hessian in single precision
+  std::stop_token stop = {};
 };
 
 /// Minimizes from a start, at which |nu| < 1 must hold at all samples (checked). The value
-/// decreases in every iteration. Method: Newton's, with Gauss-Newton for the stations. Cost of an
-/// iteration: 10 m n^2 multiplications and one Cholesky factorization of size 4n.
+/// decreases in every iteration. Throws Stopped on request. Method: Newton's, with Gauss-Newton for
+/// the stations. Cost of an iteration: 10 m n^2 multiplications and one Cholesky factorization of
+/// size 4n.
 IsometricSolution minimized(const IsometricSystem& system, const IsometricTarget& target,
                             const IsometricSettings& settings, VectorXd start);
 

@@ -16,7 +16,7 @@ constexpr double kTurnWeight = 300, kTurnRidge = 1e-6;
 /// each other, perhaps in a damaged file.
 constexpr double kWildest = 1e4;
 constexpr int kDraftSteps = 2, kFinalSteps = 200;
-constexpr double kFar = 1e-3;  ///< relative to the size: a miss that needs second derivatives
+constexpr double kFarPin = 1e-3;  ///< relative to the size: a miss that needs second derivatives
 constexpr int kSingleFrom =
     100;  ///< from this size on, drafts compute Hessians in single precision
 
@@ -187,7 +187,8 @@ void IsometricSpace::finish(const IsometricTarget& target, IsometricMap& map) co
 IsometricMap IsometricSpace::solved(const IsometricTarget& target, const Settings& settings,
                                     const VectorXd& turns) const {
   IsometricSettings steps;
-  steps.far = kFar * size_;
+  steps.far = kFarPin * size_;
+  steps.stop = settings.stop;
   IsometricMap map;
   map.system = system_;
   VectorXd x;

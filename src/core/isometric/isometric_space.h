@@ -48,6 +48,7 @@ class IsometricSpace {
   struct Settings {
     double pin_weight = 1e5;  ///< penalty of a squared miss, in units of the domain's diagonal
     bool exact = false;       ///< meet the stations exactly in final answers
+    std::stop_token stop = {};
   };
 
   /// The final answer. If the turns of the first stations are known (in radians, one for each of

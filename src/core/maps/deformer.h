@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "core/cauchy/cauchy_array.h"
@@ -139,6 +140,8 @@ struct EvalOptions {
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
   /// ignore this.
   std::optional<int> iteration = {};
+  /// Lets another thread end a slow final answer: `deform` then throws Stopped.
+  std::stop_token stop = {};
 
   bool operator==(const EvalOptions&) const = default;
 };
@@ -194,8 +197,10 @@ struct Method {
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
        uses_stiffness = false;
-  bool harmonic = true;     ///< f_z and conj(f_zbar) are holomorphic
-  bool similar = true;      ///< if all handles move by a similarity, the map is that similarity
+  bool iterates = false;  ///< too slow for every frame of a drag: solve it on a worker
+  bool harmonic = true;   ///< f_z and conj(f_zbar) are holomorphic
+  /// Motions of the plane: if all handles move by one of these, the map is that motion.
+  enum class Motions { none, rigid, similar } reproduces = Motions::similar;
   bool needs_mesh = false;  ///< Rest::mesh must be set
   bool follows_others =
       false;  ///< approximates the map of another method, which has its own parameters

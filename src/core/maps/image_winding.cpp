@@ -13,7 +13,7 @@ double rounding_at(Complex w, Complex f) {
 
 /// w is clear of an arc if the squared distance between w and the start of the arc's image exceeds
 /// this many times the sum of the squared chord and the squared bulge.
-constexpr double kFar = 9;
+constexpr double kFarAway = 9;
 
 /// Whether w is farther from the piece's chord than the arc's image can be.
 bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
@@ -76,8 +76,8 @@ std::optional<int> ImageWinding::turns(std::span<const Piece> loop, Complex w) c
       if (side == 0) return turns_by_angles(loop, w);
       if ((side > 0) == (b.imag() > 0)) crossings += side > 0 ? 1 : -1;
     }
-    if (std::norm(a) > kFar * (std::norm(b - a) + piece.bulge * piece.bulge) &&
-        std::norm(a) > kFar * rounding_at(w, piece.from) * rounding_at(w, piece.from))
+    if (std::norm(a) > kFarAway * (std::norm(b - a) + piece.bulge * piece.bulge) &&
+        std::norm(a) > kFarAway * rounding_at(w, piece.from) * rounding_at(w, piece.from))
       continue;
     const auto part = turn(piece, w);
     if (!part) return {};

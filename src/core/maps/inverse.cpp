@@ -12,7 +12,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kNear =
+constexpr double kNearby =
     1e-4;  ///< relative to the control points' box; twice the error of `flattened`
 constexpr double kSame = 1e-7;  ///< relative to the size; preimages closer than this are the same
 constexpr double kOn = 1e-12;
@@ -36,7 +36,7 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
       winding_(rest_, map) {
   size_ = box_of(mesh.vertices).diagonal();
   flat_ = flattened(rest_);
-  near_ = kNear * std::max(size_, box_of(controls_of(rest_)).diagonal());
+  near_ = kNearby * std::max(size_, box_of(controls_of(rest_)).diagonal());
   box_ = box_of(positions_);
   const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
                                 static_cast<double>(mesh.triangles.size() + 1));

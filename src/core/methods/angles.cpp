@@ -282,6 +282,7 @@ Method angles_method() {
           false)},
       .uses_pins = true,
       .uses_corners = true,
+      .iterates = true,
       .needs_mesh = true,
       .make = make_angles,
   };

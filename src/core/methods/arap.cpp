@@ -14,8 +14,9 @@
 namespace holomorph {
 namespace {
 
-constexpr int kMostIterations = 120, kDraftIterations = 6;
-constexpr double kSettled = 1e-5;  ///< largest displacement per iteration, relative to the size
+constexpr int kMostRounds = 120, kDraftRounds = 6;
+constexpr double kSmallestMove =
+    1e-5;  ///< largest displacement per iteration, relative to the size
 constexpr double kHandleWeight =
     1e3;  ///< weight of handles, relative to the energy's mean diagonal
 
@@ -82,10 +83,9 @@ class ArapDeformer final : public Deformer {
       const auto* before = dynamic_cast<const Found*>(from);
       const bool continues = options.draft && before && before->f.size() == vertices();
       found->f = continues ? before->f : start(targets);
-      out.iterations =
-          minimize(targets, options.draft ? kDraftIterations : kMostIterations, found->f);
-      if (out.iterations == (options.draft ? kDraftIterations : kMostIterations))
-        out.status = SampledMap::Status::iterating;
+      const int most = options.draft ? kDraftRounds : kMostRounds;
+      out.iterations = minimize(targets, most, options.stop, found->f);
+      if (out.iterations == most) out.status = SampledMap::Status::iterating;
     }
     answer(*found, out, options);
     out.solution = found;
@@ -135,9 +135,10 @@ class ArapDeformer final : public Deformer {
     return conformal_.solve(right);
   }
 
-  int minimize(const Points& targets, int most, VectorXc& f) const {
+  int minimize(const Points& targets, int most, const std::stop_token& stop, VectorXc& f) const {
     int iteration = 0;
-    for (double moved = 1; iteration < most && moved > kSettled * size_; ++iteration) {
+    for (double moved = 1; iteration < most && moved > kSmallestMove * size_; ++iteration) {
+      throw_if_stopped(stop);
       VectorXc right = VectorXc::Zero(f.size());
       for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
         const Triangle& t = mesh_.triangles[i];
@@ -227,8 +228,9 @@ Method arap_method() {
           "points stay where you put them.",
       .uses_pins = true,
       .uses_stiffness = true,
+      .iterates = true,
       .harmonic = false,
-      .similar = false,
+      .reproduces = Method::Motions::rigid,
       .needs_mesh = true,
       .make = make_arap,
   };

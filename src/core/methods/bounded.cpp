@@ -55,7 +55,7 @@ class BoundedDeformer final : public Deformer {
     const auto found = std::make_shared<Found>();
     found->basis = basis_;
     SampledMap out;
-    solve(pose, options.draft, before, *found, out.zeros);
+    solve(pose, options, before, *found, out.zeros);
     answer(*found, out, options);
     out.status = found->solution.certificate.holds && found->flipped_triangles == 0
                      ? SampledMap::Status::certified
@@ -72,7 +72,7 @@ class BoundedDeformer final : public Deformer {
     BoundedDeformer copy(rest_, final_basis(rest_.cage));
     Found found;
     Points zeros;
-    copy.solve(pose, false, nullptr, found, zeros);
+    copy.solve(pose, {}, nullptr, found, zeros);
     return std::make_unique<BoundedPointMap>(copy.basis_, rest_.mesh, found.solution.map, found.f);
   }
 
@@ -88,8 +88,10 @@ class BoundedDeformer final : public Deformer {
   };
 
   /// Drafts continue from `before` unless it is null.
-  void solve(const Pose& pose, bool draft, const Found* before, Found& found, Points& zeros) {
-    reference_->deform(pose, draft, before ? before->reference.get() : nullptr);
+  void solve(const Pose& pose, const EvalOptions& options, const Found* before, Found& found,
+             Points& zeros) {
+    reference_->deform(pose, options, before ? before->reference.get() : nullptr);
+    throw_if_stopped(options.stop);
     found.reference = reference_->solution();
     if (reference_->is_identity() && bounds_.sigma <= 1 && bounds_.Sigma >= 1) {
       set_identity(found);
@@ -97,7 +99,8 @@ class BoundedDeformer final : public Deformer {
     }
     project(reference_->reference(zeros), pose, before && !before->is_identity ? before : nullptr,
             found);
-    integrate(pose, draft, found);
+    throw_if_stopped(options.stop);
+    integrate(pose, options.draft, found);
   }
 
   /// The locations of the pins that the solve takes into account.
@@ -317,7 +320,8 @@ Method bounded_method(const std::vector<Method>& references, const std::string& 
       .uses_strokes = true,
       .uses_outline = true,
       .uses_corners = true,
-      .similar = false,
+      .iterates = true,
+      .reproduces = Method::Motions::rigid,
       .needs_mesh = true,
       .follows_others = true,
       .make = make_bounded,

@@ -14,13 +14,13 @@
 namespace holomorph {
 namespace {
 
-constexpr int kSamplesPerVertex = 3;
-constexpr size_t kInnerSamples = 400;
-constexpr int kMostIterations = 400, kDraftIterations = 30;
-constexpr double kSettled = 1e-9;
-constexpr double kHandleWeight = 1e3;  ///< weight of a handle, relative to the mean energy
-constexpr double kRigidPart = 1e-3;    ///< weight of rigidity in the otherwise conformal start
-constexpr double kDefinite = 1e-9;     ///< fixes a constant that can move between Phi and Psi
+constexpr int kSamplesEach = 3;
+constexpr size_t kAreaSamples = 400;
+constexpr int kMostSteps = 400, kFewSteps = 30;
+constexpr double kStill = 1e-9;
+constexpr double kHandlePull = 1e3;  ///< weight of a handle, relative to the mean energy
+constexpr double kRigidPart = 1e-3;  ///< weight of rigidity in the otherwise conformal start
+constexpr double kDefinite = 1e-9;   ///< fixes a constant that can move between Phi and Psi
 
 class HarArapDeformer final : public Deformer {
  public:
@@ -28,7 +28,7 @@ class HarArapDeformer final : public Deformer {
       : rest_(rest),
         handles_(rest_),
         basis_(rest.cage, BoundaryBasis::usual_size(rest.cage.size()),
-               kSamplesPerVertex * BoundaryBasis::usual_size(rest.cage.size())) {
+               kSamplesEach * BoundaryBasis::usual_size(rest.cage.size())) {
     size_ = box_of(rest.mesh->vertices).diagonal();
     set_up_energy();
     set_up_handles();
@@ -50,8 +50,8 @@ class HarArapDeformer final : public Deformer {
     const bool continues = options.draft && before && before->phi.size() == basis_.size();
     const auto found =
         std::make_shared<Found>(continues ? *before : unknowns(conformal_.solve(handles)));
-    const int most = options.draft ? kDraftIterations : kMostIterations;
-    out.iterations = minimize(handles, most, *found);
+    const int most = options.draft ? kFewSteps : kMostSteps;
+    out.iterations = minimize(handles, most, options.stop, *found);
     if (out.iterations == most) out.status = SampledMap::Status::iterating;
     out.solution = found;
     out.f = product(values_, found->phi) + product(values_, found->psi).conjugate();
@@ -71,7 +71,7 @@ class HarArapDeformer final : public Deformer {
     Points points;
     std::vector<double> weights;
     double total = 0;
-    for (const AreaSample& sample : area_samples(*rest_.mesh, kInnerSamples)) {
+    for (const AreaSample& sample : area_samples(*rest_.mesh, kAreaSamples)) {
       points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
       weights.push_back(sample.area);
       total += sample.area;
@@ -87,7 +87,7 @@ class HarArapDeformer final : public Deformer {
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
     const Index n = basis_.size(), h = held_.rows();
-    handle_weight_ = kHandleWeight / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
+    handle_weight_ = kHandlePull / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
     MatrixXd rows(4 * n, 2 * h);  // columns: Re f, Im f of each handle
     rows.topLeftCorner(n, h) = held_.real().transpose();
     rows.block(n, 0, n, h) = -held_.imag().transpose();
@@ -130,10 +130,11 @@ class HarArapDeformer final : public Deformer {
     return found;
   }
 
-  int minimize(const VectorXd& handles, int most, Found& found) const {
+  int minimize(const VectorXd& handles, int most, const std::stop_token& stop, Found& found) const {
     const Index n = basis_.size();
     int iteration = 0;
-    for (double moved = 1; iteration < most && moved > kSettled; ++iteration) {
+    for (double moved = 1; iteration < most && moved > kStill; ++iteration) {
+      throw_if_stopped(stop);
       VectorXc turn = gradient_ * found.phi;  // `gradient_` includes the weights
       for (Index i = 0; i < turn.size(); ++i) {
         const double size = std::abs(turn[i]);
@@ -186,7 +187,8 @@ Method har_arap_method() {
           "As rigid as a smooth map can be, without spikes at the pins. Without pins, the cage "
           "points stay where you put them.",
       .uses_pins = true,
-      .similar = false,
+      .iterates = true,
+      .reproduces = Method::Motions::rigid,
       .needs_mesh = true,
       .make = make_har_arap,
   };

@@ -216,7 +216,8 @@ Method outline_method() {
                             "the outline, continues with closest points, and does not smooth")},
       .uses_pins = true,
       .uses_outline = true,
-      .similar = false,
+      .iterates = true,
+      .reproduces = Method::Motions::none,
       .make = make_outline,
   };
 }

@@ -16,7 +16,7 @@ namespace holomorph {
 namespace {
 
 constexpr int kBoundarySamples = 6;
-constexpr size_t kInnerSamples = 300;
+constexpr size_t kSamplesInside = 300;
 
 class PuppetDeformer final : public Deformer {
  public:
@@ -30,8 +30,6 @@ class PuppetDeformer final : public Deformer {
     const std::vector<AreaSample> inner = inner_samples();
     space_ = std::make_unique<IsometricSpace>(basis_, *rest_.mesh, handles_.isometric(), inner,
                                               stiffness(inner), energy());
-    settings_.pin_weight = value("pin_weight");
-    settings_.exact = value("exact") != 0;
     for (const Complex& z : handles_.isometric().stations)
       locations_.push_back(locate_near(*rest_.mesh, z));
   }
@@ -43,9 +41,9 @@ class PuppetDeformer final : public Deformer {
     const auto found = std::make_shared<Found>();
     found->basis = basis_;
     if (options.draft && before && before->basis == basis_)
-      found->map = space_->followed(target, settings_, before->map);
+      found->map = space_->followed(target, settings(), before->map);
     else
-      found->map = space_->solved(target, settings_, handles_.turns(pose));
+      found->map = space_->solved(target, settings(options.stop), handles_.turns(pose));
     SampledMap out;
     answer(target, options, *found, out);
     out.iterations = found->map.solution.iterations;
@@ -59,7 +57,7 @@ class PuppetDeformer final : public Deformer {
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     const IsometricTarget target = handles_.target(pose);
-    const IsometricMap map = space_->solved(target, settings_, handles_.turns(pose));
+    const IsometricMap map = space_->solved(target, settings(), handles_.turns(pose));
     return points_of(target, map);
   }
 
@@ -69,6 +67,9 @@ class PuppetDeformer final : public Deformer {
     IsometricMap map;
   };
 
+  IsometricSpace::Settings settings(std::stop_token stop = {}) const {
+    return {value("pin_weight"), value("exact") != 0, std::move(stop)};
+  }
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
   static int size_for(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
@@ -87,7 +88,7 @@ class PuppetDeformer final : public Deformer {
     Points wanted;
     for (const BrushDab& dab : rest_.stiffness)
       if (dab.radius > kWide * size) wanted.push_back(dab.at);
-    return area_samples(*rest_.mesh, kInnerSamples, wanted);
+    return area_samples(*rest_.mesh, kSamplesInside, wanted);
   }
 
   VectorXd stiffness(const std::vector<AreaSample>& inner) const {
@@ -172,7 +173,6 @@ class PuppetDeformer final : public Deformer {
   PuppetHandles handles_;
   MeshDisplay display_;
   std::unique_ptr<IsometricSpace> space_;
-  IsometricSpace::Settings settings_;
   std::vector<Location> locations_;  ///< of the stations
 };
 
@@ -205,7 +205,8 @@ Method puppet_method() {
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,
-      .similar = false,
+      .iterates = true,
+      .reproduces = Method::Motions::rigid,
       .needs_mesh = true,
       .make = make_puppet,
   };

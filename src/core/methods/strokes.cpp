@@ -20,11 +20,12 @@ namespace holomorph {
 namespace {
 
 constexpr int kSamplesPerVertex = 2;
-constexpr double kInset = 1;       ///< inset of the inner points, in units of the samples' spacing
+constexpr double kInsetSpacings =
+    1;                             ///< inset of the inner points, in units of the samples' spacing
 constexpr double kPerLength = 20;  ///< samples per length L of a stroke
 constexpr double kLittle = 1e-3;   ///< factor on the weight of rigidity in the first solve
 constexpr int kFewestSamples = 8, kMostSamples = 40;
-constexpr int kDraftSteps = 20, kSteps = 300;
+constexpr int kDraftFitSteps = 20, kFitSteps = 300;
 constexpr double kDraftSettled = 1e-3, kSettled = 1e-5;
 
 /// The samples of a stroke at rest, and the position of each sample as a fraction of the stroke's
@@ -230,7 +231,7 @@ class StrokesDeformer final : public Deformer {
       held.push_back(rest_.pins[i].position);
       if (rest_.pins[i].has_frame) turning.push_back(rest_.pins[i].position);
     }
-    const Points inner = basis_->inset(kInset);
+    const Points inner = basis_->inset(kInsetSpacings);
     cage_on_ = as_complex(planar_coordinates<double>(rest_.cage, on));
     cage_inner_ = unit * as_complex(planar_coordinates<double>(rest_.cage, inner, 1));
     const Index n = basis_->size(), p = static_cast<Index>(held.size()),
@@ -319,7 +320,7 @@ class StrokesDeformer final : public Deformer {
       fit.reset(loose.unknowns());
     }
     fit.start(first);
-    const int most = draft ? kDraftSteps : kSteps;
+    const int most = draft ? kDraftFitSteps : kFitSteps;
     Correction found;
     found.iterations =
         fit.run(AlternatingFit::Mode::anderson, draft ? kDraftSettled : kSettled, most);
@@ -384,7 +385,8 @@ Method strokes_method() {
                                 "Higher values meet the pins more closely", 1, 1e-3, 1e3)},
       .uses_pins = true,
       .uses_strokes = true,
-      .similar = false,
+      .iterates = true,
+      .reproduces = Method::Motions::rigid,
       .make = make_strokes,
   };
 }

@@ -48,7 +48,10 @@ bool keeps_degree(const Deformation& deformation, Index segment) {
 bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
   if (!workspace.require_pose()) return false;
   start_ = workspace.shown.base();
-  workspace.map().follow_keys();
+  if (!start_.keyframes.empty() && !workspace.map().follow_keys()) {
+    workspace.messages.say("The keyframes are being prepared. Try again in a moment.");
+    return false;
+  }
   keyframes_play_ = !start_.keyframes.empty() && workspace.map().motion().plays();
   what_ = what;
   drag_options_ = workspace.tools.drag;

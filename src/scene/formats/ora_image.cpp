@@ -19,7 +19,7 @@ namespace {
 
 constexpr zip_uint64_t kLargestEntry = 512u << 20;
 constexpr zip_uint64_t kLargestDescription = 4u << 20;
-constexpr int kDeepest = 50;        ///< levels of groups
+constexpr int kDeepestGroup = 50;   ///< levels of groups
 constexpr int kFarthest = 1 << 20;  ///< offset of a layer from the canvas's corner
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
@@ -79,7 +79,7 @@ int offset(const pugi::xml_node& node, const char* name) {
 }
 
 void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
-  if (depth > kDeepest) return;
+  if (depth > kDeepestGroup) return;
   for (const pugi::xml_node& node : group.children()) {
     Placed here = inherited;
     here.layer.name = node.attribute("name").as_string();

@@ -11,8 +11,8 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 120;  ///< vertices of the cage around a traced picture
-constexpr Index kMost = 4000;   ///< points; longer outlines are resampled at equal steps
+constexpr int kVertices = 120;       ///< vertices of the cage around a traced picture
+constexpr Index kMostPoints = 4000;  ///< points; longer outlines are resampled at equal steps
 
 Points fitted(Points points, const Box& onto) {
   const Box box = box_of(points);
@@ -37,8 +37,8 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
     }
     // The number of points identifies a surface's boundary, so it is not resampled.
-    if (kind != ".obj" && static_cast<Index>(outline.size()) > kMost)
-      outline = at_equal_lengths(Polyline(outline, true), kMost);
+    if (kind != ".obj" && static_cast<Index>(outline.size()) > kMostPoints)
+      outline = at_equal_lengths(Polyline(outline, true), kMostPoints);
     check_outline(outline);
     return outline;
   } catch (const Error& error) {

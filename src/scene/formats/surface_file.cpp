@@ -12,7 +12,7 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kMost = 1000000;
+constexpr size_t kMostVertices = 1000000;
 constexpr const char* kMaterial = "picture";
 
 /// The text without leading and trailing blanks. File names may contain blanks.
@@ -46,7 +46,7 @@ class ObjReader {
       } else if (kind == "mtllib") {
         materials_ = trimmed(whole.substr(whole.find(kind) + kind.size()));  // names may contain #
       }
-      if (points_.size() > kMost) fail("more than a million vertices");
+      if (points_.size() > kMostVertices) fail("more than a million vertices");
     }
     if (corners_.empty()) throw Error(ErrorKind::bad_input, name_ + ": the file has no face");
     return result();

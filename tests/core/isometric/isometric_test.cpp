@@ -47,7 +47,7 @@ struct Prepared {
   }
 };
 
-constexpr IsometricSpace::Settings kSettings{.pin_weight = 1e4};
+const IsometricSpace::Settings kSettings{.pin_weight = 1e4};
 
 Problem bent_by_270_degrees() {
   Problem problem{kBar, {}, {}};

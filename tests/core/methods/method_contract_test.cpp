@@ -89,11 +89,12 @@ TEST_CASE("Contract: the rest pose gives exactly the identity") {
   });
 }
 
-TEST_CASE("Contract: a similarity of the pose gives that similarity") {
+TEST_CASE("Contract: the motions that a method reproduces give the same motion of the picture") {
   for_every_method([](const Method& method, const Setup& s, double tolerance) {
     Complex a{0.4, 1.1};
     const Complex b{30, -12};
-    if (!method.similar) a /= std::abs(a);  // then only a rotation
+    if (method.reproduces == Method::Motions::none) return;
+    if (method.reproduces == Method::Motions::rigid) a /= std::abs(a);
     const SampledMap map = run(method, s.rest, mapped(s.rest, a, b));
     const VectorXc exact = (a * samples_of(s.rest)).array() + b;
     CHECK((map.f - exact).cwiseAbs().maxCoeff() <= tolerance);
@@ -232,12 +233,13 @@ TEST_CASE("Contract: bad input throws, and the deformer still works afterwards")
 }
 
 TEST_CASE("Contract: a draft depends only on the pose and the solution that it continues from") {
-  for (const Method& method : methods())
+  for (const Method& method : methods()) {
+    INFO(method.id);
+    bool continues = false;
     for (const bool onto : {false, true}) {
       if (onto && !method.uses_outline) continue;
       Setup s = setup(method, Precision::single);
       if (onto) s = outlined(std::move(s));
-      INFO(method.id);
       const auto deformer = method.prepare(s.rest, nullptr);
       const auto at = [&](double part) {
         Pose pose = s.pose;
@@ -246,7 +248,7 @@ TEST_CASE("Contract: a draft depends only on the pose and the solution that it c
           for (Complex& z : segment) z += part * Complex(0.01, 0.02) * z;
         return pose;
       };
-      constexpr EvalOptions kDraft{.derivatives = false, .draft = true};
+      const EvalOptions kDraft{.derivatives = false, .draft = true};
       const SampledMap start = deformer->deform(at(0), {}), near = deformer->deform(at(1), kDraft),
                        next = deformer->deform(at(0.5), kDraft, start.solution.get());
       // Other solves in between change nothing.
@@ -257,7 +259,31 @@ TEST_CASE("Contract: a draft depends only on the pose and the solution that it c
       CHECK(deformer->deform(at(0.5), kDraft, start.solution.get()).f == next.f);
       CHECK(deformer->deform(at(1), kDraft).f == near.f);
       CHECK(deformer->deform(at(0), {}, next.solution.get()).f == start.f);
+      continues = continues || next.solution;
     }
+    CHECK(continues == method.iterates);
+  }
+}
+
+TEST_CASE("Contract: a final answer that is asked to stop stops or is complete") {
+  for (const Method& method : methods()) {
+    INFO(method.id);
+    const Setup s = setup(method, Precision::single);
+    const auto deformer = method.prepare(s.rest, nullptr);
+    const SampledMap whole = deformer->deform(s.pose, {});
+    std::stop_source source;
+    EvalOptions options;
+    options.stop = source.get_token();
+    CHECK(deformer->deform(s.pose, options).f == whole.f);
+    source.request_stop();
+    try {
+      const SampledMap complete = deformer->deform(s.pose, options);
+      CHECK(complete.f == whole.f);
+    } catch (const Stopped&) {
+      CHECK(method.iterates);
+    }
+    CHECK(deformer->deform(s.pose, {}).f == whole.f);
+  }
 }
 
 TEST_CASE("Contract: a previous deformer does not change the map") {
