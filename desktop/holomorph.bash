@@ -6,7 +6,7 @@ _holomorph() {
     --view) words="image angle area stretch checker" ;;
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;
-    --time | --scale | --order | --vertices | --margin | --filter | --rect | --max-*) return ;;
+    --time | --scale | --order | --detail | --vertices | --margin | --filter | --rect | --max-*) return ;;
   esac
   if [ -n "$words" ]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")

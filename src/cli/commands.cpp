@@ -61,15 +61,17 @@ void run(const NewCommand& command) {
                 command.out.string() + ": the file already exists; use --force to replace it");
   if (command.margin && !(*command.margin >= 0))
     throw Error(ErrorKind::bad_input, "--margin: the distance must not be negative");
+  if (!(command.detail >= 0 && command.detail <= 100))
+    throw Error(ErrorKind::bad_input, "--detail: give a number from 0 to 100");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
   print_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
-  Deformation deformation = with_cage(
-      {}, command.cage ? cage_of_file(*command.cage, picture)
-                       : auto_cage(picture, {command.vertices, command.margin.value_or(-1),
-                                             command.curved}));
+  Deformation deformation =
+      with_cage({}, command.cage ? cage_of_file(*command.cage, picture)
+                                 : auto_cage(picture, {command.vertices, command.margin,
+                                                       command.detail, command.curved}));
   check_rest_cage(deformation.rest);
   if (command.pose)
     deformation.pose =

@@ -48,9 +48,10 @@ struct InfoCommand : SceneCommand {
 };
 struct NewCommand {
   Path image, out;
-  bool force = false;  ///< also allows replacing an existing scene
-  int vertices = 30;
-  std::optional<double> margin = {};  ///< in pixels; if not set, 2 % of the longer side
+  bool force = false;                 ///< also allows replacing an existing scene
+  std::optional<int> vertices = {};   ///< none: as many as the shape needs
+  std::optional<double> margin = {};  ///< in pixels; none: see AutoCageOptions::detail
+  double detail = 50;
   bool curved = false;
   std::optional<Path> cage;     ///< SVG file or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file

@@ -189,11 +189,15 @@ void CommandLine::add_new(CLI::App& app) {
   sub->add_option("IMAGE", new_scene.image)->required();
   sub->add_option("--out", new_scene.out, "Scene to write")->required();
   add_force(sub, new_scene.force, "Replace an existing scene and read-only files");
-  sub->add_option("--vertices", new_scene.vertices, "Approximate number of cage vertices")
+  sub->add_option("--detail", new_scene.detail,
+                  "How closely the cage follows the content, 0 to 100")
       ->capture_default_str();
+  sub->add_option("--vertices", new_scene.vertices,
+                  "Approximate number of cage vertices; by default as many as the shape needs");
   sub->add_option(
       "--margin", new_scene.margin,
-      "Distance of the cage from the content in pixels; by default 2 % of the longer side");
+      "Distance of the cage from the content in pixels; by default as close as --detail "
+      "wants, and never across a gap between limbs");
   sub->add_flag("--curved", new_scene.curved, "Use cubic segments instead of straight edges");
   sub->add_option("--cage", new_scene.cage,
                   "Read the cage from a file: the path \"rest\", or else the first path, of an SVG "

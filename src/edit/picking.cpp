@@ -28,6 +28,7 @@ Complex posed_at(const LiveMap& map, Complex rest) {
 
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
+  if (!has_cage_handles(workspace.shown.deformation(), workspace.mode)) return {};
   const CageHit hit = nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
                                       workspace.display.viewport.plane_at_px(px));
   if (hit.distance * workspace.display.viewport.zoom > workspace.display.handle_px ||

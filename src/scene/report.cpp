@@ -66,6 +66,7 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.method = frame.deformation.method;
   report.status = frame.pose ? name_of(map.status) : "blended";
   report.note = map.note;
+  report.proved = map.extremes;
   report.iterations = map.iterations;
   report.cage_vertices = static_cast<int>(frame.deformation.rest.size());
   report.pins = static_cast<int>(frame.deformation.pins.size());
@@ -108,6 +109,10 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
        {"pins", report.pins},
        {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
        {"timings", {{"prepare_ms", report.prepare_milliseconds}}}});
+  if (report.proved)
+    json["proved"] = {{"k", report.proved->shear},
+                      {"sigma", report.proved->smallest},
+                      {"Sigma", report.proved->largest}};
   if (report.pose_milliseconds) json["timings"]["pose_ms"] = *report.pose_milliseconds;
   return json;
 }
@@ -149,6 +154,9 @@ std::string text_of(const SceneReport& report) {
            : report.folds_visibly  ? "yes"
                                    : "specks only",
            report.status == "certified" ? "yes" : "no") +
+      (report.proved ? line("proved           k %.4g, sigma %.4g, Sigma %.4g\n",
+                            report.proved->shear, report.proved->smallest, report.proved->largest)
+                     : "") +
       line("cage, pins       %d vertices, %d pins\n", report.cage_vertices, report.pins) +
       line("mesh             %d vertices, %d triangles\n", report.mesh_vertices,
            report.mesh_triangles);

@@ -16,7 +16,8 @@ struct SceneReport {
   double prepare_milliseconds = 0;
   std::optional<double> pose_milliseconds;  ///< with derivatives; none between keyframes
   double smoothness_energy = 0;             ///< mean |f_zz|^2 L^2 over triangles, dimensionless
-  double pin_rms = 0;  ///< root mean square distance of pins from their targets, pixels
+  double pin_rms = 0;              ///< root mean square distance of pins from their targets, pixels
+  std::optional<Extremes> proved;  ///< if the map is certified
   MapReport map;
   bool folds_visibly = false;  ///< by the editor's criterion, which ignores specks
 };

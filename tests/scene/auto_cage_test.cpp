@@ -8,6 +8,7 @@
 #include "core/maps/distortion.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesher.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 #include "system/file.h"
 
@@ -39,7 +40,7 @@ TEST_CASE(
       for (const int vertices : {12, 30, 80}) {
         Image image = blob(width, height, radius);
         image.at(1, 1)[3] = 255;  // a speck outside the largest part
-        const Points cage = vertices_of(auto_cage(image, {vertices, -1}));
+        const Points cage = vertices_of(auto_cage(image, {vertices}));
         CHECK(static_cast<int>(cage.size()) <= std::max(vertices, 45));
         CHECK_FALSE(self_crossing(cage));
         CHECK(signed_area(cage) > 0);
@@ -63,7 +64,7 @@ TEST_CASE("A curved automatic cage contains the largest part, with fewer control
   for (const auto radius : radii)
     for (const int vertices : {8, 20, 40}) {
       const Image image = blob(400, 300, radius);
-      const Cage cage = auto_cage(image, {vertices, -1, true});
+      const Cage cage = auto_cage(image, {.vertices = vertices, .curved = true});
       check_rest_cage(cage);
       CHECK_FALSE(is_straight(cage));
       CHECK(cage.size() <= std::max(2 * vertices, 45));
@@ -86,7 +87,7 @@ TEST_CASE("Curved automatic cages have meshes without inverted triangles, and a 
        {std::pair("giraffe", 30), std::pair("fish", 30), std::pair("octopus", 30),
         std::pair("sunflower", 30), std::pair("gecko", 20)}) {
     const std::string path = std::string(HOLOMORPH_SOURCE "/assets/") + name + ".png";
-    AutoCageOptions options{vertices, -1};
+    AutoCageOptions options{vertices};
     options.curved = true;
     const Cage cage = auto_cage(decode_image(read_file(path), name), options);
     const Mesh mesh = domain_mesh(cage, {8000});
@@ -98,6 +99,96 @@ TEST_CASE("Curved automatic cages have meshes without inverted triangles, and a 
   }
 }
 
+namespace {
+
+/// A body with parallel limbs, rotated: random widths, at least `gap` pixels between the limbs.
+struct Limbs {
+  Image image{1, 1};
+  std::vector<Points> gaps;  ///< points in the middle of each gap
+};
+
+Limbs limbs_of(std::mt19937& random, double gap) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<>(0, 1)(random);
+  };
+  const int side = static_cast<int>(between(200, 900)), count = static_cast<int>(between(2, 6));
+  const double length = between(0.3, 0.6) * side, angle = between(0, 2 * kPi);
+  std::vector<double> widths;
+  double across = -gap;
+  for (int k = 0; k < count; ++k) {
+    widths.push_back(between(5, 0.5 * side / count));
+    across += widths.back() + gap;
+  }
+  Limbs limbs;
+  limbs.image = Image(side, side);
+  const Complex center(side / 2.0, side / 2.0), turn = std::polar(1.0, angle);
+  for (int r = 0; r < side; ++r)
+    for (int c = 0; c < side; ++c) {
+      const Complex z = (Complex(c + 0.5, side - r - 0.5) - center) / turn;
+      bool solid = std::abs(z.real()) <= across / 2 && z.imag() > 0 && z.imag() < 0.2 * side;
+      double left = -across / 2;
+      for (const double width : widths) {
+        solid = solid || (z.real() >= left && z.real() <= left + width && z.imag() <= 0 &&
+                          z.imag() >= -length);
+        left += width + gap;
+      }
+      limbs.image.at(c, r)[3] = solid ? 255 : 0;
+    }
+  double left = -across / 2;
+  for (size_t k = 0; k + 1 < widths.size(); ++k) {
+    left += widths[k];
+    limbs.gaps.emplace_back();
+    const double deep = 0.08 * side;  // the end of a gap may be rounded off
+    for (double at = deep; at < length; at += 1)
+      limbs.gaps.back().push_back(center + turn * Complex(left + gap / 2, -at));
+    left += gap;
+  }
+  return limbs;
+}
+
+}  // namespace
+
+TEST_CASE("Limbs that are 3 px apart are apart in the cage, in any direction") {
+  for (const unsigned seed : seeds_of("auto_cage_test", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    for (int i = 0; i < 12; ++i) {
+      // Squares of pixels reach into a slanted gap by up to 0.71 px at each side.
+      const double gap = (i % 2 ? 3 : 3 + i) + 1.42;
+      const Limbs limbs = limbs_of(random, gap);
+      const Points cage = vertices_of(auto_cage(limbs.image));
+      INFO("seed " << seed << ", number " << i << ", " << limbs.image.width << " px");
+      CHECK(cage.size() <= 500);
+      CHECK_FALSE(self_crossing(cage));
+      int inside = 0, outside = 0;
+      for (const Points& middle : limbs.gaps)
+        for (const Complex& z : middle) inside += winding_number(cage, z) != 0;
+      CHECK(inside == 0);
+      for (int r = 0; r < limbs.image.height; ++r)
+        for (int c = 0; c < limbs.image.width; ++c)
+          if (limbs.image.at(c, r)[3])
+            outside += winding_number(cage, {c + 0.5, limbs.image.height - r - 0.5}) != 1;
+      CHECK(outside == 0);
+    }
+  }
+}
+
+TEST_CASE("More detail gives a closer cage") {
+  for (const std::string name : {"giraffe", "octopus", "gecko", "tiger"}) {
+    INFO(name);
+    const Image image = decode_image(read_file(HOLOMORPH_SOURCE "/assets/" + name + ".png"), name);
+    double before = 1e300;
+    for (const double detail : {0.0, 50.0, 100.0}) {
+      AutoCageOptions options;
+      options.detail = detail;
+      const Points cage = vertices_of(auto_cage(image, options));
+      const double area = signed_area(cage);
+      CHECK(area < before);
+      CHECK(cage.size() <= 500);
+      before = area;
+    }
+  }
+}
+
 TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") {
   Image image(40, 30);
   for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
@@ -105,6 +196,7 @@ TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") 
   REQUIRE(cage.size() == 4);
   CHECK(cage[0] == Complex(-5, -5));
   CHECK(cage[2] == Complex(45, 35));
+  CHECK(vertices_of(auto_cage(image))[2] == Complex(40, 30));
   CHECK(auto_cage(Image(40, 30)).size() == 4);  // nothing opaque at all
   CHECK_THROWS_AS(auto_cage(image, {2, 5}), Error);
   CHECK_THROWS_AS(auto_cage(image, {30, 1e9}), Error);

@@ -218,9 +218,18 @@ ImU32 faint(ImU32 color) {
   return (color & 0x00ffffff) | 0xb0000000;
 }
 
-void draw_faint_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
+/// The edge of the posed picture; empty before the first map.
+Points edge_of(const Workspace& workspace) {
+  const LiveMap& map = workspace.map();
+  Points edge;
+  if (map.has_map())
+    for (const int v : map.prepared()->mesh->boundary) edge.push_back(map.map().f[v]);
+  return edge;
+}
+
+void draw_faint_cage(ImDrawList& list, const Workspace& workspace, const Points& cage, ImU32 color,
                      const OverlayStyle& style) {
-  const std::vector<ImVec2> line = window_line(workspace, outline_of(cage, 24));
+  const std::vector<ImVec2> line = window_line(workspace, cage);
   const float s = static_cast<float>(style.scale);
   const int count = static_cast<int>(line.size());
   list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 70), ImDrawFlags_Closed, 2.6f * s);
@@ -231,8 +240,10 @@ void draw_faint_cage(ImDrawList& list, const Workspace& workspace, const Cage& c
 void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
                  const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
+  const bool acts = has_cage_handles(deformation, workspace.mode);
   if (deformation.has_cage() && look.faint)
-    draw_faint_cage(list, workspace, deformation.pose, look.color, style);
+    draw_faint_cage(list, workspace, acts ? outline_of(deformation.pose, 24) : edge_of(workspace),
+                    look.color, style);
   else if (deformation.has_cage())
     draw_cage(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
   if (const auto solved = look.faint ? solved_cage(workspace) : std::nullopt) {
@@ -240,7 +251,7 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
     for (const Complex& z : controls_of(*solved))
       list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale), style.colors.pin);
   }
-  if (deformation.has_cage())
+  if (deformation.has_cage() && acts)
     draw_tangents(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
   if (workspace.shows_outline())
     draw_line(list, window_line(workspace, deformation.outline), true, style.colors.accent, style);

@@ -39,19 +39,20 @@ float draw_cage_offer(Workspace& workspace, double scale) {
              {static_cast<float>(view.left + view.width / 2),
               static_cast<float>(view.top + view.height) - 24 * s},
              {0.5f, 1.0f}, scale);
-  ImGui::TextUnformatted("To bend this picture, put a cage around it.");
+  ImGui::TextUnformatted("To bend this picture, set pins in it, or put a cage around it.");
   // Use one row if there is room.
-  const bool row = view.width > 600 * scale;
+  const bool row = view.width > 800 * scale;
   const auto button = [&](const char* face, const char* id) {
     if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);
     tooltip_of(workspace.actions.named(id));
     if (row) ImGui::SameLine();
   };
+  button("\uf08d  Set pins", "tool.pin");
   button("\uf0d0  Make from picture", "cage.from_picture");
   button("\uf040  Draw it", "tool.pen");
   button("\uf047  Place", "cage.box");
   if (row) ImGui::NewLine();
-  points_slider(workspace, 190 * s);
+  detail_slider(workspace, 190 * s);
   ImGui::SameLine();
   ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
   const float height = ImGui::GetWindowHeight();

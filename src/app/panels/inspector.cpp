@@ -116,12 +116,7 @@ void cage_section(Workspace& workspace) {
             .c_str());
   else
     ImGui::TextDisabled("No cage yet.");
-  points_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
-  float margin = static_cast<float>(std::max(workspace.tools.auto_cage.margin, -1.0));
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (ImGui::SliderFloat("Margin", &margin, -1, 200, margin < 0 ? "Automatic" : "%.0f px",
-                         ImGuiSliderFlags_AlwaysClamp))
-    workspace.tools.auto_cage.margin = margin < 0 ? -1 : margin;
+  detail_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
   ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
   const Action& action = workspace.actions.named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));

@@ -106,11 +106,19 @@ void injectivity_section(Workspace& workspace, Theme theme) {
   if (extra_turns > 0)
     ImGui::TextColored(warning, "Overlaps itself at %d point%s", extra_turns,
                        extra_turns == 1 ? "" : "s");
-  ImGui::TextDisabled("Details: smallest size %.0f %%",
-                      std::round(100 * found.least_stretch) + 0.0);  // no "-0"
-  tooltip(
-      "The size that remains where the picture is compressed most, in the "
-      "direction of the strongest compression. Below 0 %, it is flipped over.");
+  if (const auto& proved = workspace.map().map().extremes) {
+    ImGui::TextDisabled("Details: sizes %.0f to %.0f %%, shear %.0f %%", 100 * proved->smallest,
+                        100 * proved->largest, 100 * proved->shear);
+    tooltip(
+        "Proved limits: no length in the picture shrinks or grows more than this, in any "
+        "direction. Shear is 0 % where angles are kept, and 100 % where the picture is flat.");
+  } else {
+    ImGui::TextDisabled("Details: smallest size %.0f %%",
+                        std::round(100 * found.least_stretch) + 0.0);  // no "-0"
+    tooltip(
+        "The size that remains where the picture is compressed most, in the "
+        "direction of the strongest compression. Below 0 %, it is flipped over.");
+  }
   if (found.crossing) {
     ImGui::TextDisabled("Parts overlap");
     show(*found.crossing, "The edge of the picture crosses itself here.");

@@ -117,11 +117,14 @@ void menu_of(const char* name, Workspace& workspace) {
 
 }  // namespace
 
-void points_slider(Workspace& workspace, float width) {
+void detail_slider(Workspace& workspace, float width) {
+  float detail = static_cast<float>(workspace.tools.auto_cage.detail);
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("Points", &workspace.tools.auto_cage.vertices, 4, 200, "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
-  tooltip("Number of points of the next cage made from the picture. An opaque picture gets four.");
+  if (ImGui::SliderFloat("Detail", &detail, 0, 100, "%.0f", ImGuiSliderFlags_AlwaysClamp))
+    workspace.tools.auto_cage.detail = detail;
+  tooltip(
+      "How closely the next cage made from the picture follows it. An opaque picture gets its "
+      "rectangle.");
 }
 
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus) {
@@ -141,7 +144,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelF
     menu_of(name, workspace);
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
-      points_slider(workspace, 160);
+      detail_slider(workspace, 160);
       ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
     }
     if (escape) ImGui::CloseCurrentPopup();

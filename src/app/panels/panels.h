@@ -96,7 +96,7 @@ bool text_row(int number, const std::string& text, bool selected, ImVec2 size = 
 bool begin_combo(const char* label, const char* preview);
 
 /// Draws the slider that sets the number of points of the next cage made from the picture.
-void points_slider(Workspace& workspace, float width);
+void detail_slider(Workspace& workspace, float width);
 
 /// If the picture has no cage, draws a card that offers ways to make one. Returns the height of the
 /// card at the bottom of the canvas in px, or 0 if no card was drawn.

@@ -45,6 +45,7 @@ class BoundedSpace {
   BoundedMap nearest(const BoundedReference& reference, const BoundedMap* warm = nullptr) const;
 
   /// Tries to prove that a map of this space satisfies the bounds.
+  Extremes extremes(const LogMap& map) const { return certifier_.extremes(map); }
   Certificate certify(const LogMap& map) const { return certifier_.certify(map, settings_.bounds); }
 
   const BoundaryBasis& basis() const { return *basis_; }

@@ -2,6 +2,9 @@
 #include "core/bounded/certificate.h"
 
 #include <algorithm>
+#include <limits>
+#include <queue>
+#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
@@ -129,6 +132,59 @@ Certifier::Values Certifier::at(Complex z, const Function& l, const Function& w)
   return {times(sum_l, factor), times(sum_w, factor)};
 }
 
+namespace {
+
+/// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8. The bound on |F'| uses the chord's slope,
+/// which is the mean of F'.
+double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
+  double sum = second * piece.length * piece.length;
+  if (piece.bend > 0)
+    sum += piece.bend *
+           (std::abs(to - from) / std::abs(piece.end - piece.start) + 2 * second * reach_of(piece));
+  return sum / 8;
+}
+
+/// A bound on how far |f_z| = e^u may lie below the chord of its values at a piece's ends.
+double below_chord(Complex from, Complex to) {
+  const double change = to.real() - from.real();
+  return change * change / 8 * std::exp(std::max(from.real(), to.real()));
+}
+
+}  // namespace
+
+std::vector<Certifier::Leaf> Certifier::leaves_of(const LogMap& map, const Function& l,
+                                                  const Function& w) const {
+  const VectorXc at_l = values_ * map.l, at_w = values_ * map.w, l2 = second_ * l.jumps,
+                 w2 = second_ * w.jumps;
+  const VectorXd l3 = nearer_ * l.moduli, w3 = nearer_ * w.moduli, lb = near_ * l.moduli,
+                 wb = near_ * w.moduli;
+  const Index count = at_l.size();
+  std::vector<Leaf> leaves;
+  for (Index i = 0; i < count; ++i) {
+    const Index next = (i + 1) % count;
+    const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
+    const double reach = reach_of(piece);
+    leaves.push_back({piece,
+                      {at_l[i], at_w[i]},
+                      {at_l[next], at_w[next]},
+                      std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
+                      std::min(std::abs(w2[i]) + w3[i] * reach, wb[i])});
+  }
+  return leaves;
+}
+
+/// Bounds on |F''| on a piece also hold on its halves.
+std::pair<Certifier::Leaf, Certifier::Leaf> Certifier::halved(const Leaf& leaf, const Function& l,
+                                                              const Function& w) const {
+  const BoundaryPiece& piece = leaf.piece;
+  const double middle = 0.5 * (piece.from + piece.to);
+  Leaf first = leaf, second = leaf;
+  first.piece = piece_of(basis_.domain(), piece.segment, piece.from, middle);
+  second.piece = piece_of(basis_.domain(), piece.segment, middle, piece.to);
+  first.end = second.start = at(first.piece.end, l, w);
+  return {first, second};
+}
+
 /// One proof in progress.
 class Certifier::Proof {
  public:
@@ -139,13 +195,6 @@ class Certifier::Proof {
         second_(map.second),
         bounds_(bounds),
         log_Sigma_(std::log(bounds.Sigma)) {}
-
-  /// A piece, the values of l and w at its ends, and bounds on |l''| and |w''| along it.
-  struct Leaf {
-    BoundaryPiece piece;
-    Values start, end;
-    double second_l = 0, second_w = 0;
-  };
 
   /// Tries to prove the bounds on a leaf, halving it up to `depth` times. Records where this fails.
   void prove(const Leaf& leaf, int depth) {
@@ -162,13 +211,7 @@ class Certifier::Proof {
         result.unproved.push_back(unproved);
       return;
     }
-    // Bounds on |F''| on a piece also hold on its halves.
-    const Cage& domain = certifier_.basis_.domain();
-    const double middle = 0.5 * (piece.from + piece.to);
-    Leaf first = leaf, second = leaf;
-    first.piece = piece_of(domain, piece.segment, piece.from, middle);
-    second.piece = piece_of(domain, piece.segment, middle, piece.to);
-    first.end = second.start = certifier_.at(first.piece.end, l, w);
+    const auto [first, second] = certifier_.halved(leaf, l, w);
     prove(first, depth - 1);
     prove(second, depth - 1);
   }
@@ -177,16 +220,6 @@ class Certifier::Proof {
   Certificate result;
 
  private:
-  /// |F(z(x)) - chord| <= sup |F'' z'^2 + F' z''| / 8. The bound on |F'| uses the chord's slope,
-  /// which is the mean of F'.
-  static double off_chord(const BoundaryPiece& piece, double second, Complex from, Complex to) {
-    double sum = second * piece.length * piece.length;
-    if (piece.bend > 0)
-      sum += piece.bend * (std::abs(to - from) / std::abs(piece.end - piece.start) +
-                           2 * second * reach_of(piece));
-    return sum / 8;
-  }
-
   /// A bound that cannot be proved from the values at the leaf's ends and the second derivatives.
   /// Empty when all are proved.
   std::optional<Bound> unproved_bound(const Leaf& leaf) const {
@@ -195,9 +228,7 @@ class Certifier::Proof {
     if (second_ == LogMap::Second::nu)
       return first_of(unproved_bound_of_nu(leaf.start, dl, dw),
                       unproved_bound_of_nu(leaf.end, dl, dw));
-    // |f_z| = e^u lies below its chord by at most (Delta u)^2 / 8 max e^u.
-    const double from = leaf.start.l.real(), to = leaf.end.l.real(),
-                 below = (to - from) * (to - from) / 8 * std::exp(std::max(from, to));
+    const double below = below_chord(leaf.start.l, leaf.end.l);
     return first_of(unproved_bound_of_psi(leaf.start, dl, dw, below),
                     unproved_bound_of_psi(leaf.end, dl, dw, below));
   }
@@ -249,24 +280,84 @@ class Certifier::Proof {
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
   Proof proof(*this, map, bounds);
-  const VectorXc l = values_ * map.l, w = values_ * map.w, l2 = second_ * proof.l.jumps,
-                 w2 = second_ * proof.w.jumps;
-  const VectorXd l3 = nearer_ * proof.l.moduli, w3 = nearer_ * proof.w.moduli,
-                 lb = near_ * proof.l.moduli, wb = near_ * proof.w.moduli;
-  const Index count = l.size();
-  for (Index i = 0; i < count; ++i) {
-    const Index next = (i + 1) % count;
-    const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
-    const double reach = reach_of(piece);
-    proof.prove({piece,
-                 {l[i], w[i]},
-                 {l[next], w[next]},
-                 std::min(std::abs(l2[i]) + l3[i] * reach, lb[i]),
-                 std::min(std::abs(w2[i]) + w3[i] * reach, wb[i])},
-                depth);
-  }
+  for (const Leaf& leaf : leaves_of(map, proof.l, proof.w)) proof.prove(leaf, depth);
   proof.result.holds = proof.result.unproved.empty();
   return std::move(proof.result);
+}
+
+/// Halves the leaf with the largest possible value of a quantity until that value is nearly
+/// attained.
+class Certifier::Search {
+ public:
+  Search(const Certifier& certifier, const LogMap& map)
+      : certifier_(certifier),
+        second_(map.second),
+        l_(certifier.function_of(map.l)),
+        w_(certifier.function_of(map.w)),
+        leaves_(certifier.leaves_of(map, l_, w_)) {}
+
+  Extremes run() { return {largest(kShear), 1 / largest(kInverse), largest(kSize)}; }
+
+ private:
+  enum Quantity { kShear, kInverse, kSize };  // |nu|, 1 / smallest size, and largest size
+
+  /// A bound on a quantity where l and w differ from these values by up to dl and dw, and |f_z| may
+  /// be smaller by `below`.
+  double bound(Quantity quantity, const Values& at, double dl, double dw, double below) const {
+    const double size = std::exp(at.l.real()), most = std::exp(dl) * size,
+                 least = std::exp(-dl) * (size - below), w = std::abs(at.w) + dw;
+    if (second_ == LogMap::Second::nu) {
+      const double smallest = std::exp(-dl) * size * (1 - w);
+      if (quantity == kShear) return w;
+      if (quantity == kSize) return most * (1 + w);
+      return smallest > 0 ? 1 / smallest : kUnknown;
+    }
+    if (quantity == kSize) return most + w;
+    if (quantity == kShear) return least > 0 ? w / least : kUnknown;
+    return least > w ? 1 / (least - w) : kUnknown;
+  }
+  double possible(Quantity quantity, const Leaf& leaf) const {
+    const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
+                 dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w),
+                 below = second_ == LogMap::Second::nu ? 0 : below_chord(leaf.start.l, leaf.end.l);
+    return std::max(bound(quantity, leaf.start, dl, dw, below),
+                    bound(quantity, leaf.end, dl, dw, below));
+  }
+
+  double largest(Quantity quantity) const {
+    constexpr double kClose = 0.01, kSmall = 1e-4;
+    constexpr int kMostHalvings = 4000;
+    std::priority_queue<std::pair<double, size_t>> queue;
+    std::vector<Leaf> leaves = leaves_;
+    double attained = 0;
+    const auto add = [&](size_t i) {
+      attained = std::max({attained, bound(quantity, leaves[i].start, 0, 0, 0),
+                           bound(quantity, leaves[i].end, 0, 0, 0)});
+      queue.emplace(possible(quantity, leaves[i]), i);
+    };
+    for (size_t i = 0; i < leaves.size(); ++i) add(i);
+    for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
+      const auto [most, i] = queue.top();
+      if (most <= attained * (1 + kClose) + kSmall) break;
+      queue.pop();
+      auto [first, second] = certifier_.halved(leaves[i], l_, w_);
+      leaves[i] = first;
+      leaves.push_back(second);
+      add(i);
+      add(leaves.size() - 1);
+    }
+    return queue.top().first;
+  }
+
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const Certifier& certifier_;
+  LogMap::Second second_;
+  Function l_, w_;
+  std::vector<Leaf> leaves_;
+};
+
+Extremes Certifier::extremes(const LogMap& map) const {
+  return Search(*this, map).run();
 }
 
 }  // namespace holomorph

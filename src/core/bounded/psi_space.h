@@ -41,6 +41,7 @@ class PsiSpace {
   BoundedReference convexified(const BoundedReference& reference) const;
 
   /// Tries to prove that a map of this space satisfies the bounds.
+  Extremes extremes(const LogMap& map) const { return conformal_.certifier().extremes(map); }
   Certificate certify(const LogMap& map) const {
     return conformal_.certifier().certify(map, settings_.bounds);
   }

@@ -63,6 +63,8 @@ class IsometricSpace {
                         const IsometricMap& from) const;
 
   const IsometricSystem& system() const { return *system_; }
+  /// The proved extremes of a certified map.
+  Extremes extremes(const LogMap& map) const { return certifier_.extremes(map); }
   /// Tries to prove that |nu| < 1.
   Certificate certify(const LogMap& map) const;
 

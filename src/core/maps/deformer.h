@@ -110,6 +110,12 @@ struct Solution {
   virtual ~Solution() = default;
 };
 
+/// The strongest distortions anywhere in the picture, not only at samples.
+struct Extremes {
+  double shear = 0;                  ///< the largest |f_zbar / f_z|
+  double smallest = 1, largest = 1;  ///< |f_z| - |f_zbar| and |f_z| + |f_zbar|
+};
+
 /// A map at the samples of its Rest, with both Wirtinger derivatives f_z = (f_x - i f_y) / 2 and
 /// f_zbar = (f_x + i f_y) / 2 if they were requested (else empty).
 struct SampledMap {
@@ -124,6 +130,8 @@ struct SampledMap {
   Points zeros;  ///< zeros of f_z in the map that was projected, at rest
   /// Cage vertices whose angles are clamped to the smallest possible angle.
   std::vector<Index> limited_corners;
+  /// For final maps that are certified: proved limits, within 1 % of values that are attained.
+  std::optional<Extremes> extremes;
   bool ignores_pins = false;  ///< the method supports pins but ignored these
   /// The rotation of the picture at each pin, for methods whose maps depend on it; none for pins
   /// that were ignored. Otherwise empty.
@@ -197,8 +205,9 @@ struct Method {
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
        uses_stiffness = false;
-  bool iterates = false;  ///< too slow for every frame of a drag: solve it on a worker
-  bool harmonic = true;   ///< f_z and conj(f_zbar) are holomorphic
+  bool pins_replace_cage = false;  ///< while there are pins, the posed cage has no effect
+  bool iterates = false;           ///< too slow for every frame of a drag: solve it on a worker
+  bool harmonic = true;            ///< f_z and conj(f_zbar) are holomorphic
   /// Motions of the plane: if all handles move by one of these, the map is that motion.
   enum class Motions { none, rigid, similar } reproduces = Motions::similar;
   bool needs_mesh = false;  ///< Rest::mesh must be set
@@ -224,7 +233,16 @@ const std::vector<Method>& methods();
 const Method& method_named(const std::string& id);
 
 /// The features of a method that an edit or a tool may need.
-enum class MethodUse { cage, pins, strokes, outline, corners, stiffness, bounds };
+enum class MethodUse {
+  cage,
+  puppet,  ///< pins in a cage that is at rest
+  pins,    ///< pins and posed cage points
+  strokes,
+  outline,
+  corners,
+  stiffness,
+  bounds
+};
 /// The method to switch to when the current one does not support this use.
 const Method& usual_method(MethodUse use);
 /// The method that this one follows, or the method itself if it follows none.

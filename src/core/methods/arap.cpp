@@ -228,6 +228,7 @@ Method arap_method() {
           "points stay where you put them.",
       .uses_pins = true,
       .uses_stiffness = true,
+      .pins_replace_cage = true,
       .iterates = true,
       .harmonic = false,
       .reproduces = Method::Motions::rigid,

@@ -60,6 +60,8 @@ class BoundedDeformer final : public Deformer {
     out.status = found->solution.certificate.holds && found->flipped_triangles == 0
                      ? SampledMap::Status::certified
                      : SampledMap::Status::infeasible;
+    if (!options.draft && out.status == SampledMap::Status::certified)
+      out.extremes = nu_ ? nu_->extremes(found->solution.map) : psi_->extremes(found->solution.map);
     out.iterations = found->conformal.iterations + found->solution.iterations;
     out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose, *found);

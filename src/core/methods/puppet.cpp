@@ -51,6 +51,10 @@ class PuppetDeformer final : public Deformer {
     for (size_t k = 0; k < handles_.pins().size(); ++k)
       out.turns[handles_.pins()[k]] = found->map.turns[static_cast<Index>(k)];
     out.note = note(found->map, out);
+    if (!options.draft && out.status == SampledMap::Status::certified)
+      out.extremes = space_->extremes(found->map.map);
+    if (!options.draft && is_twisted(target, pose, options.stop, found->map))
+      out.note += ". Untwist would relax it";
     out.solution = found;
     return out;
   }
@@ -69,6 +73,13 @@ class PuppetDeformer final : public Deformer {
 
   IsometricSpace::Settings settings(std::stop_token stop = {}) const {
     return {value("pin_weight"), value("exact") != 0, std::move(stop)};
+  }
+  /// Whether the map that the turns lead to costs much more than the map without them.
+  bool is_twisted(const IsometricTarget& target, const Pose& pose, const std::stop_token& stop,
+                  const IsometricMap& map) const {
+    constexpr double kStrained = 4, kClearly = 0.7;  // energies; 2 is rigid
+    if (map.solution.energy < kStrained || handles_.turns(pose).size() == 0) return false;
+    return space_->solved(target, settings(stop)).solution.energy < kClearly * map.solution.energy;
   }
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
@@ -205,6 +216,7 @@ Method puppet_method() {
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,
+      .pins_replace_cage = true,
       .iterates = true,
       .reproduces = Method::Motions::rigid,
       .needs_mesh = true,

@@ -3,8 +3,8 @@
 #include "edit/actions/icons.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
+#include "edit/picture_cage.h"
 #include "edit/tools/tool.h"
-#include "scene/auto_cage.h"
 
 namespace holomorph {
 namespace {
@@ -18,20 +18,15 @@ bool has_cage_selection(const Workspace& w) {
   return false;
 }
 
-void make_cage(Workspace& w) {
-  const auto cage = std::make_shared<Cage>();
-  const auto image = w.document.pictures().shared(w.document.scene().layer());
-  const AutoCageOptions options = w.tools.auto_cage;
-  w.perform(
-      "Making the cage", [=](Job::Progress&) { *cage = auto_cage(*image, options); },
-      [&w, cage] {
-        if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(*cage)),
-                      EditBase::document))
-          return;
-        w.mode = EditMode::pose;
-        w.tools.active = ToolId::select;
-        w.selection.clear();
-      });
+void cage_from_picture(Workspace& w) {
+  make_picture_cage(w, [&w](Cage cage) {
+    if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(cage)),
+                  EditBase::document))
+      return;
+    w.mode = EditMode::pose;
+    w.tools.active = ToolId::select;
+    w.selection.clear();
+  });
 }
 
 /// Makes the picture's rectangle the cage and selects all its points: the box around the selection
@@ -67,7 +62,7 @@ std::vector<Action> cage_actions() {
           .icon = kMagic,
           .menu = "Cage",
           .enabled = has_image,
-          .run = make_cage,
+          .run = cage_from_picture,
       },
       {
           .id = "cage.box",

@@ -75,6 +75,17 @@ bool has_turned_pin(const Workspace& w) {
   return false;
 }
 
+bool has_turns(const Workspace& w) {
+  return std::ranges::any_of(w.shown.deformation().pins,
+                             [](const Pin& pin) { return pin.turn.value_or(0) != 0; });
+}
+
+void untwist(Workspace& w) {
+  Deformation deformation = w.shown.deformation();
+  for (Pin& pin : deformation.pins) pin.turn.reset();
+  w.commit("Untwist", std::move(deformation));
+}
+
 bool can_undo(const Workspace& w) {
   return !w.shown.preview && w.document.history().can_undo();
 }
@@ -236,6 +247,14 @@ std::vector<Action> edit_actions() {
           .keys = {'R'},
           .enabled = has_cage,
           .run = reset_selection,
+      },
+      {
+          .id = "edit.untwist",
+          .label = "Untwist",
+          .hint = "Forget which way around parts have turned, and find the calmest way again",
+          .menu = "Edit",
+          .enabled = has_turns,
+          .run = untwist,
       },
       {
           .id = "edit.remove_stiffness",

@@ -57,6 +57,11 @@ Complex position_of(const Deformation& deformation, Handle handle, EditMode mode
   return point_of(deformation, handle, mode);
 }
 
+bool has_cage_handles(const Deformation& deformation, EditMode mode) {
+  return mode == EditMode::rest || deformation.pins.empty() ||
+         !method_named(deformation.method).pins_replace_cage;
+}
+
 bool exists(const Deformation& deformation, Handle handle, EditMode mode) {
   if (handle.kind == Handle::Kind::pin)
     return method_named(deformation.method).uses_pins &&
@@ -65,13 +70,14 @@ bool exists(const Deformation& deformation, Handle handle, EditMode mode) {
     return method_named(deformation.method).uses_strokes &&
            handle.index < static_cast<Index>(deformation.strokes.size());
   const Cage& cage = cage_of(deformation, mode);
-  return handle.index < cage.size() && handle.control < cage.degree(handle.index);
+  return has_cage_handles(deformation, mode) && handle.index < cage.size() &&
+         handle.control < cage.degree(handle.index);
 }
 
 std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode) {
   std::vector<Handle> handles;
   const Cage& cage = cage_of(deformation, mode);
-  for (Index i = 0; i < cage.size(); ++i)
+  for (Index i = 0; i < cage.size() && has_cage_handles(deformation, mode); ++i)
     for (int m = 0; m < cage.degree(i); ++m) handles.push_back({Handle::Kind::cage, i, m});
   if (method_named(deformation.method).uses_pins)
     for (Index i = 0; i < static_cast<Index>(deformation.pins.size()); ++i)
@@ -164,8 +170,15 @@ Deformation erased(Deformation deformation, const Selection& selection, Refit re
 
 Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
                      const std::vector<Points>& in_keyframes) {
-  if (!method_named(deformation.method).uses_pins)
-    deformation = with_method_for(std::move(deformation), MethodUse::pins);
+  if (!method_named(deformation.method).uses_pins) {
+    // The puppet has no use for cage points, so they must not have moved.
+    const bool at_rest = deformation.pose == deformation.rest &&
+                         std::ranges::all_of(deformation.keyframes, [&](const Keyframe& key) {
+                           return key.pose.cage == deformation.rest;
+                         });
+    deformation =
+        with_method_for(std::move(deformation), at_rest ? MethodUse::puppet : MethodUse::pins);
+  }
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.pins.push_back({i < in_keyframes.size() ? in_keyframes[i].front() : pose});

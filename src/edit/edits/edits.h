@@ -33,6 +33,8 @@ enum class EditMode { pose, rest };
 
 /// The posed cage or the rest cage.
 const Cage& cage_of(const Deformation& deformation, EditMode mode);
+/// Whether the cage's points can be dragged: always at rest, and posed if they have an effect.
+bool has_cage_handles(const Deformation& deformation, EditMode mode);
 /// The position of a handle. For a stroke, its midpoint by arc length.
 Complex position_of(const Deformation& deformation, Handle handle, EditMode mode);
 /// Whether the handle's number is valid. Pins and strokes exist only if the method uses them.

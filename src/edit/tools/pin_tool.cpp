@@ -1,6 +1,8 @@
 // Key N. A press on the picture sets a pin, which can be dragged in the same gesture. A press on a
 // pin selects it.
+#include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
+#include "edit/picture_cage.h"
 #include "edit/tools/handle_tool.h"
 
 namespace holomorph {
@@ -11,14 +13,12 @@ class PinTool final : public HandleTool {
   ToolId id() const override { return ToolId::pin; }
 
   void input(const Input& input, Workspace& workspace) override {
+    down_ = input.down;
     if (follow(input, workspace)) return;
     find(input, workspace);
     ring_.hover(input, workspace);
     if (!input.inside || !input.pressed || press(input, workspace)) return;
-    if (!workspace.shown.deformation().has_cage()) {
-      workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
-      return;
-    }
+    if (!workspace.shown.deformation().has_cage()) return set_first(input, workspace);
     const auto rest = rest_at(workspace, input.position);
     if (!rest) {
       workspace.messages.say(workspace.map().busy()
@@ -26,29 +26,58 @@ class PinTool final : public HandleTool {
                                  : "Click the picture inside the cage to set a pin.");
       return;
     }
-    const bool switches = !method_named(workspace.shown.deformation().method).uses_pins;
+    const std::string method = workspace.shown.deformation().method;
     // At rest, the pin's pose is the image of the point under the map, so adding the pin moves
     // nothing.
     const Complex pose = workspace.at_rest() ? posed_at(workspace.map(), *rest) : input.position;
     if (!workspace.commit("Add pin", with_pin(workspace.shown.deformation(), *rest, pose,
                                               workspace.keyframe_images({&*rest, 1}))))
       return;
-    if (switches) workspace.messages.say(switched_to(MethodUse::pins));
-    workspace.selection = {
-        {Handle::Kind::pin, static_cast<Index>(workspace.shown.deformation().pins.size()) - 1, 0}};
-    drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
+    if (const std::string& now = workspace.shown.deformation().method; now != method)
+      workspace.messages.say("Switched to " + method_named(now).label + ".");
+    hold_last(input, workspace);
   }
 
   bool has_ring() const override { return true; }
 
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
-      return needs_a_cage(workspace, "Pins need a cage");
+      return workspace.document.image()
+                 ? "Click the picture to set a pin. The first pin also makes the cage"
+                 : needs_a_cage(workspace, "Pins need a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to rotate the picture around the pin; scroll on it to scale";
     return hover_ ? "Drag to move; Alt-click to delete"
                   : "Click the picture to set a pin, then drag it";
   }
+
+ private:
+  /// Selects the newest pin and starts to drag it.
+  void hold_last(const Input& input, Workspace& workspace) {
+    workspace.selection = {
+        {Handle::Kind::pin, static_cast<Index>(workspace.shown.deformation().pins.size()) - 1, 0}};
+    drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
+  }
+
+  /// Makes the cage from the picture and sets a pin in it, in one step.
+  void set_first(const Input& input, Workspace& workspace) {
+    if (!workspace.document.image())
+      return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
+    make_picture_cage(workspace, [this, input, &workspace](Cage cage) {
+      if (winding_number(outline_of(cage), input.position) == 0)
+        return workspace.messages.say("Click the picture itself to set a pin.");
+      Deformation caged = with_cage(workspace.shown.own(), std::move(cage));
+      if (!workspace.commit(
+              "Add pin",
+              with_pin(std::move(caged), input.position, input.position, std::vector<Points>{}),
+              EditBase::document))
+        return;
+      hold_last(input, workspace);
+      if (!down_) drag_.cancel(workspace);  // making the cage took longer than the click
+    });
+  }
+
+  bool down_ = false;  ///< whether the button was down at the last input
 };
 
 }  // namespace

@@ -34,7 +34,9 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       outline = flattened_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
-      outline = fitted(flattened(auto_cage(image, {kVertices, 0, true})).points, onto);
+      outline = fitted(
+          flattened(auto_cage(image, {.vertices = kVertices, .margin = 0, .curved = true})).points,
+          onto);
     }
     // The number of points identifies a surface's boundary, so it is not resampled.
     if (kind != ".obj" && static_cast<Index>(outline.size()) > kMostPoints)

@@ -1,0 +1,32 @@
+// Specks count as parts only if they can be seen.
+#include "edit/picture_cage.h"
+
+namespace holomorph {
+namespace {
+
+std::string left_out_text(size_t count) {
+  const std::string parts = count == 1 ? "another part of the picture stays"
+                                       : std::to_string(count) + " other parts of the picture stay";
+  return "The cage holds the largest part; " + parts + " outside.";
+}
+
+}  // namespace
+
+void make_picture_cage(Workspace& workspace, std::function<void(Cage)> then) {
+  const auto cage = std::make_shared<Cage>();
+  const auto others = std::make_shared<std::vector<Box>>();
+  const auto image = workspace.document.pictures().shared(workspace.document.scene().layer());
+  workspace.perform(
+      "Making the cage",
+      [=, options = workspace.tools.auto_cage](Job::Progress&) {
+        *cage = auto_cage(*image, options);
+        *others = smaller_parts(*image);
+      },
+      [=, &workspace] {
+        then(std::move(*cage));
+        if (!others->empty())
+          workspace.messages.say(left_out_text(others->size()), others->front().center());
+      });
+}
+
+}  // namespace holomorph
