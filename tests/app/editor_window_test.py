@@ -347,7 +347,7 @@ class EditorWindowTest(WindowCase):
             time.sleep(0.4)
             editor.key("F6")
             editor.wait(lambda s: s["in_panel"], "the suggestions with the keyboard focus")
-            for key in ("Right", "Right", "Return"):  # a box for moving and scaling
+            for key in ("Right", "Right", "Right", "Return"):  # a box for moving and scaling
                 editor.key(key)
             editor.wait(lambda s: s["cage_points"] == 4 and s["selected"] == 4, "a box around the picture")
             self.type_into_inspector(editor, 4, "50")  # x, y, degrees, size

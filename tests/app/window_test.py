@@ -72,7 +72,7 @@ class WindowTest(WindowCase):
             self.ask(editor, "ctrl+shift+p")
             editor.type("make from")
             editor.key("Return")
-            editor.wait(lambda s: 25 <= s["cage_points"] <= 40, "a cage around the gecko")
+            editor.wait(lambda s: 60 <= s["cage_points"] <= 110, "a cage around the gecko")
             points = editor.state()["cage_points"]
 
             editor.key("ctrl+a")

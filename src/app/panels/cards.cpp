@@ -40,17 +40,19 @@ float draw_cage_offer(Workspace& workspace, double scale) {
               static_cast<float>(view.top + view.height) - 24 * s},
              {0.5f, 1.0f}, scale);
   ImGui::TextUnformatted("To bend this picture, set pins in it, or put a cage around it.");
-  // Use one row if there is room.
-  const bool row = view.width > 800 * scale;
-  const auto button = [&](const char* face, const char* id) {
-    if (ImGui::Button(face, {190 * s, 0})) run(id, workspace);
+  // Use one row if there is room, else two.
+  const bool row = view.width > 600 * scale;
+  bool ends_row = true;
+  const auto button = [&](const char* face, const char* id, float width) {
+    if (ImGui::Button(face, {width * s, 0})) run(id, workspace);
     tooltip_of(workspace.actions.named(id));
-    if (row) ImGui::SameLine();
+    ends_row = !ends_row;
+    if (row || !ends_row) ImGui::SameLine();
   };
-  button("\uf08d  Set pins", "tool.pin");
-  button("\uf0d0  Make from picture", "cage.from_picture");
-  button("\uf040  Draw it", "tool.pen");
-  button("\uf047  Place", "cage.box");
+  button("\uf08d  Set pins", "tool.pin", 120);
+  button("\uf0d0  Make from picture", "cage.from_picture", 190);
+  button("\uf040  Draw it", "tool.pen", 120);
+  button("\uf047  Place", "cage.box", 120);
   if (row) ImGui::NewLine();
   detail_slider(workspace, 190 * s);
   ImGui::SameLine();

@@ -50,9 +50,9 @@ class PuppetDeformer final : public Deformer {
     out.turns.resize(rest_.pins.size());
     for (size_t k = 0; k < handles_.pins().size(); ++k)
       out.turns[handles_.pins()[k]] = found->map.turns[static_cast<Index>(k)];
-    out.note = note(found->map, out);
     if (!options.draft && out.status == SampledMap::Status::certified)
       out.extremes = space_->extremes(found->map.map);
+    out.note = note(found->map, out);
     if (!options.draft && is_twisted(target, pose, options.stop, found->map))
       out.note += ". Untwist would relax it";
     out.solution = found;
@@ -161,6 +161,19 @@ class PuppetDeformer final : public Deformer {
     out.fzbar = std::move(at.fzbar);
   }
 
+  /// Why a pin is missed: what the picture would have to do even more.
+  static std::string strain_text(const std::optional<Extremes>& extremes) {
+    if (!extremes) return "";
+    char text[80];
+    if (extremes->largest * extremes->smallest > 1)
+      std::snprintf(text, sizeof text, ", where the picture would stretch to more than %.0f %%",
+                    100 * extremes->largest);
+    else
+      std::snprintf(text, sizeof text, ", where the picture would shrink to less than %.0f %%",
+                    100 * extremes->smallest);
+    return text;
+  }
+
   std::string note(const IsometricMap& map, const SampledMap& out) const {
     if (!map.certificate.holds) return "Not proved near " + point_text(map.certificate.where);
     std::string text = "No folds";
@@ -173,7 +186,7 @@ class PuppetDeformer final : public Deformer {
       if (const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]); off > farthest)
         farthest = off, which = handles_.pins()[i];
     if (farthest >= kMissed * box_of(rest_.mesh->vertices).diagonal())
-      text += short_pin_text(which, farthest);
+      text += short_pin_text(which, farthest) + strain_text(out.extremes);
     if (!handles_.note().empty()) text += ". " + handles_.note();
     return text;
   }
