@@ -12,12 +12,20 @@ using namespace holomorph;
 
 namespace {
 
-/// A bar whose right end is pulled up, deformed by method arap.
+std::vector<Method> methods_with_stiffness() {
+  std::vector<Method> found;
+  for (const Method& method : methods())
+    if (method.uses_stiffness) found.push_back(method);
+  REQUIRE(found.size() >= 2);
+  return found;
+}
+
+/// A bar whose right end is pulled up.
 struct Bent {
   Rest rest;
   SampledMap map;
 
-  explicit Bent(std::vector<BrushDab> stiffness) {
+  Bent(const Method& method, std::vector<BrushDab> stiffness) {
     rest.cage = polygon_cage(shapes::rectangle(300, 60));
     auto mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {900}));
     rest.mesh = mesh;
@@ -25,7 +33,7 @@ struct Bent {
     rest.stiffness = std::move(stiffness);
     for (const double x : {10.0, 290.0}) rest.pins.push_back({{x, 30}});
     Pose pose{rest.cage, {{{10, 30}}, {{200, 190}}}};
-    map = method_named("arap").prepare(rest, nullptr)->deform(pose, {});
+    map = method.prepare(rest, nullptr)->deform(pose, {});
   }
   /// The mean deviation from rigidity at the vertices between two abscissas.
   double strain(double from, double to) const {
@@ -59,28 +67,46 @@ TEST_CASE("Stiffness: dabs add up, fall off to zero and stay within bounds") {
 }
 
 TEST_CASE("Stiffness: stiff parts keep their shape, and soft parts give way") {
-  const Bent plain({}), stiff({{{80, 30}, 110, 2}}), soft({{{80, 30}, 110, -1}});
-  CHECK(stiff.strain(30, 130) < 0.4 * plain.strain(30, 130));
-  CHECK(soft.strain(30, 130) > 1.3 * plain.strain(30, 130));
-  CHECK(stiff.strain(190, 270) > plain.strain(190, 270));
-  // Pins hold regardless of the stiffness around them.
-  for (const Bent* bent : {&plain, &stiff, &soft}) {
-    const auto at = locate(*bent->rest.mesh, bent->rest.samples, {290, 30});
-    REQUIRE(at);
-    const Complex place = at->in(*bent->rest.mesh, {bent->map.f.data(), bent->rest.samples.size()});
-    CHECK(std::abs(place - Complex(200, 190)) < 0.5);
+  for (const Method& method : methods_with_stiffness()) {
+    INFO(method.id);
+    const Bent plain(method, {}), stiff(method, {{{80, 30}, 110, 2}}),
+        soft(method, {{{80, 30}, 110, -1}});
+    INFO("plain " << plain.strain(30, 130) << " stiff " << stiff.strain(30, 130) << " soft "
+                  << soft.strain(30, 130));
+    CHECK(stiff.strain(30, 130) < 0.4 * plain.strain(30, 130));
+    CHECK(soft.strain(30, 130) > 1.3 * plain.strain(30, 130));
+    CHECK(stiff.strain(190, 270) > plain.strain(190, 270));
+    // Pins hold regardless of the stiffness around them.
+    for (const Bent* bent : {&plain, &stiff, &soft}) {
+      const auto at = locate(*bent->rest.mesh, bent->rest.samples, {290, 30});
+      REQUIRE(at);
+      const Complex place =
+          at->in(*bent->rest.mesh, {bent->map.f.data(), bent->rest.samples.size()});
+      CHECK(std::abs(place - Complex(200, 190)) < 0.5);
+    }
   }
 }
 
 TEST_CASE("Stiffness: the same value everywhere has no effect") {
-  const Bent plain({}), even({{{150, 30}, 1e5, 1}});
-  CHECK((plain.map.f - even.map.f).cwiseAbs().maxCoeff() < 0.5);
+  for (const Method& method : methods_with_stiffness()) {
+    INFO(method.id);
+    const Bent plain(method, {}), even(method, {{{150, 30}, 1e5, 1}});
+    CHECK((plain.map.f - even.map.f).cwiseAbs().maxCoeff() < 0.5);
+  }
+}
+
+TEST_CASE("Stiffness: a small dab between the samples has an effect, too") {
+  for (const Method& method : methods_with_stiffness()) {
+    INFO(method.id);
+    // Wider than 2 % of the size, in the middle of the bar.
+    const Bent plain(method, {}), dab(method, {{{137, 29}, 9, 2}});
+    CHECK((plain.map.f - dab.map.f).cwiseAbs().maxCoeff() > 1e-3);
+  }
 }
 
 TEST_CASE("Stiffness: only methods that use it receive it") {
   Rest rest;
   rest.stiffness = {{{0, 0}, 10, 1}};
   for (const Method& method : methods())
-    CHECK(used_by(method, rest).stiffness.empty() ==
-          (method.id != "arap" && method.id != "puppet"));
+    CHECK(used_by(method, rest).stiffness.empty() == !method.uses_stiffness);
 }
