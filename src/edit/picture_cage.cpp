@@ -1,4 +1,5 @@
-// Specks count as parts only if they can be seen.
+// The work has its own copies of the picture and the options, because the scene may change
+// meanwhile.
 #include "edit/picture_cage.h"
 
 namespace holomorph {
@@ -12,7 +13,7 @@ std::string left_out_text(size_t count) {
 
 }  // namespace
 
-void make_picture_cage(Workspace& workspace, std::function<void(Cage)> then) {
+void make_picture_cage(Workspace& workspace, std::function<bool(Cage)> then) {
   const auto cage = std::make_shared<Cage>();
   const auto others = std::make_shared<std::vector<Box>>();
   const auto image = workspace.document.pictures().shared(workspace.document.scene().layer());
@@ -23,8 +24,7 @@ void make_picture_cage(Workspace& workspace, std::function<void(Cage)> then) {
         *others = smaller_parts(*image);
       },
       [=, &workspace] {
-        then(std::move(*cage));
-        if (!others->empty())
+        if (then(std::move(*cage)) && !others->empty())
           workspace.messages.say(left_out_text(others->size()), others->front().center());
       });
 }

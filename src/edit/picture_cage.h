@@ -5,8 +5,9 @@
 
 namespace holomorph {
 
-/// Makes a cage from the edited layer's picture, which must exist, then calls `then`. If that takes
-/// long, it happens in the background. A toast names the parts of the picture that are left out.
-void make_picture_cage(Workspace& workspace, std::function<void(Cage)> then);
+/// Makes a cage from the edited layer's picture, which must exist, then calls `then`, which returns
+/// whether it has used the cage. If that takes long, it happens in the background. If the cage was
+/// used, a toast says how many parts of the picture are left out.
+void make_picture_cage(Workspace& workspace, std::function<bool(Cage)> then);
 
 }  // namespace holomorph

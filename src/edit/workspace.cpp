@@ -106,6 +106,13 @@ bool Workspace::require_open_layer() {
   return !layer.locked && layer.visible;
 }
 
+bool Workspace::require_keyframe_maps() {
+  if (shown.own().keyframes.empty() || !map().has_map() || map().error() || map().follow_keys())
+    return true;
+  messages.say("The keyframes are being prepared. Try again in a moment.");
+  return false;
+}
+
 /// Whether a scene changes the contents of the edited layer although that layer is locked or
 /// hidden, and remains so.
 bool Workspace::changes_closed_layer(const Scene& scene) const {

@@ -140,6 +140,9 @@ struct Workspace {
   bool require_open_layer();
   /// Whether the displayed pose is known. If not, a toast says that it is being prepared.
   bool require_pose();
+  /// Whether the maps at keyframes are known, or cannot be. If not, a toast says that they are
+  /// being prepared.
+  bool require_keyframe_maps();
   /// Makes another layer the edited layer.
   void choose_layer(size_t number);
   /// Goes to another entry of the history. If the number of cage vertices, pins or strokes differs

@@ -301,9 +301,9 @@ Grid<int> nearest_points(const Part& part, const Points& edge, double reach) {
   return nearest;
 }
 
-/// The distance to the middle of narrow gaps between limbs, and of what lies before them. There,
-/// the nearest points of the part's edge are farther apart along the edge than a tenth of the size
-/// for two neighboring cells. None if there are no gaps up to this distance from the part.
+/// The distance to the middle of narrow gaps between limbs, and of the regions in front of them.
+/// There, the nearest points of the part's edge are farther apart along the edge than a tenth of
+/// the size for two neighboring cells. None if there are no gaps up to this distance from the part.
 std::optional<Grid<float>> distance_to_gaps(const Part& part, double reach) {
   const Points edge = level_curve(part.distance, kEdge);
   std::vector<double> along{0};
@@ -405,17 +405,21 @@ Points polygon_in(const Band& band) {
 }
 
 /// A simple polygon with at most `most` vertices around the part. Its margin grows if there would
-/// be more vertices, and shrinks if edges would cross. At last, limbs are joined.
-Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double margin, int most) {
+/// be more vertices, and shrinks if edges would cross. If nothing else helps, limbs are joined.
+Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_margin, int most) {
   constexpr int kTries = 10;
-  for (const Grid<float>* gaps : {to_gaps, static_cast<const Grid<float>*>(nullptr)})
+  const double largest_margin = std::max(0.5, (part.border - 4) / 2.0);  // the grid ends there
+  double margin = usual_margin;
+  for (const Grid<float>* gaps : {to_gaps, static_cast<const Grid<float>*>(nullptr)}) {
+    margin = usual_margin;
     for (int tries = 0; tries < kTries; ++tries) {
       const Points polygon = polygon_in(Band(part, gaps, margin));
       const bool crosses = self_crossing(polygon).has_value(),
                  fits = static_cast<int>(polygon.size()) <= most;
       if (fits && !crosses) return polygon;
-      margin = std::max(0.5, crosses ? 0.6 * margin : 1.4 * margin);
+      margin = std::clamp(crosses ? 0.6 * margin : 1.4 * margin, 0.5, largest_margin);
     }
+  }
   return simplified_around(Band(part, nullptr, margin).middle(),
                            Band(part, nullptr, margin).inner(), most);
 }
@@ -442,6 +446,8 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
   if (options.vertices && (*options.vertices < 3 || *options.vertices > kMostVertices))
     throw Error(ErrorKind::bad_input,
                 "a cage has 3 to 500 vertices, not " + std::to_string(*options.vertices));
+  if (!(options.detail >= 0 && options.detail <= 100))
+    throw Error(ErrorKind::bad_input, "the detail must be between 0 and 100");
   const int longest = std::max(image.width, image.height);
   if (options.margin && !(std::abs(*options.margin) <= 4.0 * longest))
     throw Error(ErrorKind::bad_input,
@@ -472,8 +478,10 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
                          thinned(in_picture(level_curve(part->distance, kept))), vertices);
   } else if (options.vertices) {
     band.narrow();
-    cage = polygon_cage(
-        simplified_around(in_picture(polygon_in(band)), in_picture(band.inner()), vertices));
+    const Points polygon = polygon_in(band);
+    cage =
+        polygon_cage(simplified_around(in_picture(self_crossing(polygon) ? band.middle() : polygon),
+                                       in_picture(band.inner()), vertices));
   } else {
     cage = polygon_cage(in_picture(tight_polygon(*part, to_gaps, margin, kMostVertices)));
   }

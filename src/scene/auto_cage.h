@@ -22,11 +22,11 @@ struct AutoCageOptions {
 /// (8-neighbors), which encloses all pixels of that part. Without a given margin, it follows the
 /// content at about 0.5 % of its size (a quarter or four times as much at the ends of `detail`),
 /// but no farther than a third of the narrowest gap between limbs, and at least 0.5 px. Limbs that
-/// are 3 px apart are thus apart in the cage. Curved cages stay farther away and may join limbs.
-/// With given vertices, the cage has about that many, or more if fewer would cut into the content;
-/// gaps may then be closed. If the picture has no transparency or no content, the cage is the
-/// picture's rectangle. Throws Error for options out of range. Cost: about 100 ns per pixel;
-/// pictures with sides above 4096 px are reduced.
+/// are 3 px apart thus stay apart, unless that takes more than 500 vertices. Curved cages stay
+/// farther away and may join limbs. With given vertices, the cage has about that many, or more if
+/// fewer would cut into the content; gaps may then be closed. If the picture has no transparency or
+/// no content, the cage is the picture's rectangle. Throws Error for options out of range. Cost:
+/// about 100 ns per pixel; pictures with sides above 4096 px are reduced.
 Cage auto_cage(const Image& image, const AutoCageOptions& options = {});
 
 /// The largest connected part of the content, as a mask of width x height bytes with 1 inside.

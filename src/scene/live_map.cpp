@@ -57,7 +57,10 @@ bool LiveMap::needs_request(const Deformation& deformation, const EvalOptions& o
     if (needs_keys(deformation)) return true;
     if (busy_ || motion_.plays()) return false;
   }
-  if (!iterates(deformation) || displays(deformation, options)) return false;
+  if (displays(deformation, options)) return false;
+  // The maps at keyframes can wait, and a pose is wanted even if they have failed.
+  if (requested_->keys && !plays(deformation) && (busy_ || error_)) return true;
+  if (!iterates(deformation)) return false;
   return !(requested_->options == options && same_map(requested_->deformation, deformation)) ||
          (!busy_ && !error_);
 }
@@ -154,7 +157,7 @@ bool LiveMap::pose_at_time(const Deformation& deformation, EvalOptions options) 
 }
 
 bool LiveMap::follow_keys() {
-  if (!prepared_ || !posed_.deformation) return false;
+  if (!prepared_ || failed_ || !posed_.deformation) return false;
   const Deformation& deformation = *posed_.deformation;
   const bool known = motion_.unknown(deformation, prepared_) == 0;
   if (!known && busy_) return false;

@@ -42,11 +42,6 @@ void MapWorker::discard() {
   interrupt_.request_stop();
 }
 
-bool MapWorker::works() {
-  const std::lock_guard lock(mutex_);
-  return working_ || waiting_;
-}
-
 void MapWorker::wait() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !working_ && !waiting_; });
@@ -77,7 +72,7 @@ void MapWorker::run() {
       answer(request, number);
       improve(request, number);
     } catch (const Stopped&) {
-      // A newer request is waiting.
+      // The answer is no longer wanted.
     }
     lock.lock();
     working_ = false;
@@ -165,8 +160,8 @@ void MapWorker::improve(const MapRequest& request, unsigned number) {
     better.prepared = prepared_;
     try {
       better.posed = posed(request, request.options);
-    } catch (const Error&) {
-      return;
+    } catch (const std::exception&) {
+      return;  // the last draft stays
     }
     const double moved = (better.posed->map.f - before).cwiseAbs().maxCoeff();
     if (!(moved > kStill * size)) return;

@@ -13,7 +13,7 @@
 
 namespace holomorph {
 
-/// What a MapWorker shall find.
+/// The input of a MapWorker.
 struct MapRequest {
   Deformation deformation;
   EvalOptions options;
@@ -21,7 +21,7 @@ struct MapRequest {
   bool linear_blend = false;
 };
 
-/// What a MapWorker has found.
+/// The result of a MapWorker.
 struct MapAnswer {
   unsigned number = 0;                    ///< of the request
   std::shared_ptr<PreparedMap> prepared;  ///< null after an error in the preparation
@@ -29,13 +29,13 @@ struct MapAnswer {
   std::optional<Motion> motion;
   double key_milliseconds = 0;  ///< average time per keyframe
   std::optional<Error> error;
-  bool complete = true;  ///< false while a better answer to the same request is on its way
+  bool complete = true;  ///< false if a better answer to the same request follows
 };
 
 /// Answers the newest request; an unanswered request is replaced by a newer one. A final answer
-/// ends early when a newer request arrives, a draft does not. If the method iterates, a final
-/// answer is preceded by a draft that continues from the last map, and the worker improves a draft
-/// until it no longer changes.
+/// ends early when a newer request arrives, if the method supports this; a draft does not. If the
+/// method iterates, a final answer is preceded by a draft that continues from the last map, and the
+/// worker improves a draft until it no longer changes.
 class MapWorker {
  public:
   explicit MapWorker(MeshOptions options) : options_(options) {}
@@ -52,8 +52,6 @@ class MapWorker {
   std::optional<MapAnswer> take();
   /// Drops the request and the answer, even those in progress.
   void discard();
-  /// Whether the worker has anything to do, be it only to improve a draft.
-  bool works();
   /// Waits until the worker has nothing to do.
   void wait();
 

@@ -114,13 +114,16 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
       key.f = known->f;
     } else {
       try {
+        throw_if_stopped(stop);
         EvalOptions options;
         options.stop = stop;
         SampledMap map =
             prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), options);
         key.f = std::move(map.f);
       } catch (const Stopped&) {
-        std::ranges::move(keys, std::back_inserter(keys_));
+        for (Key& found : keys)
+          if (std::ranges::find(keys_, found.pose, &Key::pose) == keys_.end())
+            keys_.push_back(std::move(found));
         throw;
       } catch (const Error& error) {
         char when[48];

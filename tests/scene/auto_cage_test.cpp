@@ -172,6 +172,24 @@ TEST_CASE("Limbs that are 3 px apart are apart in the cage, in any direction") {
   }
 }
 
+TEST_CASE("A comb with more teeth than a cage has points still gets a cage") {
+  for (const int teeth : {120, 200, 400}) {
+    Image image(6 * teeth, 300);
+    for (int r = 0; r < image.height; ++r)
+      for (int c = 0; c < image.width; ++c)
+        image.at(c, r)[3] = r < 60 || c % 6 < 2 ? 255 : 0;  // gaps of 4 px
+    INFO(teeth);
+    for (const double detail : {0.0, 50.0, 100.0}) {
+      AutoCageOptions options;
+      options.detail = detail;
+      const Points cage = vertices_of(auto_cage(image, options));
+      CHECK(cage.size() <= 500);
+      CHECK_FALSE(self_crossing(cage));
+      CHECK(winding_number(cage, {3.0 * teeth, 270}) == 1);
+    }
+  }
+}
+
 TEST_CASE("More detail gives a closer cage") {
   for (const std::string name : {"giraffe", "octopus", "gecko", "tiger"}) {
     INFO(name);
@@ -200,4 +218,7 @@ TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") 
   CHECK(auto_cage(Image(40, 30)).size() == 4);  // nothing opaque at all
   CHECK_THROWS_AS(auto_cage(image, {2, 5}), Error);
   CHECK_THROWS_AS(auto_cage(image, {30, 1e9}), Error);
+  AutoCageOptions beyond;
+  beyond.detail = 101;
+  CHECK_THROWS_AS(auto_cage(image, beyond), Error);
 }

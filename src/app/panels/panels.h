@@ -95,7 +95,7 @@ bool text_row(int number, const std::string& text, bool selected, ImVec2 size = 
 /// Like ImGui::BeginCombo, but Escape closes the list.
 bool begin_combo(const char* label, const char* preview);
 
-/// Draws the slider that sets the number of points of the next cage made from the picture.
+/// Draws the slider that sets how closely the next cage made from the picture follows it.
 void detail_slider(Workspace& workspace, float width);
 
 /// If the picture has no cage, draws a card that offers ways to make one. Returns the height of the

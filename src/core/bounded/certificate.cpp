@@ -316,12 +316,21 @@ class Certifier::Search {
     if (quantity == kShear) return least > 0 ? w / least : kUnknown;
     return least > w ? 1 / (least - w) : kUnknown;
   }
+  /// How much e^u (1 + |nu|), with chords of both factors, can exceed its values at a leaf's ends.
+  double above_ends(const Leaf& leaf) const {
+    const double size = std::exp(leaf.end.l.real()) - std::exp(leaf.start.l.real()),
+                 shear = std::abs(leaf.end.w) - std::abs(leaf.start.w);
+    return std::max(0.0, -size * shear) / 4;
+  }
+
   double possible(Quantity quantity, const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w),
                  below = second_ == LogMap::Second::nu ? 0 : below_chord(leaf.start.l, leaf.end.l);
-    return std::max(bound(quantity, leaf.start, dl, dw, below),
-                    bound(quantity, leaf.end, dl, dw, below));
+    const double at_ends = std::max(bound(quantity, leaf.start, dl, dw, below),
+                                    bound(quantity, leaf.end, dl, dw, below));
+    const bool is_product = quantity == kSize && second_ == LogMap::Second::nu;
+    return is_product ? at_ends + std::exp(dl) * above_ends(leaf) : at_ends;
   }
 
   double largest(Quantity quantity) const {

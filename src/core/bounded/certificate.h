@@ -74,8 +74,9 @@ class Certifier {
   /// products with four matrices of pieces x vertices, plus a few microseconds for each halving.
   Certificate certify(const LogMap& map, const Bounds& bounds, int depth = 6) const;
 
-  /// The extremes of a map for which |nu| < 1 has been proved. Each is proved, and within 1 % of a
-  /// value that is attained, as far as at most 4000 halvings of pieces allow.
+  /// Bounds on the distortion of a map for which |nu| < 1 has been proved. Each bound holds
+  /// everywhere. It exceeds a value that is attained by at most 1 % plus 1e-4, unless that takes
+  /// more than 4000 halvings of pieces.
   Extremes extremes(const LogMap& map) const;
 
   const MatrixXc& coordinates() const { return values_; }  ///< C at the basis' samples

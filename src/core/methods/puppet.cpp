@@ -78,7 +78,8 @@ class PuppetDeformer final : public Deformer {
   bool is_twisted(const IsometricTarget& target, const Pose& pose, const std::stop_token& stop,
                   const IsometricMap& map) const {
     constexpr double kStrained = 4, kClearly = 0.7;  // energies; 2 is rigid
-    if (map.solution.energy < kStrained || handles_.turns(pose).size() == 0) return false;
+    if (!map.certificate.holds || map.solution.energy < kStrained) return false;
+    if (const VectorXd turns = handles_.turns(pose); turns.isZero()) return false;
     return space_->solved(target, settings(stop)).solution.energy < kClearly * map.solution.energy;
   }
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
@@ -161,15 +162,15 @@ class PuppetDeformer final : public Deformer {
     out.fzbar = std::move(at.fzbar);
   }
 
-  /// Why a pin is missed: what the picture would have to do even more.
+  /// The strongest distortion of the picture, which explains why a pin is missed.
   static std::string strain_text(const std::optional<Extremes>& extremes) {
     if (!extremes) return "";
     char text[80];
     if (extremes->largest * extremes->smallest > 1)
-      std::snprintf(text, sizeof text, ", where the picture would stretch to more than %.0f %%",
+      std::snprintf(text, sizeof text, ". The picture already stretches to %.0f %%",
                     100 * extremes->largest);
     else
-      std::snprintf(text, sizeof text, ", where the picture would shrink to less than %.0f %%",
+      std::snprintf(text, sizeof text, ". The picture already shrinks to %.0f %%",
                     100 * extremes->smallest);
     return text;
   }

@@ -22,10 +22,11 @@ void cage_from_picture(Workspace& w) {
   make_picture_cage(w, [&w](Cage cage) {
     if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(cage)),
                   EditBase::document))
-      return;
+      return false;
     w.mode = EditMode::pose;
     w.tools.active = ToolId::select;
     w.selection.clear();
+    return true;
   });
 }
 

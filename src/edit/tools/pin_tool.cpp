@@ -26,6 +26,7 @@ class PinTool final : public HandleTool {
                                  : "Click the picture inside the cage to set a pin.");
       return;
     }
+    if (!workspace.require_keyframe_maps()) return;
     const std::string method = workspace.shown.deformation().method;
     // At rest, the pin's pose is the image of the point under the map, so adding the pin moves
     // nothing.
@@ -38,6 +39,10 @@ class PinTool final : public HandleTool {
     hold_last(input, workspace);
   }
 
+  void cancel(Workspace& workspace) override {
+    HandleTool::cancel(workspace);
+    down_ = false;
+  }
   bool has_ring() const override { return true; }
 
   std::string hint(const Workspace& workspace) const override {
@@ -64,16 +69,19 @@ class PinTool final : public HandleTool {
     if (!workspace.document.image())
       return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
     make_picture_cage(workspace, [this, input, &workspace](Cage cage) {
-      if (winding_number(outline_of(cage), input.position) == 0)
-        return workspace.messages.say("Click the picture itself to set a pin.");
+      if (winding_number(outline_of(cage), input.position) == 0) {
+        workspace.messages.say("Click the largest part of the picture to set a pin.");
+        return false;
+      }
       Deformation caged = with_cage(workspace.shown.own(), std::move(cage));
       if (!workspace.commit(
               "Add pin",
               with_pin(std::move(caged), input.position, input.position, std::vector<Points>{}),
               EditBase::document))
-        return;
+        return false;
       hold_last(input, workspace);
       if (!down_) drag_.cancel(workspace);  // making the cage took longer than the click
+      return true;
     });
   }
 

@@ -48,10 +48,7 @@ bool keeps_degree(const Deformation& deformation, Index segment) {
 bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
   if (!workspace.require_pose()) return false;
   start_ = workspace.shown.base();
-  if (!start_.keyframes.empty() && !workspace.map().follow_keys()) {
-    workspace.messages.say("The keyframes are being prepared. Try again in a moment.");
-    return false;
-  }
+  if (!workspace.require_keyframe_maps()) return false;
   keyframes_play_ = !start_.keyframes.empty() && workspace.map().motion().plays();
   what_ = what;
   drag_options_ = workspace.tools.drag;

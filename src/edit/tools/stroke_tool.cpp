@@ -110,6 +110,7 @@ class StrokeTool final : public HandleTool {
     }
     if (rest.size() < 2)
       return workspace.messages.say("Draw the stroke on the picture, inside the cage.");
+    if (!workspace.require_keyframe_maps()) return;
     const bool clipped = rest.size() < drawn.size();
     const bool switches = !method_named(workspace.shown.deformation().method).uses_strokes;
     if (!workspace.commit("Draw stroke", with_stroke(workspace.shown.deformation(), rest, pose,
