@@ -63,15 +63,22 @@ void convert_gray(Image& image, const Conversion& conversion) {
     std::copy_n(colors + 4 * static_cast<size_t>(image.pixels[i]), 3, &image.pixels[i]);
 }
 
+/// The color space in a profile's header, such as "RGB " or "GRAY". lcms returns an enumerator,
+/// even if a hostile profile has another value.
+std::string color_space_of(const std::string& profile) {
+  constexpr size_t kPlace = 16, kLength = 4;
+  return profile.size() < kPlace + kLength ? "" : profile.substr(kPlace, kLength);
+}
+
 }  // namespace
 
 void to_srgb(Image& image, const std::string& bytes) {
   const Profile profile = opened(bytes);
   if (!profile) return;
-  const cmsColorSpaceSignature colors = cmsGetColorSpace(profile.get());
-  if (colors == cmsSigRgbData) {
+  const std::string colors = color_space_of(bytes);
+  if (colors == "RGB ") {
     convert(image, conversion(profile, TYPE_RGBA_8));
-  } else if (colors == cmsSigGrayData) {
+  } else if (colors == "GRAY") {
     const Profile srgb(cmsCreate_sRGBProfile());
     const Conversion gray(cmsCreateTransform(profile.get(), TYPE_GRAY_8, srgb.get(), TYPE_RGBA_8,
                                              INTENT_RELATIVE_COLORIMETRIC,
@@ -103,7 +110,7 @@ struct CmykToSrgb::Transform {
 
 CmykToSrgb::CmykToSrgb(const std::string& bytes) {
   const Profile profile = opened(bytes);
-  if (!profile || cmsGetColorSpace(profile.get()) != cmsSigCmykData) return;
+  if (!profile || color_space_of(bytes) != "CMYK") return;
   const Profile srgb(cmsCreate_sRGBProfile());
   // The output has four bytes per pixel. lcms does not write the fourth byte; row() sets it.
   Conversion found(cmsCreateTransform(profile.get(), TYPE_CMYK_8_REV, srgb.get(), TYPE_RGBA_8,
